@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "meniscus/volume/motion.hpp"
+#include "meniscus/volume/tetrahedralize.hpp"
+
+namespace meniscus::fem {
+
+/// Discrete forms of the capillary force Ca⁻¹∫κ n·φ dS (§4.2 of hooper2001).
+enum class CapillaryForm {
+  weak,      ///< ∫(I − nn):∇φ dS, eq. 15
+  nodal,     ///< κ_i n_i ΔS_i with κ, n of the paraboloid fit, eqs 16–17
+  balanced,  ///< ∫κ_h φ n dS, κ_h the P1 field of fitted κ, n of the faces: exact zero flow for
+             ///< constant κ
+};
+
+enum class LinearSolver { block, paper_gmres, minres, mumps };
+
+struct Options {
+  CapillaryForm capillary = CapillaryForm::weak;
+  LinearSolver linear = LinearSolver::block;
+  double rtol = 1e-6;  ///< relative residual of the linear solve
+  int max_iterations = 2000;
+  VolumeMeshOptions volume_mesh;
+  VolumeMotion volume_motion = VolumeMotion::spines;
+  std::string petsc_options;  ///< further PETSc options, as on its command line
+};
+
+}  // namespace meniscus::fem

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "meniscus/mesh/tet_mesh.hpp"
+#include "meniscus/scene/imposed_flow.hpp"
+
+namespace meniscus {
+
+/// What fills one region. Region 0 is the matrix; region i + 1 is what interface i encloses.
+struct Liquid {
+  double viscosity = 1.0;          ///< over the matrix's [μ_out]
+  Vec3 body_force = Vec3::Zero();  ///< force per volume [μ_out G / R0]
+};
+
+/// A closed interface between the liquid inside it and the one outside. n points out.
+struct Interface {
+  int drop = 0;     ///< id in drops.csv: never reused
+  int parent = -1;  ///< drop it came from in an event; −1 for a drop of the case
+  SurfaceMesh mesh;
+  RegionId inside, outside;
+  double tension = 1.0;  ///< tension ratio / Ca: surface tension [μ_out G R0]; 0 for Ca = inf
+  double C0 = 8.75;      ///< resolution: C0 = N0/4π in ρ = C0⟨κ⟩² (eq. 1 of hooper2001)
+  double volume = 0.0;   ///< the volume every remesh restores [R0³]
+  double initial_volume = 0.0;  ///< the reference of volume_drift
+};
+
+/// v given on a patch; `velocity` maps a point of the patch and a time to v [G R0].
+struct ImposedVelocity {
+  std::function<Vec3(const Vec3& x, double t)> velocity;
+  bool is_linear_flow = false;  ///< v = G·x of the case's imposed flow: net flux exactly zero
+};
+/// n·v = 0 and no tangential traction (the z-faces of the shear box).
+struct NoPenetration {};
+/// T·n given, constant on the patch [μ_out G]: an open boundary.
+struct ImposedTraction {
+  Vec3 traction = Vec3::Zero();
+};
+using BoundaryCondition = std::variant<ImposedVelocity, NoPenetration, ImposedTraction>;
+
+using PatchId = Id<struct PatchTag>;
+struct Patch {
+  std::string name;
+  BoundaryCondition condition;
+};
+
+/// The closed surface around everything, its faces oriented outward, divided in tagged patches.
+/// Where patches meet, a vertex obeys ImposedVelocity first, then every NoPenetration.
+struct OuterBoundary {
+  SurfaceMesh mesh;
+  FaceField<PatchId> patch;
+  Field<PatchId, Patch> patches;
+};
+
+/// All that a flow solver needs to know: the geometry at one instant, the liquids, the flow.
+struct Scene {
+  double Ca = 1.0;  ///< μ_out G R0/σ; infinite: no surface tension
+  ImposedFlow flow;
+  Field<RegionId, Liquid> liquids;  ///< by region
+  std::vector<Interface> interfaces;
+  bool is_unbounded = false;  ///< no outer boundary: boundary integrals only
+  OuterBoundary boundary;
+};
+
+/// ∮_patches v·n dS of the imposed velocities at time t, interpolated linearly on the faces [G
+/// R0³].
+[[nodiscard]] double imposed_flux(const Scene& scene, double t);
+[[nodiscard]] bool has_open_patch(const Scene& scene);
+/// Names the first place where interfaces touch each other or the boundary, or lie outside it, or
+/// where the nesting contradicts `inside`/`outside`; empty when the scene is sound.
+[[nodiscard]] std::string find_conflict(const Scene& scene);
+
+}  // namespace meniscus

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "meniscus/mesh/surface_mesh.hpp"
+
+namespace meniscus {
+
+struct RemeshOptions {
+  double C0 = 8.75;             ///< ρ = C0⟨κ⟩² (eq. 1); C0 = N0/4π
+  double volume = 0.0;          ///< volume to restore [R0³]
+  double edge_floor = 0.0;      ///< [R0] no edge is asked to be shorter
+  double edge_ceiling = 1e300;  ///< [R0] no edge is asked to be longer
+  double gradation = 0.5;       ///< largest |∇l0| of the rest length
+  int min_vertices = 42;  ///< however small or round the drop, its C0 is raised to give this many
+  int max_sweeps = 20;
+  double equilibrium =
+      0.02;  ///< springs rest when no vertex moves more than this fraction of its l0
+  /// Further upper bound on the rest length at a point (gaps, user sizes) [R0]; may be empty.
+  std::function<double(const Vec3& x)> size_bound;
+  void validate() const;  ///< Throws InvalidInput naming field, value, range.
+};
+
+struct [[nodiscard]] RemeshReport {
+  bool ok = true;
+  std::string failure;  ///< why the surface was left as it was
+  int splits = 0, collapses = 0, flips = 0, sweeps = 0;
+  double volume_change = 0.0;           ///< relative, by remeshing, before the correction
+  double volume_shift = 0.0;            ///< largest shift of a vertex by the correction [R0]
+  double volume_shift_over_edge = 0.0;  ///< the same over the local mean edge
+  double min_angle_deg = 0.0;
+  double expected_vertices = 0.0;  ///< ∮ρ dS of eq. 2 on the result
+};
+
+/// Rebuilds the triangulation of a closed surface so that its vertex density is ρ = C0⟨κ⟩², by
+/// vertex addition and removal, Delaunay reconnection and spring equilibration (cristini2001), and
+/// restores its volume. Transactional: on failure the mesh is unchanged and the report says why.
+RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options);
+
+/// Shifts every vertex by the same multiple of its unit area vector A_i/|A_i| so that the enclosed
+/// volume becomes `volume` to 1e-13 relative; returns the size of the shift [R0], signed outward.
+double restore_volume(SurfaceMesh& mesh, double volume);
+
+}  // namespace meniscus

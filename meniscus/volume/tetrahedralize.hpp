@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+
+#include "meniscus/scene/scene.hpp"
+
+namespace meniscus {
+
+/// How element size passes from one surface's resolution to another's.
+enum class Grading { linear, exponential, gaussian };
+
+struct VolumeMeshOptions {
+  Grading grading = Grading::linear;
+  double interior_growth =
+      0.5;  ///< growth of size per distance inside a region that no farther surface bounds
+  double radius_edge = 1.4;  ///< TetGen's radius-edge bound
+  void validate() const;
+};
+
+struct [[nodiscard]] VolumeMeshReport {
+  bool ok = true;
+  std::string failure;  ///< the last mesher's word, when none gave a valid mesh
+  int attempt = 0;      ///< 0: first choice; higher: a fallback (docs/volume-mesh.md lists them)
+};
+
+/// Tetrahedra of all regions of the scene, conforming exactly to every interface and the outer
+/// boundary (no surface vertex or face is added, moved or lost), validated before it is returned.
+/// On failure `mesh` is unchanged.
+VolumeMeshReport tetrahedralize(const Scene& scene, const VolumeMeshOptions& options,
+                                TetMesh& mesh);
+
+/// What is wrong with a mesh of this scene, in one line; empty when every interface face is a facet
+/// of exactly two cells (boundary: one) on the right sides, volumes are positive, regions
+/// consistent, their volumes those the surfaces enclose, and surface vertices where the scene has
+/// them.
+[[nodiscard]] std::string find_defect(const TetMesh& mesh, const Scene& scene);
+
+}  // namespace meniscus
