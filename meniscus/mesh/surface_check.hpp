@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "meniscus/mesh/surface_mesh.hpp"
+
+namespace meniscus {
+
+/// What makes a surface unfit as an interface, in one line with the place; empty when it is a
+/// finite, closed, oriented manifold that encloses positive volume, without degenerate faces and
+/// (exact predicates, CGAL) without self-intersection.
+[[nodiscard]] std::string find_defect(const SurfaceMesh& mesh);
+/// The first place where faces of one surface cross or touch others that they are not joined to.
+[[nodiscard]] std::string find_self_intersection(const SurfaceMesh& mesh);
+/// Where two surfaces cross or touch; empty if nowhere.
+[[nodiscard]] std::string find_intersection(const SurfaceMesh& a, const SurfaceMesh& b);
+/// Whether a point lies inside a closed surface (exact ray shooting).
+[[nodiscard]] bool encloses(const SurfaceMesh& mesh, const Vec3& point);
+/// Smallest distance between the vertices of either surface and the faces of the other [R0].
+[[nodiscard]] double smallest_gap(const SurfaceMesh& a, const SurfaceMesh& b);
+
+}  // namespace meniscus
