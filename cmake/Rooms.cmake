@@ -10,6 +10,7 @@ endif()
 if(MENISCUS_SANITIZE)
   target_compile_options(meniscus_options INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
   target_link_options(meniscus_options INTERFACE -fsanitize=address,undefined)
+  set(MENISCUS_PROGRAM_SOURCES ${PROJECT_SOURCE_DIR}/cmake/keep_libraries.c)  # of every program
 endif()
 if(MENISCUS_COVERAGE)
   target_compile_options(meniscus_options INTERFACE --coverage)

@@ -30,8 +30,8 @@ template <class IdType, class T>
 class Field {
  public:
   Field() = default;
-  explicit Field(std::int32_t size, const T& value = T())
-      : values_(static_cast<std::size_t>(size), value) {}
+  explicit Field(std::int32_t size) : values_(static_cast<std::size_t>(size)) {}
+  Field(std::int32_t size, const T& value) : values_(static_cast<std::size_t>(size), value) {}
   explicit Field(std::vector<T> values) : values_(std::move(values)) {}
 
   [[nodiscard]] T& operator[](IdType id) {
@@ -51,9 +51,7 @@ class Field {
     values_.push_back(std::move(value));
     return IdType{size() - 1};
   }
-  void resize(std::int32_t size, const T& value = T()) {
-    values_.resize(static_cast<std::size_t>(size), value);
-  }
+  void resize(std::int32_t size) { values_.resize(static_cast<std::size_t>(size)); }
   void reserve(std::int32_t size) { values_.reserve(static_cast<std::size_t>(size)); }
 
   [[nodiscard]] std::span<T> span() { return values_; }

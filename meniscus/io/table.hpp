@@ -14,27 +14,31 @@ namespace meniscus::io {
 /// read back to the same double), or text.
 using Cell = std::variant<std::monostate, std::int64_t, double, std::string>;
 
-/// A CSV file written row by row; each row reaches the disk before `add` returns.
+/// A CSV file written row by row; the system holds each row before `add` returns, so that a program
+/// killed at any moment loses none. Texts with a comma, quote or line break are quoted.
 class TableWriter {
  public:
-  /// Starts a new file with its header line.
+  /// Starts a new file with its header line. Throws RunFailure when the disk refuses.
   TableWriter(std::filesystem::path path, std::vector<std::string> columns);
   /// Goes on with an existing file whose rows from the first one with `step` ≥ `first_step` on are
   /// dropped, and with them a last line cut short by a crash. Throws InvalidInput if the header
-  /// differs.
+  /// differs, is without `step`, or a row is not ours.
   TableWriter(std::filesystem::path path, std::vector<std::string> columns,
               std::int64_t first_step);
 
-  /// Throws RunFailure when the disk refuses the row.
+  /// Throws RunFailure when the disk refuses the row; the file ends with the row before then.
   void add(const std::vector<Cell>& row);
 
  private:
+  void append(const std::string& line);
+
   std::filesystem::path path_;
   std::size_t num_columns_;
   std::ofstream file_;
 };
 
-/// A CSV file in memory; cells that are not numbers are NaN in `column`.
+/// A CSV file in memory, its first row the names of the columns; cells that are not numbers are NaN
+/// in `column`.
 struct Table {
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
@@ -43,6 +47,8 @@ struct Table {
   [[nodiscard]] std::vector<double> column(
       const std::string& name) const;  ///< Throws InvalidInput if absent.
 };
+/// A last line cut short is left out. Throws InvalidInput naming the file and the line when it is
+/// missing, empty, or a row has not as many cells as there are columns.
 [[nodiscard]] Table read_table(const std::filesystem::path& path);
 
 }  // namespace meniscus::io

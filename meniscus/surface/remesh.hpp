@@ -9,7 +9,7 @@ namespace meniscus {
 
 struct RemeshOptions {
   double C0 = 8.75;             ///< ρ = C0⟨κ⟩² (eq. 1); C0 = N0/4π
-  double volume = 0.0;          ///< volume to restore [R0³]
+  double volume = 0.0;          ///< volume to restore [R0³]; 0: that of the surface as given
   double edge_floor = 0.0;      ///< [R0] no edge is asked to be shorter
   double edge_ceiling = 1e300;  ///< [R0] no edge is asked to be longer
   double gradation = 0.5;       ///< largest |∇l0| of the rest length
@@ -18,7 +18,10 @@ struct RemeshOptions {
   double equilibrium =
       0.02;  ///< springs rest when no vertex moves more than this fraction of its l0
   /// Further upper bound on the rest length at a point (gaps, user sizes) [R0]; may be empty.
-  std::function<double(const Vec3& x)> size_bound;
+  std::function<double(const Vec3& x)> size_bound = {};
+  /// What else makes the result unfit, in one line, else empty text (such as
+  /// `find_self_intersection`); may be empty.
+  std::function<std::string(const SurfaceMesh&)> find_fault = {};
   void validate() const;  ///< Throws InvalidInput naming field, value, range.
 };
 

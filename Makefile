@@ -1,0 +1,83 @@
+# The two commands are `make run` and `make test`; `make help` lists the rest.
+SHELL := /bin/bash
+.SHELLFLAGS := -eu -o pipefail -c
+.DEFAULT_GOAL := help
+.NOTPARALLEL:
+
+PREFIX ?= /usr/local
+JOBS   ?= $(shell nproc)
+CASE   := examples/shear-subcritical.toml
+RUN    := out/shear-subcritical
+
+# One thread per process: the processes share the cores, and results do not depend on their number.
+export OMP_NUM_THREADS := 1
+export OPENBLAS_NUM_THREADS := 1
+export OMPI_ALLOW_RUN_AS_ROOT := 1
+export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
+ifneq ($(shell command -v ccache),)
+export CMAKE_C_COMPILER_LAUNCHER := ccache
+export CMAKE_CXX_COMPILER_LAUNCHER := ccache
+endif
+
+define build # preset, further options
+cmake --preset $(1) $(2) > /dev/null
+cmake --build --preset $(1) -j $(JOBS)
+endef
+
+.PHONY: help
+help: ## this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-12s %s\n", $$1, $$2}' Makefile
+
+.PHONY: run
+run: ## install what is missing, build, simulate a drop in simple shear
+	@scripts/setup.sh run
+	@$(call build,release)
+	@build/release/meniscus run $(CASE) -o $(RUN) --overwrite
+	@echo "Pictures: $(CURDIR)/$(RUN)/report.html (any browser), $(RUN)/surface.pvd (ParaView)"
+
+.PHONY: test
+test: ## install what is missing, build, run every test and a short case
+	@scripts/setup.sh test
+	@$(call build,test,-DMENISCUS_LONG_TESTS=OFF)
+	@ctest --preset test -j $(JOBS)
+
+.PHONY: check
+check: ## format, layers and citations only; nothing is compiled
+	@scripts/setup.sh test
+	@scripts/check_format.sh
+	@python3 -B tests/layers/check_layers.py .
+	@python3 -B tests/citations/check_citations.py .
+
+.PHONY: check-long
+check-long: ## clang-tidy, the long suites, every test under the sanitizers
+	@scripts/setup.sh long
+	@$(call build,test,-DMENISCUS_LONG_TESTS=ON)
+	@scripts/check_tidy.sh build/test
+	@ctest --preset test -j $(JOBS)
+	@$(call build,dev)
+	@ctest --preset dev -j $(JOBS)
+
+.PHONY: coverage
+coverage: ## which lines the tests reach: out/coverage/index.html
+	@scripts/setup.sh coverage
+	@$(call build,coverage)
+	@find build/coverage -name '*.gcda' -delete
+	@ctest --preset coverage -j $(JOBS)
+	@mkdir -p out/coverage
+	@gcovr -j $(JOBS) -r . --object-directory build/coverage -f meniscus/ \
+	  --exclude-throw-branches --html-details out/coverage/index.html --print-summary
+
+.PHONY: format
+format: ## lay out every C++ source as .clang-format says
+	@scripts/setup.sh test
+	@scripts/check_format.sh --fix
+
+.PHONY: install
+install: ## build and install the program and the library under PREFIX=/usr/local
+	@scripts/setup.sh run
+	@$(call build,release)
+	@cmake --install build/release --prefix '$(PREFIX)'
+
+.PHONY: clean
+clean: ## remove build trees and output
+	@rm -rf build out

@@ -1,0 +1,57 @@
+#include "meniscus/app/frames.hpp"
+
+#include "meniscus/io/vtk_file.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/curvature.hpp"
+#include "meniscus/volume/quality.hpp"
+
+namespace meniscus {
+namespace {
+
+void append(std::vector<double>& values, const Vec3& v) {
+  values.insert(values.end(), {v.x(), v.y(), v.z()});
+}
+
+}  // namespace
+
+void write_surface_frame(const std::filesystem::path& path, const Evolution& evolution) {
+  const Scene& scene = evolution.scene();
+  const auto velocity = evolution.flow().velocity();
+  io::NamedArray curvature{"curvature", 1, {}}, normal_velocity{"normal_velocity", 1, {}},
+      velocities{"velocity", 3, {}}, density{"node_density", 1, {}}, drop{"drop", 1, {}};
+  std::vector<const SurfaceMesh*> surfaces;
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+    const SurfaceMesh& mesh = scene.interfaces[i].mesh;
+    surfaces.push_back(&mesh);
+    const VertexField<VertexCurvature> fit = fitted_curvature(mesh, SurfaceTopology(mesh));
+    const VertexField<double> area = vertex_areas(mesh);
+    for (const VertexId v : mesh.x.ids()) {
+      const Vec3 u = velocity.empty() ? Vec3(Vec3::Zero()) : velocity[i][v];
+      curvature.values.push_back(fit[v].sum());
+      normal_velocity.values.push_back(fit[v].n.dot(u));
+      append(velocities.values, u);
+      density.values.push_back(1.0 / area[v]);
+    }
+    drop.values.insert(drop.values.end(), static_cast<std::size_t>(mesh.num_faces()),
+                       scene.interfaces[i].drop);
+  }
+  io::write_vtp(path, surfaces, {{curvature, normal_velocity, velocities, density}, {drop}},
+                evolution.t());
+}
+
+void write_volume_frame(const std::filesystem::path& path, const Evolution& evolution) {
+  const TetMesh& mesh = *evolution.flow().volume_mesh();
+  io::NamedArray velocity{"velocity", 3, {}}, region{"region", 1, {}},
+      dihedral{"min_dihedral_deg", 1, {}};
+  for (const Vec3& u : evolution.flow().mesh_velocity()) append(velocity.values, u);
+  for (const RegionId r : mesh.region) region.values.push_back(r.value);
+  for (const double angle : min_dihedral_deg(mesh)) dihedral.values.push_back(angle);
+  const auto p = evolution.flow().corner_pressure();
+  const io::NamedArray pressure{"pressure", 1, {p.begin(), p.end()}};
+  io::MeshData data{{}, {region, dihedral}};
+  if (!velocity.values.empty()) data.on_vertices.push_back(velocity);
+  const std::span<const io::NamedArray> corners(&pressure, pressure.values.empty() ? 0 : 1);
+  io::write_vtu(path, mesh, data, evolution.t(), corners);
+}
+
+}  // namespace meniscus

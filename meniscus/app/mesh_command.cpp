@@ -1,0 +1,49 @@
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "meniscus/app/commands.hpp"
+#include "meniscus/app/frames.hpp"
+#include "meniscus/case/case.hpp"
+#include "meniscus/core/error.hpp"
+#include "meniscus/evolve/evolution.hpp"
+#include "meniscus/flow/fem/finite_element_flow.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/volume/quality.hpp"
+
+namespace meniscus {
+namespace {
+
+void print_surface(const std::string& name, const SurfaceMesh& mesh) {
+  fmt::print("{:<10} {:>8} {:>8} {:>10.4g} {:>10.4g} {:>9.1f} {:>12.6g}\n", name,
+             mesh.num_vertices(), mesh.num_faces(), shortest_edge(mesh), mean_edge(mesh),
+             smallest_angle_deg(mesh), enclosed_volume(mesh));
+}
+
+void print_table(const Scene& scene, const TetMesh& mesh) {
+  fmt::print("{:<10} {:>8} {:>8} {:>10} {:>10} {:>9} {:>12}\n", "surface", "vertices", "faces",
+             "min edge", "mean edge", "min angle", "volume");
+  for (const Interface& interface : scene.interfaces)
+    print_surface(fmt::format("drop {}", interface.drop), interface.mesh);
+  print_surface("boundary", scene.boundary.mesh);
+  const MeshQuality q = quality(mesh);
+  fmt::print("\nvolume mesh: {} vertices, {} tetrahedra\n", mesh.num_vertices(), mesh.num_cells());
+  fmt::print("dihedral angles {:.1f} to {:.1f} degrees, {:.3f} % of the tetrahedra below 10\n",
+             q.min_dihedral_deg, q.max_dihedral_deg, 100.0 * q.below_10_deg);
+  fmt::print("smallest radius ratio {:.3f}, smallest volume {:.3g} R0^3\n", q.min_radius_ratio,
+             q.min_volume);
+}
+
+}  // namespace
+
+int mesh_command(const MeshArguments& arguments) {
+  const Case c = read_case(arguments.case_file, arguments.overrides);
+  Evolution evolution(build_scene(c), c.evolution, fem::make_finite_element_flow(c.flow_solver));
+  if (const EvolutionReport prepared = evolution.prepare(); !prepared.ok)
+    throw RunFailure(fmt::format("the mesh could not be made: {}", prepared.failure));
+  print_table(evolution.scene(), *evolution.flow().volume_mesh());
+  if (!arguments.output.empty()) write_volume_frame(arguments.output, evolution);
+  return 0;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "meniscus/evolve/record.hpp"
+
+namespace meniscus {
+
+/// The progress of a run on standard output: one line rewritten in place on a terminal; into a pipe
+/// or file, plain lines, at most one every few seconds; nothing when quiet.
+class Progress {
+ public:
+  Progress(double start, double end, bool is_quiet);
+  void show(const HistoryRow& history, const std::vector<DropRow>& drops);
+  /// Ends the line, so that what follows starts on its own.
+  void close();
+  [[nodiscard]] bool is_quiet() const { return is_quiet_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double start_, end_;
+  bool is_quiet_, is_terminal_, is_line_open_ = false;
+  Clock::time_point began_ = Clock::now();
+  Clock::time_point shown_{};
+};
+
+}  // namespace meniscus

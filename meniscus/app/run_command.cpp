@@ -1,0 +1,142 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "meniscus/app/commands.hpp"
+#include "meniscus/app/interrupt.hpp"
+#include "meniscus/app/run_record.hpp"
+#include "meniscus/app/simulation.hpp"
+#include "meniscus/case/case.hpp"
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/log.hpp"
+#include "meniscus/flow/fem/finite_element_flow.hpp"
+#include "meniscus/io/archive_file.hpp"
+#include "meniscus/io/atomic_file.hpp"
+#include "meniscus/report/report.hpp"
+
+namespace meniscus {
+namespace {
+
+namespace fs = std::filesystem;
+
+OutputSchedule output_schedule(const OutputOptions& output) {
+  return {output.interval, output.volume ? output.volume_interval : 0.0, output.checkpoint_every};
+}
+
+Evolution make_evolution(const Case& c, Scene scene) {
+  return {std::move(scene), c.evolution, fem::make_finite_element_flow(c.flow_solver)};
+}
+
+/// What a checkpoint must say for `resume` to build the evolution again.
+std::function<void(Archive&)> case_description(const Case& c, const fs::path& folder) {
+  return [text = case_toml(c), folder = fs::absolute(folder / ".").string()](Archive& archive) {
+    archive.texts["case/toml"] = text;
+    archive.texts["case/folder"] = folder;
+  };
+}
+
+Case described_case(const Archive& archive, const fs::path& checkpoint,
+                    std::span<const std::string> overrides) {
+  const auto text = archive.texts.find("case/toml"), folder = archive.texts.find("case/folder");
+  if (text == archive.texts.end() || folder == archive.texts.end())
+    reject_input("{}: not the checkpoint of a run", checkpoint.string());
+  return parse_case(text->second, checkpoint.string(), folder->second, overrides);
+}
+
+void finish(const Simulation& simulation, const RunRecord& record, const std::string& status) {
+  record.write(simulation, status);
+  write_report(simulation.directory().path());
+}
+
+/// Runs to the end, keeping run.json and the report true however it ends.
+int simulate(Simulation& simulation, const RunRecord& record, Progress& progress) {
+  record.write(simulation, "running");
+  const std::string folder = simulation.directory().path().string();
+  try {
+    const Outcome outcome = simulation.run(progress);
+    progress.close();
+    finish(simulation, record, outcome == Outcome::done ? "done" : "stopped");
+    if (outcome == Outcome::stopped) {
+      if (!progress.is_quiet())
+        fmt::print("stopped at t = {:g}; go on with: meniscus resume {}\n",
+                   simulation.evolution().t(), folder);
+      return 1;
+    }
+  } catch (const RunFailure& failure) {
+    progress.close();
+    try {
+      finish(simulation, record, fmt::format("failed: {}", failure.what()));
+    } catch (const std::exception&) {
+      log::warning("neither run.json nor the report could be brought up to date");
+    }
+    throw;
+  }
+  if (!progress.is_quiet())
+    fmt::print("done: {} steps to t = {:g}; see {}/report.html\n", simulation.evolution().step(),
+               simulation.evolution().t(), folder);
+  return 0;
+}
+
+/// A checkpoint under a new folder brings its rows and frames along.
+void copy_run(const fs::path& from, const fs::path& to, bool is_overwrite) {
+  (void)RunDirectory::create(to, is_overwrite);
+  for (const char* name : {"history.csv", "drops.csv", "events.csv", "timing.csv", "run.json",
+                           "surface.pvd", "volume.pvd", "surface", "volume"})
+    if (fs::exists(from / name))
+      fs::copy(from / name, to / name,
+               fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+}
+
+}  // namespace
+
+int run_command(const RunArguments& arguments) {
+  watch_for_interrupts();
+  if (arguments.is_quiet) log::set_level(log::Level::error);
+  const fs::path file(arguments.case_file);
+  const Case c = read_case(file, arguments.overrides);
+  const std::string text = io::read_file(file);
+  Scene scene = build_scene(c);
+  const fs::path folder = arguments.output.empty() ? file.stem() : fs::path(arguments.output);
+  require_usable(folder, arguments.is_overwrite);
+  Evolution evolution = make_evolution(c, std::move(scene));
+  if (const EvolutionReport prepared = evolution.prepare(); !prepared.ok)
+    throw RunFailure(fmt::format("the initial mesh could not be made: {}", prepared.failure));
+  // Only now that the run can begin is anything written.
+  RunDirectory directory = RunDirectory::create(folder, arguments.is_overwrite);
+  Simulation simulation(std::move(evolution), std::move(directory), output_schedule(c.output),
+                        case_description(c, file.parent_path()));
+  Progress progress(0.0, c.evolution.end, arguments.is_quiet);
+  return simulate(simulation, RunRecord(c, arguments.case_file, text), progress);
+}
+
+int resume_command(const ResumeArguments& arguments) {
+  watch_for_interrupts();
+  if (arguments.is_quiet) log::set_level(log::Level::error);
+  const fs::path source(arguments.directory);
+  const fs::path checkpoint =
+      arguments.from.empty() ? newest_checkpoint(source) : fs::path(arguments.from);
+  const Archive archive = io::read_archive(checkpoint);
+  std::vector<std::string> overrides;
+  if (arguments.until) overrides.push_back(fmt::format("time.end={}", *arguments.until));
+  const Case c = described_case(archive, checkpoint, overrides);
+  Evolution evolution = make_evolution(c, build_surroundings(c));
+  evolution.load(archive);
+  const fs::path folder = arguments.output.empty() ? source : fs::path(arguments.output);
+  if (!arguments.output.empty()) copy_run(source, folder, false);
+  RunRecord record(c, "", "");
+  record.go_on_from(folder / "run.json");
+  Progress progress(evolution.t(), c.evolution.end, arguments.is_quiet);
+  RunDirectory directory = RunDirectory::take_up(folder, evolution.step(), evolution.t());
+  Simulation simulation(std::move(evolution), std::move(directory), output_schedule(c.output),
+                        case_description(c, archive.texts.at("case/folder")));
+  simulation.load_schedule(archive);
+  return simulate(simulation, record, progress);
+}
+
+int report_command(const std::string& directory) {
+  if (!holds_run(directory)) reject_input("{} does not hold a run", directory);
+  write_report(directory);
+  return 0;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "meniscus/evolve/evolution.hpp"
+#include "meniscus/io/table.hpp"
+#include "meniscus/io/vtk_file.hpp"
+
+namespace meniscus {
+
+/// What a run leaves (docs/notation.md): the tables, frames, checkpoints and run.json of one
+/// folder.
+class RunDirectory {
+ public:
+  /// Makes a folder for a new run. Throws InvalidInput when the path cannot be a folder or holds a
+  /// run already; with `overwrite` the files of that run are removed first.
+  static RunDirectory create(const std::filesystem::path& path, bool overwrite);
+  /// Takes up a run from the state at `first_step`, time t: rows and frames from there on are
+  /// dropped, to be made again.
+  static RunDirectory take_up(const std::filesystem::path& path, std::int64_t first_step, double t);
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  void add_rows(const HistoryRow& history, const std::vector<DropRow>& drops);
+  void add_timing(std::int64_t step, double t,
+                  const std::vector<std::pair<std::string, double>>& seconds);
+  void add_surface_frame(const Evolution& evolution);
+  void add_volume_frame(const Evolution& evolution);
+  /// Writes checkpoint-<step>.h5 and removes all but the last two.
+  void write_checkpoint(const Archive& archive, std::int64_t step);
+  void write_text(const std::string& name, const std::string& text) const;
+
+ private:
+  RunDirectory(std::filesystem::path path, std::optional<std::int64_t> first_step);
+
+  std::filesystem::path path_;
+  io::TableWriter history_, drops_, events_, timing_;
+  std::vector<io::PvdEntry> surface_frames_, volume_frames_;
+};
+
+/// Throws InvalidInput when `create` would refuse the path.
+void require_usable(const std::filesystem::path& path, bool overwrite);
+/// Whether a folder holds a run: its history or a checkpoint.
+[[nodiscard]] bool holds_run(const std::filesystem::path& path);
+/// The checkpoint of the latest step in a run's folder. Throws InvalidInput when there is none.
+[[nodiscard]] std::filesystem::path newest_checkpoint(const std::filesystem::path& path);
+/// The phases of timing.csv and run.json, in their order.
+[[nodiscard]] const std::vector<std::string>& timed_phases();
+
+}  // namespace meniscus

@@ -1,0 +1,77 @@
+#include "meniscus/app/run_record.hpp"
+
+#include <array>
+#include <fstream>
+
+#include <fmt/chrono.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "meniscus/core/version.hpp"
+
+namespace meniscus {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string now_utc() {
+  return fmt::format(
+      "{:%Y-%m-%dT%H:%M:%SZ}",
+      fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+}  // namespace
+
+RunRecord::RunRecord(const Case& c, std::string case_file, std::string case_text)
+    : case_file_(std::move(case_file)),
+      case_text_(std::move(case_text)),
+      case_json_(case_json(c)),
+      title_(c.title),
+      started_(now_utc()) {}
+
+void RunRecord::go_on_from(const std::filesystem::path& run_json) {
+  std::ifstream file(run_json);
+  const Json before = Json::parse(file, nullptr, false);
+  if (before.is_discarded() || !before.is_object()) return;
+  started_ = before.value("started", started_);
+  case_file_ = before.value("case_file", case_file_);
+  case_text_ = before.value("case_text", case_text_);
+  wall_before_ = before.value("wall_seconds", 0.0);
+  if (!before.contains("seconds")) return;
+  for (const auto& [phase, seconds] : before["seconds"].items())
+    seconds_before_.emplace_back(phase, seconds);
+}
+
+void RunRecord::write(const Simulation& simulation, const std::string& status) const {
+  Json seconds = Json::object();
+  for (const auto& [phase, spent] : simulation.seconds()) seconds[phase] = spent;
+  for (const auto& [phase, spent] : seconds_before_)
+    seconds[phase] = seconds.value(phase, 0.0) + spent;
+  const double wall =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  const Json record{{"program", "meniscus"},
+                    {"version", version_string},
+                    {"commit", commit_string},
+                    {"title", title_},
+                    {"status", status},
+                    {"case_file", case_file_},
+                    {"case_text", case_text_},
+                    {"case", Json::parse(case_json_)},
+                    {"host", host_name()},
+                    {"ranks", 1},
+                    {"started", started_},
+                    {"finished", now_utc()},
+                    {"wall_seconds", wall_before_ + wall},
+                    {"seconds", seconds},
+                    {"steps", simulation.evolution().step()},
+                    {"t", simulation.evolution().t()},
+                    {"warnings", simulation.evolution().warnings()}};
+  simulation.directory().write_text("run.json", record.dump(2) + "\n");
+}
+
+}  // namespace meniscus

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+
+#include "meniscus/app/simulation.hpp"
+#include "meniscus/case/case.hpp"
+
+namespace meniscus {
+
+/// run.json: what ran, where, when and how it ended. All that depends on the clock or the host
+/// stands here and in timing.csv.
+class RunRecord {
+ public:
+  RunRecord(const Case& c, std::string case_file, std::string case_text);
+
+  /// Seconds and steps add to those of the run this one goes on with, read from its run.json.
+  void go_on_from(const std::filesystem::path& run_json);
+  void write(const Simulation& simulation, const std::string& status) const;
+
+ private:
+  std::string case_file_, case_text_, case_json_, title_;
+  std::string started_;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  std::vector<std::pair<std::string, double>> seconds_before_;
+  double wall_before_ = 0.0;
+};
+
+}  // namespace meniscus

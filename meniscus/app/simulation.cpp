@@ -1,0 +1,100 @@
+#include "meniscus/app/simulation.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "meniscus/app/interrupt.hpp"
+#include "meniscus/core/error.hpp"
+
+namespace meniscus {
+namespace {
+
+/// The first multiple of `interval` after t.
+double next_multiple(double interval, double t) {
+  return interval * (std::floor(t / interval) + 1.0);
+}
+
+}  // namespace
+
+Simulation::Simulation(Evolution evolution, RunDirectory directory, const OutputSchedule& schedule,
+                       std::function<void(Archive&)> describe)
+    : evolution_(std::move(evolution)),
+      directory_(std::move(directory)),
+      schedule_(schedule),
+      describe_(std::move(describe)),
+      timed_(seconds()) {}
+
+void Simulation::load_schedule(const Archive& archive) {
+  const auto next = archive.reals.find("output/next");
+  if (next == archive.reals.end() || next->second.size() != 2)
+    reject_input("checkpoint lacks \"output/next\"");
+  next_surface_frame_ = next->second[0];
+  next_volume_frame_ = next->second[1];
+}
+
+Outcome Simulation::run(Progress& progress) {
+  for (;;) {
+    const bool is_last = evolution_.is_finished(), is_stopped = !is_last && is_interrupted();
+    if (is_last || is_stopped || evolution_.step() % schedule_.checkpoint_every == 0)
+      write_checkpoint();
+    if (is_stopped) return Outcome::stopped;
+    if (const EvolutionReport solved = evolution_.solve(); !solved.ok) {
+      write_checkpoint();
+      throw RunFailure(fmt::format("the flow at t = {:.6g} could not be solved: {}", evolution_.t(),
+                                   solved.failure));
+    }
+    record(progress, is_last);
+    if (is_last) return Outcome::done;
+    if (const EvolutionReport advanced = evolution_.advance(); !advanced.ok) {
+      write_checkpoint();
+      throw RunFailure(advanced.failure);
+    }
+  }
+}
+
+void Simulation::write_checkpoint() {
+  const PhaseTimer timer(output_times_, "output");
+  Archive archive;
+  evolution_.save(archive);
+  archive.reals["output/next"] = {next_surface_frame_, next_volume_frame_};
+  describe_(archive);
+  directory_.write_checkpoint(archive, evolution_.step());
+}
+
+void Simulation::record(Progress& progress, bool is_last) {
+  const HistoryRow history = evolution_.history_row();
+  const std::vector<DropRow> drops = evolution_.drop_rows();
+  {
+    const PhaseTimer timer(output_times_, "output");
+    const double t = evolution_.t();
+    if (t >= next_surface_frame_ || is_last) {
+      directory_.add_surface_frame(evolution_);
+      next_surface_frame_ = next_multiple(schedule_.surface_interval, t);
+    }
+    if (t >= next_volume_frame_ || is_last) {
+      directory_.add_volume_frame(evolution_);
+      next_volume_frame_ =
+          schedule_.volume_interval > 0.0 ? next_multiple(schedule_.volume_interval, t) : HUGE_VAL;
+    }
+    directory_.add_rows(history, drops);
+  }
+  const auto now = seconds();
+  auto spent = now;
+  for (std::size_t i = 0; i < spent.size(); ++i) spent[i].second -= timed_[i].second;
+  timed_ = now;
+  directory_.add_timing(history.step, history.t, spent);
+  progress.show(history, drops);
+}
+
+double Simulation::seconds_in(const std::string& phase) const {
+  return evolution_.times()[phase] + evolution_.flow().times()[phase] + output_times_[phase];
+}
+
+std::vector<std::pair<std::string, double>> Simulation::seconds() const {
+  std::vector<std::pair<std::string, double>> all;
+  for (const std::string& phase : timed_phases()) all.emplace_back(phase, seconds_in(phase));
+  return all;
+}
+
+}  // namespace meniscus

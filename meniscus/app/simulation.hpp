@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+
+#include "meniscus/app/progress.hpp"
+#include "meniscus/app/run_directory.hpp"
+#include "meniscus/evolve/evolution.hpp"
+
+namespace meniscus {
+
+/// When what is written. A frame is due at the first step at or after each multiple of its
+/// interval.
+struct OutputSchedule {
+  double surface_interval = 0.2;
+  double volume_interval = 0.0;        ///< 0: no volume frames but the first and the last
+  std::int64_t checkpoint_every = 50;  ///< steps
+};
+
+enum class Outcome { done, stopped };
+
+/// A run from the state its evolution stands at to its end: solve, record, advance. Everything that
+/// depends on the state alone reaches the same files whether or not the run was taken up in
+/// between.
+class Simulation {
+ public:
+  /// `describe` adds to a checkpoint what it takes to build the evolution again.
+  Simulation(Evolution evolution, RunDirectory directory, const OutputSchedule& schedule,
+             std::function<void(Archive&)> describe);
+
+  /// When the next frames are due, from the checkpoint the evolution was loaded from.
+  void load_schedule(const Archive& archive);
+  /// Throws RunFailure, a checkpoint being left, when the run cannot go on.
+  Outcome run(Progress& progress);
+
+  [[nodiscard]] const Evolution& evolution() const { return evolution_; }
+  [[nodiscard]] const RunDirectory& directory() const { return directory_; }
+  /// Seconds by phase since this process began to simulate.
+  [[nodiscard]] std::vector<std::pair<std::string, double>> seconds() const;
+
+ private:
+  void write_checkpoint();
+  void record(Progress& progress, bool is_last);
+  [[nodiscard]] double seconds_in(const std::string& phase) const;
+
+  Evolution evolution_;
+  RunDirectory directory_;
+  OutputSchedule schedule_;
+  std::function<void(Archive&)> describe_;
+  double next_surface_frame_ = 0.0, next_volume_frame_ = 0.0;
+  PhaseTimes output_times_;
+  std::vector<std::pair<std::string, double>> timed_;  // at the row before
+};
+
+}  // namespace meniscus

@@ -1,0 +1,68 @@
+#include "meniscus/case/case.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "meniscus/case/case_parts.hpp"
+
+namespace meniscus {
+namespace {
+
+std::string read_text(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error))
+    reject_input("{}: is a folder, not a case file", file.string());
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) reject_input("{}: cannot be read: {}", file.string(), std::strerror(errno));
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// [scale], and the capillary number that it or [flow] gives.
+double read_scale(Settings& settings) {
+  if (!settings.has_table("scale")) return settings.number("flow.capillary-number");
+  Scale scale{.length = settings.number("scale.length"),
+              .viscosity = settings.number("scale.viscosity"),
+              .surface_tension = settings.number("scale.surface-tension")};
+  const bool is_quiescent =
+      settings.is_given("flow.kind") && settings.text("flow.kind") == "quiescent";
+  scale.rate = is_quiescent && scale.surface_tension > 0.0
+                   ? settings.number_or("scale.rate",
+                                        scale.surface_tension / (scale.viscosity * scale.length))
+                   : settings.number("scale.rate");
+  settings.set_scale(scale);
+  return scale.surface_tension == 0.0
+             ? std::numeric_limits<double>::infinity()
+             : scale.viscosity * scale.rate * scale.length / scale.surface_tension;
+}
+
+}  // namespace
+
+Case parse_case(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                std::span<const std::string> overrides) {
+  Case c;
+  c.settings = Settings(schema::parse_document(text, name, folder, overrides));
+  c.title = c.settings.text("title");
+  c.Ca = read_scale(c.settings);
+  c.flow = read_flow(c.settings);
+  c.matrix_body_force = c.settings.vector("matrix.body-force");
+  c.drops = read_drops(c.settings);
+  c.domain = read_domain(c.settings, c.flow);
+  c.evolution = read_evolution(c.settings);
+  c.flow_solver = read_flow_solver(c.settings);
+  c.output = read_output(c.settings);
+  read_fixed_keys(c.settings);
+  c.settings.require_all_used();
+  return c;
+}
+
+Case read_case(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  return parse_case(read_text(file), file.string(), file.parent_path(), overrides);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "meniscus/case/settings.hpp"
+#include "meniscus/evolve/options.hpp"
+#include "meniscus/flow/fem/options.hpp"
+#include "meniscus/scene/scene.hpp"
+
+namespace meniscus {
+
+struct BallShape {
+  double radius = 1.0;
+};
+struct EllipsoidShape {
+  Vec3 axes = Vec3::Ones();
+};
+struct FileShape {
+  std::filesystem::path file;
+};
+struct RunShape {
+  std::filesystem::path folder;
+  std::optional<int> drop;  ///< id in that run; none: its only one
+};
+using DropShapeCase = std::variant<BallShape, EllipsoidShape, FileShape, RunShape>;
+
+struct DropCase {
+  DropShapeCase shape;
+  Vec3 center = Vec3::Zero();
+  double viscosity_ratio = 1.0;
+  double tension_ratio = 1.0;
+  int nodes = 110;  ///< N0
+  Vec3 body_force = Vec3::Zero();
+};
+
+/// One [[domain.patch]]: the condition on a part of the outer boundary.
+struct PatchCase {
+  std::string path;       ///< "domain.patch[2]", to name its line
+  std::string name;       ///< of the shape's patch, or the label of a tag
+  std::vector<int> tags;  ///< of the shape's faces, or the tag in the surface file
+  enum class Condition { velocity, symmetry, open } condition = Condition::velocity;
+  bool follows_flow = true;  ///< v = G·x; else `velocity` with its profile
+  Vec3 velocity = Vec3::Zero();
+  bool is_parabolic = false;
+  std::optional<Vec3> profile_center;
+  std::optional<double> profile_radius;
+  Vec3 traction = Vec3::Zero();
+};
+
+struct DomainCase {
+  enum class Shape { box, sphere, cylinder, file } shape = Shape::box;
+  Vec3 half_widths = Vec3::Constant(10.0);
+  double radius = 10.0, half_length = 10.0;
+  std::filesystem::path file;
+  int nodes = 507;
+  bool is_symmetric_in_z = false;  ///< the z-faces of the box default to no penetration
+  std::vector<PatchCase> patches;
+};
+
+/// What a run writes, and when (the case's [output]).
+struct OutputOptions {
+  double interval = 0.2;         ///< between surfaces written for viewing [1/G]
+  bool volume = true;            ///< volume meshes too
+  double volume_interval = 0.2;  ///< between them [1/G]
+  int checkpoint_every = 10;     ///< steps
+};
+
+/// A case file, read, checked and dimensionless.
+struct Case {
+  Settings settings;  ///< every key with its value and place
+  std::string title;
+  double Ca = 1.0;
+  ImposedFlow flow;
+  Vec3 matrix_body_force = Vec3::Zero();
+  std::vector<DropCase> drops;
+  DomainCase domain;
+  EvolutionOptions evolution;
+  fem::Options flow_solver;
+  OutputOptions output;
+};
+
+/// Reads a case file; each override is "key=value" and wins over the file. Every fault throws
+/// InvalidInput with one line: file:line (or the override), key, value, what is allowed.
+[[nodiscard]] Case read_case(const std::filesystem::path& file,
+                             std::span<const std::string> overrides = {});
+/// The same from text; `name` stands for the file in messages, relative file names start from
+/// `folder`.
+[[nodiscard]] Case parse_case(std::string_view text, const std::string& name,
+                              const std::filesystem::path& folder = {},
+                              std::span<const std::string> overrides = {});
+
+/// The case with all defaults that matter to it, as a case file in its own units and as JSON
+/// (nested as the file is; inf is the string "inf"). `parse_case` of the first gives the same case
+/// to the last bit.
+[[nodiscard]] std::string case_toml(const Case& c);
+[[nodiscard]] std::string case_json(const Case& c);
+
+/// The scene a case begins with. Throws InvalidInput naming line, drop and place when a surface is
+/// unfit, drops touch each other or the boundary or lie outside it, or more liquid is imposed to
+/// flow in than out while no patch is open.
+[[nodiscard]] Scene build_scene(const Case& c);
+/// All of that scene but its interfaces: what a run taken up from a checkpoint needs, though the
+/// files its drops began with be gone.
+[[nodiscard]] Scene build_surroundings(const Case& c);
+
+}  // namespace meniscus

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "meniscus/case/case.hpp"
+
+namespace meniscus {
+
+// The tables of a case, each read and checked on its own. All throw InvalidInput.
+
+[[nodiscard]] ImposedFlow read_flow(Settings& settings);
+[[nodiscard]] std::vector<DropCase> read_drops(Settings& settings);
+/// The flow decides the default conditions on a box.
+[[nodiscard]] DomainCase read_domain(Settings& settings, const ImposedFlow& flow);
+[[nodiscard]] EvolutionOptions read_evolution(Settings& settings);
+[[nodiscard]] fem::Options read_flow_solver(Settings& settings);
+[[nodiscard]] OutputOptions read_output(Settings& settings);
+/// Asks for the keys whose features are yet to come: they have one value so far.
+void read_fixed_keys(Settings& settings);
+
+}  // namespace meniscus

@@ -1,0 +1,223 @@
+#include "meniscus/case/document.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include "meniscus/case/schema.hpp"
+#include "meniscus/core/error.hpp"
+
+namespace meniscus::schema {
+namespace {
+
+std::string written(const toml::node& node) {
+  if (const toml::array* array = node.as_array()) {
+    std::string text = "[";
+    for (const toml::node& element : *array)
+      text += (text.size() > 1 ? ", " : "") + written(element);
+    return text + "]";
+  }
+  if (node.is_table()) return "a table";
+  if (const auto text = node.value_exact<std::string>()) return to_toml(*text);
+  if (const auto real = node.value_exact<double>()) return to_toml(*real);
+  std::ostringstream stream;
+  node.visit([&](const auto& value) { stream << value; });
+  return stream.str();
+}
+
+/// What the user wrote, on one line and not too long.
+std::string excerpt(const toml::node& node) {
+  const std::string text = written(node);
+  constexpr std::size_t kLongest = 60;  // a message is one line
+  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "…";
+}
+
+std::optional<double> real(const toml::node& node) {
+  if (node.is_integer() || node.is_floating_point()) return node.value<double>();
+  return std::nullopt;
+}
+
+std::optional<Vec3> vector3(const toml::node& node) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->size() != 3) return std::nullopt;
+  Vec3 result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::optional<double> component = real(*array->get(i));
+    if (!component) return std::nullopt;
+    result[static_cast<Eigen::Index>(i)] = *component;
+  }
+  return result;
+}
+
+std::optional<Mat3> matrix3(const toml::node& node) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->size() != 3) return std::nullopt;
+  Mat3 result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::optional<Vec3> row = vector3(*array->get(i));
+    if (!row) return std::nullopt;
+    result.row(static_cast<Eigen::Index>(i)) = *row;
+  }
+  return result;
+}
+
+template <class T>
+std::optional<Value> as_value(std::optional<T> found) {
+  if (!found) return std::nullopt;
+  return Value(std::move(*found));
+}
+
+std::optional<Value> convert(const toml::node& node, Type type) {
+  switch (type) {
+    case Type::number:
+      return as_value(real(node));
+    case Type::whole:
+      return as_value(node.value_exact<std::int64_t>());
+    case Type::flag:
+      return as_value(node.value_exact<bool>());
+    case Type::word:
+    case Type::text:
+    case Type::path:
+      return as_value(node.value_exact<std::string>());
+    case Type::vector:
+      return as_value(vector3(node));
+    case Type::matrix:
+      return as_value(matrix3(node));
+    case Type::velocity:
+      return node.is_string() ? as_value(node.value_exact<std::string>()) : as_value(vector3(node));
+  }
+  return std::nullopt;
+}
+
+Value checked_value(const Key& key, const toml::node& node, std::string_view place,
+                    std::string_view name) {
+  const std::optional<Value> value = convert(node, key.type);
+  if (!value)
+    reject_input("{}: {} = {} must be {}", place, name, excerpt(node),
+                 key.type == Type::word ? "one of " + quoted_list(key.words)
+                                        : std::string(description(key.type)));
+  check_value(key, *value, place, name);
+  return *value;
+}
+
+/// Walks the tables of a parsed file into flat paths.
+class Flattener {
+ public:
+  explicit Flattener(Document& document) : document_(document) {}
+
+  void table(const toml::table& table, const std::string& path) {
+    for (const auto& [name, node] : table) {
+      const std::string child =
+          path.empty() ? std::string(name.str()) : fmt::format("{}.{}", path, name.str());
+      entry(node, child, place(name.source()));
+    }
+  }
+
+ private:
+  std::string place(const toml::source_region& source) const {
+    return fmt::format("{}:{}", document_.name, source.begin.line);
+  }
+
+  void entry(const toml::node& node, const std::string& path, const std::string& where) {
+    const std::string generic = generic_path(path), plain = without_indices(path);
+    if (find_table(generic + "[]") != nullptr) return array(node, path, where);
+    if (find_table(generic) != nullptr) {
+      if (!node.is_table()) reject_input("{}: {} must be a table: [{}]", where, plain, plain);
+      document_.tables[path] = where;
+      return table(*node.as_table(), path);
+    }
+    const Key* key = find_key(generic);
+    if (key == nullptr) reject_unknown_key(plain, where);
+    document_.values[path] = Given{checked_value(*key, node, where, plain), where};
+  }
+
+  void array(const toml::node& node, const std::string& path, const std::string& where) {
+    const std::string plain = without_indices(path);
+    const toml::array* tables = node.as_array();
+    if (tables == nullptr || !std::ranges::all_of(*tables, &toml::node::is_table))
+      reject_input("{}: {} must be an array of tables: [[{}]]", where, plain, plain);
+    for (std::size_t i = 0; i < tables->size(); ++i) {
+      const std::string element = fmt::format("{}[{}]", path, i);
+      document_.tables[element] = place(tables->get(i)->source());
+      table(*tables->get(i)->as_table(), element);
+    }
+  }
+
+  Document& document_;
+};
+
+toml::table parse_toml(std::string_view text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    std::string description(error.description());
+    std::ranges::replace(description, '\n', ' ');
+    reject_input("{}:{}: not valid TOML: {}", name, error.source().begin.line, description);
+  }
+}
+
+/// The value of an override: TOML, or a word without quotes.
+toml::table parse_override_value(const std::string& value) {
+  try {
+    toml::table table = toml::parse("value = " + value);
+    if (table.size() == 1) return table;
+  } catch (const toml::parse_error&) {  // taken as a word below
+  }
+  return toml::table{{"value", value}};
+}
+
+/// "drop[1].radius" begins table 1 of the array if it is the next one.
+void require_tables(Document& document, const std::string& path, const std::string& place) {
+  for (std::size_t close = path.find(']'); close != std::string::npos;
+       close = path.find(']', close + 1)) {
+    const std::string element = path.substr(0, close + 1);
+    if (document.tables.contains(element)) continue;
+    const std::string array = element.substr(0, element.rfind('['));
+    const int count = document.count(array);
+    if (element != fmt::format("{}[{}]", array, count))
+      reject_input("{}: {} does not exist; the next to add is {}[{}]", place, element, array,
+                   count);
+    document.tables[element] = place;
+  }
+}
+
+void apply_override(Document& document, const std::string& option) {
+  const std::string place = "--set " + option;
+  const std::size_t equals = option.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == option.size())
+    reject_input("{}: expected key=value, as in --set drop[0].nodes=200", place);
+  const std::string path = option.substr(0, equals);
+  const Key* key = find_key(generic_path(path));
+  if (key == nullptr) {
+    const std::string indexed = nearest_name(path);
+    if (indexed == without_indices(path) && path.find('[') == std::string::npos)
+      reject_input("{}: {}: the key needs an index, as in drop[0].nodes", place, path);
+    reject_unknown_key(path, place);
+  }
+  require_tables(document, path, place);
+  const toml::table parsed = parse_override_value(option.substr(equals + 1));
+  document.values[path] =
+      Given{checked_value(*key, *parsed.get("value"), place, path), place, true};
+}
+
+}  // namespace
+
+int Document::count(const std::string& array) const {
+  int count = 0;
+  while (tables.contains(fmt::format("{}[{}]", array, count))) ++count;
+  return count;
+}
+
+Document parse_document(std::string_view text, const std::string& name,
+                        const std::filesystem::path& folder,
+                        std::span<const std::string> overrides) {
+  Document document{.name = name, .folder = folder, .values = {}, .tables = {}};
+  Flattener(document).table(parse_toml(text, name), "");
+  for (const std::string& option : overrides) apply_override(document, option);
+  return document;
+}
+
+}  // namespace meniscus::schema

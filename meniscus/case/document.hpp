@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "meniscus/case/value.hpp"
+
+namespace meniscus::schema {
+
+/// A value the user gave, and where: "case.toml:7" or "--set drop[0].nodes=200".
+struct Given {
+  Value value;
+  std::string place;
+  bool is_override = false;
+};
+
+/// A case file read and checked key by key against the schema: every key is known, of the right
+/// type and in its range. What keys mean together is checked by `read_case`.
+struct Document {
+  std::string name;                           ///< of the file, as in messages
+  std::filesystem::path folder;               ///< that relative file names start from
+  std::map<std::string, Given> values;        ///< by path with indices: "drop[0].radius"
+  std::map<std::string, std::string> tables;  ///< place of every table: "drop[0]" → "case.toml:5"
+
+  /// Number of tables in an array: count("drop"), count("flow.schedule").
+  [[nodiscard]] int count(const std::string& array) const;
+};
+
+/// Throws InvalidInput with file and line at the first fault. An override is "key=value" with the
+/// value in TOML, quotes around words being optional; it replaces what the file says, or begins the
+/// next table of an array ("drop[1].radius=1" when there is one drop).
+[[nodiscard]] Document parse_document(std::string_view text, const std::string& name,
+                                      const std::filesystem::path& folder,
+                                      std::span<const std::string> overrides);
+
+}  // namespace meniscus::schema

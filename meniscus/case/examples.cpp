@@ -1,0 +1,31 @@
+#include "meniscus/case/examples.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "meniscus/case/nearest_word.hpp"
+#include "meniscus/core/error.hpp"
+
+namespace meniscus {
+namespace {
+
+// Written by cmake/Examples.cmake: {"name", R"toml(text)toml"}, …
+constexpr ExampleCase kExamples[] = {
+#include "meniscus/case/examples_generated.inc"
+};
+
+}  // namespace
+
+std::span<const ExampleCase> examples() { return kExamples; }
+
+std::string_view example_text(std::string_view name) {
+  const auto found = std::ranges::find(examples(), name, &ExampleCase::name);
+  if (found != examples().end()) return found->text;
+  std::vector<std::string_view> names;
+  for (const ExampleCase& example : examples()) names.push_back(example.name);
+  const std::string_view near = nearest_word(name, names);
+  reject_input("examples: \"{}\" is not one of {}{}", name, fmt::join(names, ", "),
+               near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near));
+}
+
+}  // namespace meniscus

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "meniscus/case/case.hpp"
+
+namespace meniscus {
+
+/// The names by which the patches of a shape are addressed; empty for a surface from a file.
+[[nodiscard]] std::vector<std::string_view> patch_names(DomainCase::Shape shape);
+/// The face tags (mesh/shapes.hpp) a patch name stands for; empty when it is not one of the shape.
+[[nodiscard]] std::vector<int> shape_tags(DomainCase::Shape shape, std::string_view name);
+
+/// The triangulated outer boundary with a condition on every patch. Throws InvalidInput naming the
+/// line when a surface file is unfit or its tags and the [[domain.patch]] do not match.
+[[nodiscard]] OuterBoundary build_boundary(const Case& c);
+
+}  // namespace meniscus

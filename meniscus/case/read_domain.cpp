@@ -1,0 +1,109 @@
+#include <algorithm>
+#include <string>
+
+#include "meniscus/case/case_parts.hpp"
+#include "meniscus/case/outer_boundary.hpp"
+
+namespace meniscus {
+namespace {
+
+using Shape = DomainCase::Shape;
+using Condition = PatchCase::Condition;
+
+void read_size(Settings& settings, DomainCase& domain) {
+  switch (domain.shape) {
+    case Shape::file:
+      domain.file = settings.file("domain.surface");
+      return;
+    case Shape::box:
+      domain.half_widths = settings.is_given("domain.half-widths")
+                               ? settings.vector("domain.half-widths")
+                               : Vec3::Constant(settings.number("domain.half-width")).eval();
+      break;
+    case Shape::cylinder:
+      domain.half_length = settings.number("domain.half-length");
+      [[fallthrough]];
+    case Shape::sphere:
+      domain.radius = settings.number("domain.radius");
+      break;
+  }
+  domain.nodes = settings.whole("domain.nodes");
+}
+
+void read_velocity(Settings& settings, PatchCase& patch) {
+  const std::string path = patch.path + ".velocity";
+  patch.follows_flow = settings.word_or_vector(path).has_value();
+  if (patch.follows_flow) return;
+  patch.velocity = settings.vector(path);
+  patch.is_parabolic = settings.text(patch.path + ".profile") == "parabolic";
+  if (!patch.is_parabolic) return;
+  const std::string center = patch.path + ".profile-center",
+                    radius = patch.path + ".profile-radius";
+  if (settings.is_given(center)) patch.profile_center = settings.vector(center);
+  if (settings.is_given(radius)) patch.profile_radius = settings.number(radius);
+}
+
+/// Name or tag of the patch, which no patch before may have.
+void read_identity(Settings& settings, const DomainCase& domain, PatchCase& patch) {
+  const std::string name = patch.path + ".name", tag = patch.path + ".tag";
+  if (domain.shape == Shape::file) {
+    patch.tags = {settings.whole(tag)};
+    if (settings.is_given(name)) patch.name = settings.text(name);
+  } else {
+    patch.name = settings.text(name);
+    patch.tags = shape_tags(domain.shape, patch.name);
+    if (patch.tags.empty())
+      settings.reject(name, "is not a patch of the {}; its patches are {}",
+                      settings.text("domain.shape"),
+                      schema::quoted_list(patch_names(domain.shape)));
+  }
+  for (const PatchCase& other : domain.patches)
+    if (std::ranges::find_first_of(other.tags, patch.tags) != other.tags.end())
+      settings.reject(domain.shape == Shape::file ? tag : name,
+                      "has a condition already, from the [[domain.patch]] at {}",
+                      settings.place(other.path));
+}
+
+PatchCase read_patch(Settings& settings, const DomainCase& domain, const std::string& table) {
+  PatchCase patch;
+  patch.path = table;
+  read_identity(settings, domain, patch);
+  patch.condition =
+      settings.choice<Condition>(table + ".condition", {{"velocity", Condition::velocity},
+                                                        {"symmetry", Condition::symmetry},
+                                                        {"open", Condition::open}});
+  if (patch.condition == Condition::velocity) read_velocity(settings, patch);
+  if (patch.condition == Condition::open) patch.traction = settings.vector(table + ".traction");
+  return patch;
+}
+
+/// Whether v = G·x has no component along z and does not vary along it, at all times: then the
+/// z-faces of a box may be planes of symmetry.
+bool is_in_xy_plane(const ImposedFlow& flow) {
+  const auto is_planar = [](const Mat3& g) { return g.row(2).isZero(0.0) && g.col(2).isZero(0.0); };
+  return is_planar(flow.initial_gradient()) &&
+         std::ranges::all_of(flow.schedule(), [&](const ImposedFlow::Entry& entry) {
+           return is_planar(entry.gradient);
+         });
+}
+
+}  // namespace
+
+DomainCase read_domain(Settings& settings, const ImposedFlow& flow) {
+  DomainCase domain;
+  if (settings.is_given("domain.surface"))
+    domain.shape = Shape::file;
+  else
+    domain.shape = settings.choice<Shape>(
+        "domain.shape",
+        {{"box", Shape::box}, {"sphere", Shape::sphere}, {"cylinder", Shape::cylinder}});
+  read_size(settings, domain);
+  const bool is_shear =
+      settings.is_given("flow.kind") && settings.text("flow.kind") == "simple-shear";
+  domain.is_symmetric_in_z = is_shear && is_in_xy_plane(flow);
+  for (int i = 0; i < settings.count("domain.patch"); ++i)
+    domain.patches.push_back(read_patch(settings, domain, fmt::format("domain.patch[{}]", i)));
+  return domain;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,47 @@
+#include <string>
+
+#include "meniscus/case/case_parts.hpp"
+
+namespace meniscus {
+namespace {
+
+DropShapeCase read_shape(Settings& settings, const std::string& table) {
+  std::string found;
+  for (const char* name : {"radius", "axes", "surface", "from-run"}) {
+    const std::string path = fmt::format("{}.{}", table, name);
+    if (!settings.is_given(path)) continue;
+    if (!found.empty())
+      settings.reject(path, "conflicts with {}: a drop has one shape", schema::leaf(found));
+    found = path;
+  }
+  if (found.empty())
+    reject_input("{}: {} needs one of radius, axes, surface, from-run", settings.place(table),
+                 schema::without_indices(table));
+  const std::string_view kind = schema::leaf(found);
+  if (kind == "radius") return BallShape{settings.number(found)};
+  if (kind == "axes") return EllipsoidShape{settings.vector(found)};
+  if (kind == "surface") return FileShape{settings.file(found)};
+  RunShape shape{settings.file(found), std::nullopt};
+  if (settings.is_given(table + ".from-drop")) shape.drop = settings.whole(table + ".from-drop");
+  return shape;
+}
+
+}  // namespace
+
+std::vector<DropCase> read_drops(Settings& settings) {
+  const int count = settings.count("drop");
+  if (count == 0) reject_input("{}: needs at least one [[drop]]", settings.place(""));
+  std::vector<DropCase> drops;
+  for (int i = 0; i < count; ++i) {
+    const std::string table = fmt::format("drop[{}]", i);
+    drops.push_back({.shape = read_shape(settings, table),
+                     .center = settings.vector(table + ".center"),
+                     .viscosity_ratio = settings.number(table + ".viscosity-ratio"),
+                     .tension_ratio = settings.number(table + ".tension-ratio"),
+                     .nodes = settings.whole(table + ".nodes"),
+                     .body_force = settings.vector(table + ".body-force")});
+  }
+  return drops;
+}
+
+}  // namespace meniscus

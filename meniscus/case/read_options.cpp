@@ -1,0 +1,72 @@
+#include <string>
+
+#include "meniscus/case/case_parts.hpp"
+
+namespace meniscus {
+EvolutionOptions read_evolution(Settings& settings) {
+  EvolutionOptions options;
+  options.scheme = settings.choice<TimeScheme>(
+      "time.scheme", {{"rk2", TimeScheme::rk2}, {"euler", TimeScheme::euler}});
+  options.motion_normal = settings.choice<MotionNormal>(
+      "interface.motion-normal",
+      {{"area-vector", MotionNormal::area_vector}, {"fit", MotionNormal::fit}});
+  options.end = settings.number("time.end");
+  options.step_factor = settings.number("time.step-factor");
+  options.step_edges = settings.choice<StepEdges>(
+      "time.step-edges", {{"interface", StepEdges::interface}, {"mesh", StepEdges::mesh}});
+  options.max_step = settings.number("time.max-step");
+  options.min_step = settings.number("time.min-step");
+  if (options.min_step > options.max_step)
+    settings.reject("time.min-step", "must be at most time.max-step = {} (unit: 1/G)",
+                    options.max_step);
+  options.remesh_every = settings.whole("interface.remesh-every");
+  options.edge_floor =
+      settings.number_or("interface.edge-floor", 0.5 * settings.number("topology.breakup-radius"));
+  return options;
+}
+
+fem::Options read_flow_solver(Settings& settings) {
+  using fem::CapillaryForm, fem::LinearSolver;
+  fem::Options options;
+  options.capillary = settings.choice<CapillaryForm>("interface.surface-tension",
+                                                     {{"weak", CapillaryForm::weak},
+                                                      {"nodal", CapillaryForm::nodal},
+                                                      {"balanced", CapillaryForm::balanced}});
+  options.linear =
+      settings.choice<LinearSolver>("solver.linear", {{"block", LinearSolver::block},
+                                                      {"paper-gmres", LinearSolver::paper_gmres},
+                                                      {"minres", LinearSolver::minres},
+                                                      {"mumps", LinearSolver::mumps}});
+  options.rtol = settings.number("solver.rtol");
+  options.max_iterations = settings.whole("solver.max-iterations");
+  options.petsc_options = settings.text("solver.petsc-options");
+  options.volume_mesh.grading =
+      settings.choice<Grading>("domain.grading", {{"linear", Grading::linear},
+                                                  {"exponential", Grading::exponential},
+                                                  {"gaussian", Grading::gaussian}});
+  options.volume_motion = settings.choice<VolumeMotion>("interface.volume-motion",
+                                                        {{"spines", VolumeMotion::spines},
+                                                         {"lagrangian", VolumeMotion::lagrangian},
+                                                         {"harmonic", VolumeMotion::harmonic}});
+  return options;
+}
+
+OutputOptions read_output(Settings& settings) {
+  OutputOptions options;
+  options.interval = settings.number("output.interval");
+  options.volume = settings.flag("output.volume");
+  options.volume_interval = options.interval;
+  if (options.volume)
+    options.volume_interval = settings.number_or("output.volume-interval", options.interval);
+  options.checkpoint_every = settings.whole("output.checkpoint-every");
+  return options;
+}
+
+void read_fixed_keys(Settings& settings) {
+  for (const schema::Key& key : schema::keys()) {
+    const bool has_one_word = key.type == schema::Type::word && key.words.size() == 1;
+    if (key.only_default || has_one_word) settings.note(std::string(key.path));
+  }
+}
+
+}  // namespace meniscus

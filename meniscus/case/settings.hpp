@@ -1,0 +1,103 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "meniscus/case/document.hpp"
+#include "meniscus/case/schema.hpp"
+#include "meniscus/core/error.hpp"
+
+namespace meniscus {
+
+/// SI values of the dimensionless units, for a case with [scale].
+struct Scale {
+  double length = 1.0;           ///< R0 [m]
+  double viscosity = 1.0;        ///< μ_out [Pa s]
+  double surface_tension = 1.0;  ///< σ [N/m]
+  double rate = 1.0;             ///< G [1/s]
+
+  /// The dimensionless unit of a dimension, in SI units.
+  [[nodiscard]] double unit(schema::Dimension dimension) const;
+};
+
+/// The values of a case: what was given, else the schema's default. Numbers come out dimensionless.
+/// It remembers which keys were asked for, so that a key without effect can be refused, and where
+/// each came from, so that later checks can name the line.
+class Settings {
+ public:
+  Settings() = default;
+  explicit Settings(schema::Document document) : document_(std::move(document)) {}
+
+  [[nodiscard]] bool is_given(const std::string& path) const {
+    return document_.values.contains(path);
+  }
+  [[nodiscard]] bool has_table(const std::string& path) const {
+    return document_.tables.contains(path);
+  }
+  [[nodiscard]] int count(const std::string& array) const { return document_.count(array); }
+
+  /// Each throws InvalidInput when a required key is missing.
+  [[nodiscard]] double number(const std::string& path);
+  [[nodiscard]] int whole(const std::string& path);
+  [[nodiscard]] bool flag(const std::string& path);
+  [[nodiscard]] std::string text(const std::string& path);
+  [[nodiscard]] Vec3 vector(const std::string& path);
+  [[nodiscard]] Mat3 matrix(const std::string& path);
+  /// A word, or none when a `velocity` is three numbers.
+  [[nodiscard]] std::optional<std::string> word_or_vector(const std::string& path);
+  /// Relative names start from the case file's folder; those of --set from the current one. That
+  /// there is such a file is checked when it is read.
+  [[nodiscard]] std::filesystem::path file(const std::string& path);
+  /// A dimensionless default that follows from other keys.
+  [[nodiscard]] double number_or(const std::string& path, double fallback);
+  /// Asks for a key whose value is not needed.
+  void note(const std::string& path) { (void)own_value(path); }
+  template <class Enum>
+  [[nodiscard]] Enum choice(const std::string& path,
+                            std::initializer_list<std::pair<std::string_view, Enum>> words);
+
+  void set_scale(const Scale& scale) { scale_ = scale; }
+  [[nodiscard]] const std::optional<Scale>& scale() const { return scale_; }
+
+  /// "case.toml:7", of the key, else of the nearest table around it, else "case.toml".
+  [[nodiscard]] std::string place(const std::string& path) const;
+  /// The key as it should appear after its place.
+  [[nodiscard]] std::string name(const std::string& path) const;
+  /// Throws InvalidInput: "case.toml:7: drop.radius = 2.0 <complaint>".
+  template <class... Args>
+  [[noreturn]] void reject(const std::string& path, fmt::format_string<Args...> format,
+                           Args&&... args) const {
+    reject_value(path, fmt::format(format, std::forward<Args>(args)...));
+  }
+  /// Throws InvalidInput naming the first given key that nothing has asked for.
+  void require_all_used() const;
+
+  /// Every key asked for with its value, given or default, in the case's own units; by path.
+  [[nodiscard]] const std::map<std::string, schema::Value>& used() const { return used_; }
+
+ private:
+  [[noreturn]] void reject_value(const std::string& path, const std::string& complaint) const;
+  /// Given or default, in the case's own units.
+  const schema::Value& own_value(const std::string& path);
+  schema::Value dimensionless_value(const std::string& path);
+  [[nodiscard]] double unit_of(const std::string& path) const;
+
+  schema::Document document_;
+  std::optional<Scale> scale_;
+  std::map<std::string, schema::Value> used_;
+};
+
+template <class Enum>
+Enum Settings::choice(const std::string& path,
+                      std::initializer_list<std::pair<std::string_view, Enum>> words) {
+  const std::string word = text(path);
+  for (const auto& [name, value] : words)
+    if (name == word) return value;
+  MENISCUS_ASSERT(false, "{} = {}: a word of the schema without a meaning", path, word);
+  return words.begin()->second;
+}
+
+}  // namespace meniscus

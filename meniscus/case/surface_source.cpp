@@ -1,0 +1,168 @@
+#include "meniscus/case/surface_source.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "meniscus/core/log.hpp"
+#include "meniscus/io/archive_file.hpp"
+#include "meniscus/io/surface_file.hpp"
+#include "meniscus/mesh/surface_check.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/remesh.hpp"
+
+namespace meniscus {
+namespace {
+
+void require_existence(const Case& c, const std::string& path, const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) c.settings.reject(path, "does not exist");
+}
+
+void require_fit(const Case& c, const std::string& path, const SurfaceMesh& mesh) {
+  const std::string defect = find_defect(mesh);
+  if (!defect.empty()) c.settings.reject(path, "is unfit: {}", defect);
+}
+
+/// The step in "checkpoint-<step>.h5"; none for another name.
+std::optional<std::int64_t> checkpoint_step(const std::string& name) {
+  constexpr std::string_view kPrefix = "checkpoint-", kSuffix = ".h5";
+  if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix)) return std::nullopt;
+  std::int64_t step = 0;
+  const char* first = name.data() + kPrefix.size();
+  const char* last = name.data() + name.size() - kSuffix.size();
+  const auto [end, error] = std::from_chars(first, last, step);
+  if (error != std::errc{} || end != last) return std::nullopt;
+  return step;
+}
+
+std::filesystem::path newest_checkpoint(const Case& c, const std::string& path,
+                                        const std::filesystem::path& folder) {
+  require_existence(c, path, folder);
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error)) c.settings.reject(path, "is not a folder");
+  std::filesystem::path newest;
+  std::int64_t newest_step = -1;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const auto step = checkpoint_step(entry.path().filename().string());
+    if (!step || *step <= newest_step) continue;
+    newest_step = *step;
+    newest = entry.path();
+  }
+  if (newest.empty())
+    c.settings.reject(path, "holds no run: no checkpoint-<step>.h5 in the folder");
+  return newest;
+}
+
+/// Index of the interface of the wanted drop in an archive.
+int interface_of_drop(const Case& c, const std::string& path, const Archive& archive,
+                      std::optional<int> wanted) {
+  std::vector<std::int64_t> drops;
+  for (int i = 0;; ++i) {
+    const auto ids = archive.integers.find(fmt::format("interfaces/{}/ids", i));
+    if (ids == archive.integers.end() || ids->second.empty()) break;
+    drops.push_back(ids->second.front());
+    if (wanted && drops.back() == *wanted) return i;
+  }
+  if (drops.empty()) c.settings.reject(path, "holds a checkpoint without a drop");
+  if (wanted) c.settings.reject(path, "holds no drop {} but {}", *wanted, fmt::join(drops, ", "));
+  if (drops.size() > 1)
+    c.settings.reject(path, "holds {} drops; choose one with from-drop: {}", drops.size(),
+                      fmt::join(drops, ", "));
+  return 0;
+}
+
+SurfaceMesh surface_from_archive(const Case& c, const std::string& path, const Archive& archive,
+                                 int index) {
+  const auto x = archive.reals.find(fmt::format("interfaces/{}/x", index));
+  const auto faces = archive.integers.find(fmt::format("interfaces/{}/faces", index));
+  if (x == archive.reals.end() || faces == archive.integers.end() || x->second.size() % 3 != 0 ||
+      faces->second.size() % 3 != 0)
+    c.settings.reject(path, "holds a checkpoint without the surface of its drop");
+  SurfaceMesh mesh;
+  for (std::size_t i = 0; i < x->second.size(); i += 3)
+    mesh.x.add(Vec3(x->second[i], x->second[i + 1], x->second[i + 2]));
+  for (std::size_t i = 0; i < faces->second.size(); i += 3) {
+    FaceVertices face;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int64_t vertex = faces->second[i + k];
+      if (vertex < 0 || vertex >= mesh.num_vertices())
+        c.settings.reject(path, "holds a checkpoint with a broken surface");
+      face[k] = VertexId{static_cast<std::int32_t>(vertex)};
+    }
+    mesh.faces.add(face);
+  }
+  return mesh;
+}
+
+void shift(SurfaceMesh& mesh, const Vec3& by) {
+  for (Vec3& x : mesh.x) x += by;
+}
+
+/// Gives a surface the vertex density of its drop. A surface that the remesher leaves as it was is
+/// still sound, and said to be coarse or fine in the log.
+void resolve(SurfaceMesh& mesh, const DropCase& drop, int index) {
+  RemeshOptions options;
+  options.C0 = drop.nodes / (4.0 * std::numbers::pi);
+  options.volume = enclosed_volume(mesh);
+  const RemeshReport report = remesh(mesh, options);
+  if (!report.ok)
+    log::warning("drop {}: its surface stays as given, remeshing failed: {}", index,
+                 report.failure);
+}
+
+/// An ellipsoid starts from this many times N0 points, so that neither its volume nor its tips
+/// suffer from the sphere's density before the remesher gives it its own.
+constexpr int kEllipsoidOversampling = 4;
+
+}  // namespace
+
+TaggedSurface read_case_surface(const Case& c, const std::string& path,
+                                const std::filesystem::path& file) {
+  require_existence(c, path, file);
+  TaggedSurface surface;
+  try {
+    surface = io::read_surface(file);
+  } catch (const InvalidInput& error) {
+    c.settings.reject(path, "cannot be used: {}", error.what());
+  }
+  if (c.settings.scale())
+    for (Vec3& x : surface.mesh.x) x /= c.settings.scale()->length;
+  require_fit(c, path, surface.mesh);
+  return surface;
+}
+
+SurfaceMesh read_run_surface(const Case& c, const std::string& path, const RunShape& shape) {
+  const std::filesystem::path file = newest_checkpoint(c, path, shape.folder);
+  Archive archive;
+  try {
+    archive = io::read_archive(file);
+  } catch (const InvalidInput& error) {
+    c.settings.reject(path, "cannot be used: {}", error.what());
+  }
+  const int index = interface_of_drop(c, path, archive, shape.drop);
+  SurfaceMesh mesh = surface_from_archive(c, path, archive, index);
+  require_fit(c, path, mesh);
+  return mesh;
+}
+
+SurfaceMesh initial_surface(const Case& c, int index) {
+  const DropCase& drop = c.drops[static_cast<std::size_t>(index)];
+  const std::string table = fmt::format("drop[{}]", index);
+  if (const auto* ball = std::get_if<BallShape>(&drop.shape))
+    return sphere(drop.nodes, ball->radius, drop.center);
+  SurfaceMesh mesh;
+  if (const auto* run = std::get_if<RunShape>(&drop.shape))
+    mesh = read_run_surface(c, table + ".from-run", *run);
+  else if (const auto* file = std::get_if<FileShape>(&drop.shape))
+    mesh = read_case_surface(c, table + ".surface", file->file).mesh;
+  else
+    mesh = stretched_sphere(kEllipsoidOversampling * drop.nodes,
+                            std::get<EllipsoidShape>(drop.shape).axes);
+  if (!std::holds_alternative<RunShape>(drop.shape)) resolve(mesh, drop, index);
+  shift(mesh, drop.center);
+  return mesh;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "meniscus/case/case.hpp"
+#include "meniscus/mesh/shapes.hpp"
+
+namespace meniscus {
+
+/// Reads the surface file that a key names, its coordinates made dimensionless by [scale]. Throws
+/// InvalidInput naming the line when it cannot be read or the surface is not closed, turned inside
+/// out, or meets itself.
+[[nodiscard]] TaggedSurface read_case_surface(const Case& c, const std::string& path,
+                                              const std::filesystem::path& file);
+
+/// The shape of one drop in the newest checkpoint-<step>.h5 of a run's folder: archive entries
+/// interfaces/<i>/x (3|V| reals), interfaces/<i>/faces (3|F| integers) and interfaces/<i>/ids, the
+/// first of which is the drop's.
+[[nodiscard]] SurfaceMesh read_run_surface(const Case& c, const std::string& path,
+                                           const RunShape& shape);
+
+/// The surface of drop i where the case puts it, resolved by its N0.
+[[nodiscard]] SurfaceMesh initial_surface(const Case& c, int drop);
+
+}  // namespace meniscus

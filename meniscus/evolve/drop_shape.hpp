@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+
+#include "meniscus/mesh/surface_mesh.hpp"
+#include "meniscus/scene/imposed_flow.hpp"
+
+namespace meniscus {
+
+/// The measures of one drop as drops.csv has them (definitions: docs/notation.md). Lengths are
+/// those of the smooth interface through the vertices, volume and area those of the triangulation.
+struct DropShape {
+  double volume = 0.0, area = 0.0;
+  Vec3 centroid = Vec3::Zero();
+  double L = 0.0, B = 0.0, W = 0.0;
+  double D = 0.0;                   ///< (L − B)/(L + B)
+  std::optional<double> angle_deg;  ///< of L from the flow direction; planar flows only
+  double extent_x = 0.0;            ///< half of the extent in x
+  double H_max = 0.0;               ///< largest half-sum of the principal curvatures
+  double D_inertia = 0.0;           ///< of the ellipsoid with the same second moments
+};
+/// Planar flows lie in the x-y plane with x the flow direction, axial ones have x as their axis.
+[[nodiscard]] DropShape drop_shape(const SurfaceMesh& mesh, FlowFamily family);
+
+}  // namespace meniscus

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+
+#include "meniscus/scene/scene.hpp"
+
+namespace meniscus {
+
+/// The drops' contribution to the stress of a dilute suspension, per unit volume fraction [μ_out
+/// G]:
+///   Σ = V⁻¹ Σ_drops [ tension ∫_S (I − nn − 2/3 I) dS + (λ − λ_out) ∫_S (un + nu) dS ]
+/// (kennedy1994, eq. 10; loewenberg1996, eq. 8), V the volume the outermost interfaces enclose,
+/// λ and λ_out the viscosities inside and outside each interface. Deviatoric up to the trace of the
+/// second integral, which incompressible flow makes zero.
+[[nodiscard]] Mat3 drop_stress(const Scene& scene, std::span<const VertexField<Vec3>> velocity);
+
+}  // namespace meniscus

@@ -1,0 +1,209 @@
+#include "meniscus/evolve/evolution.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/log.hpp"
+#include "meniscus/evolve/drop_stress.hpp"
+#include "meniscus/mesh/surface_check.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/remesh.hpp"
+#include "meniscus/volume/quality.hpp"
+
+namespace meniscus {
+namespace {
+
+/// Velocity that carries the interfaces of `start` to those of `end` in dt.
+InterfaceMotion mean_motion(const Scene& start, const Scene& end, double dt) {
+  InterfaceMotion motion;
+  for (std::size_t i = 0; i < start.interfaces.size(); ++i) {
+    const VertexField<Vec3>&x0 = start.interfaces[i].mesh.x, &x1 = end.interfaces[i].mesh.x;
+    VertexField<Vec3>& w = motion.emplace_back(x0.size());
+    for (const VertexId v : w.ids()) w[v] = (x1[v] - x0[v]) / dt;
+  }
+  return motion;
+}
+
+std::optional<double> smallest_gap(const Scene& scene) {
+  double gap = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+    for (std::size_t j = i + 1; j < scene.interfaces.size(); ++j)
+      gap = std::min(gap, smallest_gap(scene.interfaces[i].mesh, scene.interfaces[j].mesh));
+    if (!scene.is_unbounded)
+      gap = std::min(gap, smallest_gap(scene.interfaces[i].mesh, scene.boundary.mesh));
+  }
+  return std::isfinite(gap) ? std::optional(gap) : std::nullopt;
+}
+
+double largest_tension(const Scene& scene) {
+  double tension = 0.0;
+  for (const Interface& interface : scene.interfaces)
+    tension = std::max(tension, interface.tension);
+  return tension;
+}
+
+}  // namespace
+
+Evolution::Evolution(Scene scene, const EvolutionOptions& options, std::unique_ptr<FlowSolver> flow)
+    : scene_(std::move(scene)),
+      options_(options),
+      flow_(std::move(flow)),
+      correction_(scene_.interfaces.size(), 0.0) {}
+
+EvolutionReport Evolution::prepare() {
+  remesh_interfaces();
+  const FlowReport made = flow_->rebuild(scene_);
+  return {made.ok, made.failure};
+}
+
+EvolutionReport Evolution::solve() {
+  const FlowReport solved = solve_flow(t_);
+  if (!solved.ok) return {false, solved.failure};
+  motion_ = normal_motion(scene_, flow_->velocity(), options_.motion_normal);
+  return {};
+}
+
+EvolutionReport Evolution::advance() {
+  const Scene start = scene_;
+  const std::vector<double> correction = correction_;
+  flow_->mark(scene_);
+  iterations_ = 0;
+  EvolutionReport report;
+  for (double dt = step_length(); dt >= options_.min_step; dt *= 0.5) {
+    report = try_step(dt);
+    if (report.ok) {
+      t_ += dt;
+      dt_ = dt;
+      ++step_;
+      return report;
+    }
+    warnings_.push_back(
+        fmt::format("step {} of length {:.3g} failed: {}", step_ + 1, dt, report.failure));
+    log::warning("{}; trying a shorter one", warnings_.back());
+    scene_ = start;
+    correction_ = correction;
+    const InterfaceMotion rest(mean_motion(start, start, 1.0));
+    if (const FlowReport back = flow_->move_from_mark(start, rest, 0.0); !back.ok)
+      return {false, back.failure};
+    if (const FlowReport again = solve_flow(t_); !again.ok) return {false, again.failure};
+  }
+  report.failure = fmt::format(
+      "no step of length {:.3g} or more can be taken at t = {:.6g}: {}", options_.min_step, t_,
+      report.failure.empty() ? "the interface's edges ask for a shorter one" : report.failure);
+  report.ok = false;
+  return report;
+}
+
+/// Table 1 of hooper2001, the flow at t_k being known: move to the half time, solve there, move the
+/// whole step with that velocity, remesh. Explicit Euler leaves the half time out.
+EvolutionReport Evolution::try_step(double dt) {
+  const Scene start = scene_;
+  if (options_.scheme == TimeScheme::euler) return finish_step(start, motion_, dt);
+
+  move_interfaces(scene_, motion_, 0.5 * dt);
+  if (const FlowReport moved = flow_->move_from_mark(start, motion_, 0.5 * dt); !moved.ok)
+    return {false, moved.failure};
+  if (const FlowReport solved = solve_flow(t_ + 0.5 * dt); !solved.ok)
+    return {false, solved.failure};
+  const InterfaceMotion middle = normal_motion(scene_, flow_->velocity(), options_.motion_normal);
+  return finish_step(start, middle, dt);
+}
+
+EvolutionReport Evolution::finish_step(const Scene& start, const InterfaceMotion& motion,
+                                       double dt) {
+  scene_ = start;
+  move_interfaces(scene_, motion, dt);
+  for (const Interface& interface : scene_.interfaces)
+    if (!is_finite(interface.mesh)) return {false, "an interface vertex left all bounds"};
+  if (is_remesh_due()) {
+    remesh_interfaces();
+    const FlowReport made = flow_->rebuild(scene_);
+    return {made.ok, made.failure};
+  }
+  restore_volumes();
+  const FlowReport moved = flow_->move_from_mark(start, mean_motion(start, scene_, dt), dt);
+  return {moved.ok, moved.failure};
+}
+
+double Evolution::step_length() const {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Interface& interface : scene_.interfaces)
+    shortest = std::min(shortest, shortest_edge(interface.mesh));
+  if (options_.step_edges == StepEdges::mesh)
+    shortest = std::min(shortest, flow_->shortest_mesh_edge());
+  const double tension = largest_tension(scene_);
+  const double capillary = tension > 0.0 ? std::min(1.0, 1.0 / tension) : 1.0;
+  return std::min(options_.max_step, options_.step_factor * capillary * shortest);
+}
+
+void Evolution::remesh_interfaces() {
+  const PhaseTimer timer(times_, "remesh surface");
+  for (std::size_t i = 0; i < scene_.interfaces.size(); ++i) {
+    Interface& interface = scene_.interfaces[i];
+    RemeshOptions options;
+    options.C0 = interface.C0;
+    options.volume = interface.volume;
+    options.edge_floor = options_.edge_floor;
+    const RemeshReport report = remesh(interface.mesh, options);
+    correction_[i] = report.volume_shift;
+    if (report.ok) continue;
+    warnings_.push_back(fmt::format("drop {} was not remeshed at t = {:.6g}: {}", interface.drop,
+                                    t_, report.failure));
+    log::warning("{}", warnings_.back());
+    correction_[i] = std::abs(restore_volume(interface.mesh, interface.volume));
+  }
+}
+
+void Evolution::restore_volumes() {
+  for (std::size_t i = 0; i < scene_.interfaces.size(); ++i)
+    correction_[i] =
+        std::abs(restore_volume(scene_.interfaces[i].mesh, scene_.interfaces[i].volume));
+}
+
+FlowReport Evolution::solve_flow(double t) {
+  FlowReport report = flow_->solve(scene_, t);
+  iterations_ += report.iterations;
+  return report;
+}
+
+HistoryRow Evolution::history_row() const {
+  const PhaseTimer timer(times_, "diagnostics");
+  HistoryRow row;
+  row.step = step_;
+  row.t = t_;
+  row.dt = dt_;
+  row.drops = static_cast<int>(scene_.interfaces.size());
+  for (const Interface& interface : scene_.interfaces)
+    row.surface_nodes += interface.mesh.num_vertices();
+  if (const TetMesh* mesh = flow_->volume_mesh()) {
+    row.nodes = mesh->num_vertices();
+    row.tetrahedra = mesh->num_cells();
+    row.min_dihedral_deg = quality(*mesh).min_dihedral_deg;
+  }
+  row.min_gap = smallest_gap(scene_);
+  row.linear_iterations = iterations_;
+  row.power_in = flow_->power().in;
+  row.dissipation = flow_->power().dissipation;
+  row.surface_rate = surface_energy_rate(scene_, motion_);
+  row.stress = drop_stress(scene_, flow_->velocity());
+  return row;
+}
+
+std::vector<DropRow> Evolution::drop_rows() const {
+  std::vector<DropRow> rows;
+  for (std::size_t i = 0; i < scene_.interfaces.size(); ++i) {
+    const Interface& interface = scene_.interfaces[i];
+    DropRow& row = rows.emplace_back();
+    row.drop = interface.drop;
+    row.parent = interface.parent;
+    row.shape = drop_shape(interface.mesh, scene_.flow.family());
+    row.volume_drift = row.shape.volume / interface.initial_volume - 1.0;
+    row.volume_correction = correction_[i];
+  }
+  return rows;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "meniscus/evolve/options.hpp"
+#include "meniscus/scene/scene.hpp"
+
+namespace meniscus {
+
+/// The velocities of the vertices of each interface of a scene [G R0].
+using InterfaceMotion = std::vector<VertexField<Vec3>>;
+
+/// ẋ = n n·v at every interface vertex (eq. 23 of hooper2001), n the direction of the vertex's area
+/// vector or of the paraboloid fit.
+[[nodiscard]] InterfaceMotion normal_motion(const Scene& scene,
+                                            std::span<const VertexField<Vec3>> velocity,
+                                            MotionNormal normal);
+
+/// x ← x + dt ẋ on every interface.
+void move_interfaces(Scene& scene, const InterfaceMotion& motion, double dt);
+
+/// Σ tension · dS/dt over the interfaces, for vertices that move with `motion`: the rate at which
+/// the interfaces' energy grows [μ_out G² R0³].
+[[nodiscard]] double surface_energy_rate(const Scene& scene, const InterfaceMotion& motion);
+
+}  // namespace meniscus

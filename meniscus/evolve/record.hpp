@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "meniscus/core/vec.hpp"
+#include "meniscus/evolve/drop_shape.hpp"
+
+namespace meniscus {
+
+/// The state at the start of step `step`, as history.csv has it (docs/notation.md).
+struct HistoryRow {
+  std::int64_t step = 0;
+  double t = 0.0, dt = 0.0;  ///< dt: the step that led here; 0 at step 0
+  int drops = 0;
+  std::int64_t surface_nodes = 0;
+  std::optional<std::int64_t> nodes, tetrahedra;
+  std::optional<double> min_gap, min_dihedral_deg;
+  int linear_iterations = 0;  ///< all solves since the row before
+  double power_in = 0.0, dissipation = 0.0, surface_rate = 0.0;
+  Mat3 stress = Mat3::Zero();
+
+  [[nodiscard]] double power_residual() const { return power_in - dissipation - surface_rate; }
+};
+
+struct DropRow {
+  int drop = 0;
+  int parent = -1;
+  double volume_drift = 0.0;       ///< V/V0 − 1
+  double volume_correction = 0.0;  ///< largest shift by the last restoration of volume [R0]
+  DropShape shape;
+};
+
+}  // namespace meniscus

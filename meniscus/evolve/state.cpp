@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/evolve/evolution.hpp"
+
+namespace meniscus {
+namespace {
+
+// Names in a checkpoint; interfaces/<i>/x and faces are also what a `from-run` drop reads.
+std::string interface_path(std::size_t i, const char* name) {
+  return fmt::format("interfaces/{}/{}", i, name);
+}
+
+void save_interface(const Interface& interface, std::size_t i, Archive& archive) {
+  std::vector<double>& x = archive.reals[interface_path(i, "x")];
+  for (const Vec3& p : interface.mesh.x) x.insert(x.end(), {p.x(), p.y(), p.z()});
+  std::vector<std::int64_t>& faces = archive.integers[interface_path(i, "faces")];
+  for (const FaceVertices& f : interface.mesh.faces)
+    faces.insert(faces.end(), {f[0].value, f[1].value, f[2].value});
+  archive.integers[interface_path(i, "ids")] = {interface.drop, interface.parent,
+                                                interface.inside.value, interface.outside.value};
+  archive.reals[interface_path(i, "properties")] = {interface.tension, interface.C0,
+                                                    interface.volume, interface.initial_volume};
+}
+
+const auto& entry(const auto& map, const std::string& name, std::size_t size) {
+  const auto found = map.find(name);
+  if (found == map.end()) reject_input("checkpoint lacks \"{}\"", name);
+  if (size > 0 && found->second.size() != size)
+    reject_input("checkpoint entry \"{}\" has {} values, not {}", name, found->second.size(), size);
+  return found->second;
+}
+
+Interface load_interface(const Archive& archive, std::size_t i) {
+  Interface interface;
+  const auto& x = entry(archive.reals, interface_path(i, "x"), 0);
+  for (std::size_t k = 0; k + 2 < x.size(); k += 3)
+    interface.mesh.x.add(Vec3(x[k], x[k + 1], x[k + 2]));
+  const auto& faces = entry(archive.integers, interface_path(i, "faces"), 0);
+  const auto vertex = [&](std::int64_t v) {
+    if (v < 0 || v >= interface.mesh.num_vertices())
+      reject_input("checkpoint entry \"{}\" names vertex {} of {}", interface_path(i, "faces"), v,
+                   interface.mesh.num_vertices());
+    return VertexId{static_cast<std::int32_t>(v)};
+  };
+  for (std::size_t k = 0; k + 2 < faces.size(); k += 3)
+    interface.mesh.faces.add({vertex(faces[k]), vertex(faces[k + 1]), vertex(faces[k + 2])});
+  const auto& ids = entry(archive.integers, interface_path(i, "ids"), 4);
+  interface.drop = static_cast<int>(ids[0]);
+  interface.parent = static_cast<int>(ids[1]);
+  interface.inside = RegionId{static_cast<std::int32_t>(ids[2])};
+  interface.outside = RegionId{static_cast<std::int32_t>(ids[3])};
+  const auto& properties = entry(archive.reals, interface_path(i, "properties"), 4);
+  interface.tension = properties[0];
+  interface.C0 = properties[1];
+  interface.volume = properties[2];
+  interface.initial_volume = properties[3];
+  return interface;
+}
+
+}  // namespace
+
+void Evolution::save(Archive& archive) const {
+  archive.reals["evolution/time"] = {t_, dt_};
+  archive.integers["evolution/step"] = {step_, iterations_};
+  archive.integers["evolution/interfaces"] = {static_cast<std::int64_t>(scene_.interfaces.size())};
+  archive.reals["evolution/corrections"] = correction_;
+  for (std::size_t i = 0; i < scene_.interfaces.size(); ++i)
+    save_interface(scene_.interfaces[i], i, archive);
+  flow_->save(archive);
+}
+
+void Evolution::load(const Archive& archive) {
+  const auto& time = entry(archive.reals, "evolution/time", 2);
+  t_ = time[0];
+  dt_ = time[1];
+  const auto& step = entry(archive.integers, "evolution/step", 2);
+  step_ = step[0];
+  iterations_ = static_cast<int>(step[1]);
+  const auto count =
+      static_cast<std::size_t>(entry(archive.integers, "evolution/interfaces", 1)[0]);
+  scene_.interfaces.clear();
+  for (std::size_t i = 0; i < count; ++i) scene_.interfaces.push_back(load_interface(archive, i));
+  correction_ = entry(archive.reals, "evolution/corrections", count);
+  flow_->load(archive, scene_);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,114 @@
+#include "meniscus/flow/fem/constraints.hpp"
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace meniscus::fem {
+namespace {
+
+// Normals closer than this to the span of the others add nothing; 1e-6 is far above the roundoff of
+// a normal and far below any corner one would draw.
+constexpr double dependent = 1e-6;
+
+/// Orthonormal basis of the span of the normals.
+std::vector<Vec3> orthonormalized(std::span<const Vec3> normals) {
+  std::vector<Vec3> basis;
+  for (Vec3 n : normals) {
+    for (const Vec3& e : basis) n -= e.dot(n) * e;
+    if (n.norm() > dependent) basis.push_back(n.normalized());
+  }
+  return basis;
+}
+
+/// The axis, among those not taken, that a direction is nearest to.
+std::size_t nearest_axis(const Vec3& direction, const std::array<bool, 3>& is_taken) {
+  std::size_t best = 3;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto component = static_cast<Eigen::Index>(k);
+    if (!is_taken[k] && (best == 3 || std::abs(direction[component]) >
+                                          std::abs(direction[static_cast<Eigen::Index>(best)])))
+      best = k;
+  }
+  return best;
+}
+
+/// Fills the columns of the frame that are not taken, as near to the coordinate axes as they can.
+void complete(Mat3& frame, std::array<bool, 3> is_taken) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (is_taken[k]) continue;
+    Vec3 axis = Vec3::Zero();
+    double longest = -1.0;
+    for (Eigen::Index unit = 0; unit < 3; ++unit) {
+      Vec3 candidate = Vec3::Unit(unit);
+      for (std::size_t j = 0; j < 3; ++j)
+        if (is_taken[j]) {
+          const Vec3 taken = frame.col(static_cast<Eigen::Index>(j));
+          candidate -= taken.dot(candidate) * taken;
+        }
+      // 0.5: its own axis unless that is nearly spanned already.
+      const double preference = unit == static_cast<Eigen::Index>(k) ? 0.5 : 0.0;
+      if (candidate.norm() + preference > longest) {
+        longest = candidate.norm() + preference;
+        axis = candidate.normalized();
+      }
+    }
+    frame.col(static_cast<Eigen::Index>(k)) = axis;
+    is_taken[k] = true;
+  }
+}
+
+bool is_axis_aligned(const std::vector<Vec3>& basis) {
+  for (const Vec3& e : basis)
+    if (e.cwiseAbs().maxCoeff() < 1.0 - 1e-14) return false;
+  return true;
+}
+
+}  // namespace
+
+Vec3 NodeConstraint::fixed_part(const Vec3& x) const {
+  Vec3 local = frame.transpose() * x;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!is_fixed[k]) local[static_cast<Eigen::Index>(k)] = 0.0;
+  return frame * local;
+}
+
+NodeConstraint& Constraints::at(TetVertexId v) {
+  if (index_[v] < 0) {
+    index_[v] = static_cast<std::int32_t>(constraints_.size());
+    constraints_.push_back({});
+  }
+  NodeConstraint& constraint = constraints_[static_cast<std::size_t>(index_[v])];
+  constraint = NodeConstraint{};
+  constraint.vertex = v;
+  return constraint;
+}
+
+void Constraints::fix(TetVertexId v, const Vec3& value) {
+  NodeConstraint& constraint = at(v);
+  constraint.is_fixed = {true, true, true};
+  constraint.value = value;
+}
+
+void Constraints::forbid_penetration(TetVertexId v, std::span<const Vec3> normals) {
+  const std::vector<Vec3> basis = orthonormalized(normals);
+  NodeConstraint& constraint = at(v);
+  if (basis.size() == 3) {
+    constraint.is_fixed = {true, true, true};
+    return;
+  }
+  const bool is_aligned = is_axis_aligned(basis);
+  for (const Vec3& e : basis) {
+    const std::size_t slot = nearest_axis(e, constraint.is_fixed);
+    constraint.is_fixed[slot] = true;
+    if (!is_aligned) constraint.frame.col(static_cast<Eigen::Index>(slot)) = e;
+  }
+  if (!is_aligned) complete(constraint.frame, constraint.is_fixed);
+}
+
+void Constraints::impose(Field<TetVertexId, Vec3>& v) const {
+  for (const NodeConstraint& constraint : constraints_)
+    v[constraint.vertex] += constraint.fixed_part(constraint.value - v[constraint.vertex]);
+}
+
+}  // namespace meniscus::fem

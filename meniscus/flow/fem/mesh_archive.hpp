@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "meniscus/core/archive.hpp"
+#include "meniscus/flow/fem/stokes_problem.hpp"
+
+namespace meniscus::fem {
+
+/// A tetrahedral mesh under names that begin with `prefix`, bit for bit.
+void save(const TetMesh& mesh, Archive& archive, const std::string& prefix);
+/// Throws InvalidInput when arrays are missing or do not fit each other.
+[[nodiscard]] TetMesh load_mesh(const Archive& archive, const std::string& prefix);
+
+void save(const StokesState& state, Archive& archive, const std::string& prefix);
+[[nodiscard]] StokesState load_state(const Archive& archive, const std::string& prefix);
+
+}  // namespace meniscus::fem

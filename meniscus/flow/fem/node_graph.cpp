@@ -1,0 +1,84 @@
+#include "meniscus/flow/fem/node_graph.hpp"
+
+#include <algorithm>
+
+#include "meniscus/core/error.hpp"
+
+namespace meniscus::fem {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// For each node the places in `cell_nodes` that name it.
+struct Incidence {
+  std::vector<std::int32_t> first, place;
+};
+
+Incidence incidence(const NodeTable& table) {
+  Incidence result;
+  result.first.assign(at(table.num_nodes) + 1, 0);
+  for (const std::int32_t node : table.cell_nodes) ++result.first[at(node) + 1];
+  for (std::size_t i = 0; i < at(table.num_nodes); ++i) result.first[i + 1] += result.first[i];
+  result.place.resize(table.cell_nodes.size());
+  std::vector<std::int32_t> next(result.first.begin(), result.first.end() - 1);
+  for (std::size_t k = 0; k < table.cell_nodes.size(); ++k)
+    result.place[at(next[at(table.cell_nodes[k])]++)] = static_cast<std::int32_t>(k);
+  return result;
+}
+
+}  // namespace
+
+NodeGraph node_graph(const NodeTable& rows, const NodeTable& columns) {
+  MENISCUS_ASSERT(rows.num_cells() == columns.num_cells(), "{} {}", rows.num_cells(),
+                  columns.num_cells());
+  const Incidence around = incidence(rows);
+  const std::int32_t width = columns.nodes_per_cell;
+  NodeGraph graph;
+  graph.num_columns = columns.num_nodes;
+  graph.row_start.reserve(at(rows.num_nodes) + 1);
+  graph.row_start.push_back(0);
+  graph.columns.reserve(at(rows.num_nodes) * 16);  // about 15 neighbours and itself
+  graph.position.resize(rows.cell_nodes.size() * at(width));
+  std::vector<std::int32_t> index_of(at(columns.num_nodes), -1);
+  for (std::int32_t i = 0; i < rows.num_nodes; ++i) {
+    const std::int32_t start = graph.row_start.back();
+    const std::span<const std::int32_t> places =
+        std::span(around.place)
+            .subspan(at(around.first[at(i)]), at(around.first[at(i) + 1] - around.first[at(i)]));
+    for (const std::int32_t place : places)
+      for (const std::int32_t j : columns.of(CellId{place / rows.nodes_per_cell}))
+        if (index_of[at(j)] < start) {  // not yet seen in this row
+          index_of[at(j)] = start;
+          graph.columns.push_back(j);
+        }
+    std::sort(graph.columns.begin() + start, graph.columns.end());
+    const auto end = static_cast<std::int32_t>(graph.columns.size());
+    for (std::int32_t k = start; k < end; ++k) index_of[at(graph.columns[at(k)])] = k;
+    for (const std::int32_t place : places) {
+      const auto nodes = columns.of(CellId{place / rows.nodes_per_cell});
+      for (std::size_t b = 0; b < at(width); ++b)
+        graph.position[at(place) * at(width) + b] = index_of[at(nodes[b])];
+    }
+    graph.row_start.push_back(end);
+  }
+  return graph;
+}
+
+ScalarPattern expanded(const NodeGraph& graph, std::int32_t block_rows,
+                       std::int32_t block_columns) {
+  ScalarPattern pattern;
+  pattern.row_start.reserve(at(graph.num_rows() * block_rows) + 1);
+  pattern.row_start.push_back(0);
+  pattern.columns.resize(graph.num_entries() * at(block_rows * block_columns));
+  std::size_t k = 0;
+  for (std::int32_t i = 0; i < graph.num_rows(); ++i)
+    for (std::int32_t a = 0; a < block_rows; ++a) {
+      for (std::int32_t e = graph.row_start[at(i)]; e < graph.row_start[at(i) + 1]; ++e)
+        for (std::int32_t b = 0; b < block_columns; ++b)
+          pattern.columns[k++] = graph.columns[at(e)] * block_columns + b;
+      pattern.row_start.push_back(static_cast<std::int32_t>(k));
+    }
+  return pattern;
+}
+
+}  // namespace meniscus::fem

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "meniscus/flow/fem/spaces.hpp"
+
+namespace meniscus::fem {
+
+/// The sparsity of a bilinear form: which column nodes share a cell with each row node, in rising
+/// order, and where in that list each pair of a cell's local nodes belongs, so that assembly never
+/// searches.
+struct NodeGraph {
+  std::int32_t num_columns = 0;
+  std::vector<std::int32_t> row_start, columns;
+  /// Index into `columns` of local pair (a, b) of cell c, at (c·rows_per_cell + a)·columns_per_cell
+  /// + b.
+  std::vector<std::int32_t> position;
+
+  [[nodiscard]] std::int32_t num_rows() const {
+    return static_cast<std::int32_t>(row_start.size()) - 1;
+  }
+  [[nodiscard]] std::size_t num_entries() const { return columns.size(); }
+};
+[[nodiscard]] NodeGraph node_graph(const NodeTable& rows, const NodeTable& columns);
+
+/// The graph with every entry replaced by a dense block, as scalar compressed rows. The entry
+/// (i, k) of the graph, k = its index in `columns`, has its block's row a starting at
+/// row_start[rows·i + a] + block_columns·(k − graph.row_start[i]).
+struct ScalarPattern {
+  std::vector<std::int32_t> row_start, columns;
+};
+[[nodiscard]] ScalarPattern expanded(const NodeGraph& graph, std::int32_t block_rows,
+                                     std::int32_t block_columns);
+
+}  // namespace meniscus::fem

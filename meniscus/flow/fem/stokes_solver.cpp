@@ -1,0 +1,175 @@
+#include "meniscus/flow/fem/stokes_solver.hpp"
+
+#include <cmath>
+
+#include "meniscus/core/log.hpp"
+#include "meniscus/flow/fem/stokes_residual.hpp"
+
+namespace meniscus::fem {
+namespace {
+
+// A direct solve of more vertices needs over a gigabyte (4.1 GB at 47 000 vertices).
+constexpr std::int32_t most_vertices_for_mumps = 20000;
+// One for Stokes flow; more where MINRES's norm or a direct solve's roundoff leaves something.
+constexpr int most_newton_steps = 6;
+
+linear::SaddleMethod method(LinearSolver which) {
+  switch (which) {
+    case LinearSolver::block:
+      return linear::SaddleMethod::block;
+    case LinearSolver::paper_gmres:
+      return linear::SaddleMethod::paper_gmres;
+    case LinearSolver::minres:
+      return linear::SaddleMethod::minres;
+    case LinearSolver::mumps:
+      break;
+  }
+  return linear::SaddleMethod::mumps;
+}
+
+/// The chosen solver, then the others.
+std::vector<LinearSolver> solvers_in_order(LinearSolver first, std::int32_t num_vertices) {
+  std::vector<LinearSolver> order = {first};
+  for (const LinearSolver next :
+       {LinearSolver::block, LinearSolver::minres, LinearSolver::paper_gmres, LinearSolver::mumps})
+    if (next != first && (next != LinearSolver::mumps || num_vertices < most_vertices_for_mumps))
+      order.push_back(next);
+  return order;
+}
+
+/// −R with the fixed components zero, in the frames of the unknowns.
+std::vector<double> right_hand_side(const StokesResidual& residual,
+                                    const Constraints& constraints) {
+  std::vector<double> values;
+  values.reserve(3 * static_cast<std::size_t>(residual.momentum.size()) +
+                 residual.continuity.size());
+  for (const Vec3& r : residual.momentum) values.insert(values.end(), {-r[0], -r[1], -r[2]});
+  for (const double r : residual.continuity) values.push_back(-r);
+  for (const NodeConstraint& constraint : constraints.all()) {
+    const Vec3 local = constraint.frame.transpose() * residual.momentum[constraint.vertex];
+    for (std::size_t k = 0; k < 3; ++k)
+      values[3 * static_cast<std::size_t>(constraint.vertex.value) + k] =
+          constraint.is_fixed[k] ? 0.0 : -local[static_cast<Eigen::Index>(k)];
+  }
+  return values;
+}
+
+/// u + δ, δ being in the frames of the unknowns.
+void add_step(StokesState& state, const Constraints& constraints, std::span<const double> step) {
+  const auto step_at = [&](TetVertexId v) {
+    const std::size_t i = 3 * static_cast<std::size_t>(v.value);
+    return Vec3(step[i], step[i + 1], step[i + 2]);
+  };
+  for (const TetVertexId v : state.v.ids()) {
+    const NodeConstraint* constraint = constraints.find(v);
+    if (constraint == nullptr) state.v[v] += step_at(v);
+    if (constraint == nullptr) continue;
+    const Vec3 moved = constraint->frame * step_at(v);
+    state.v[v] += moved - constraint->fixed_part(moved);
+  }
+  const std::size_t first = 3 * static_cast<std::size_t>(state.v.size());
+  for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] += step[first + i];
+}
+
+/// The residual that the data alone cause: fixed velocities given, all else at rest.
+double reference_residual(const StokesProblem& problem, const PressureSpace& pressure) {
+  StokesState rest{Field<TetVertexId, Vec3>(problem.mesh.num_vertices(), Vec3::Zero()),
+                   std::vector<double>(pressure.vertex.size(), 0.0)};
+  problem.constraints.impose(rest.v);
+  return free_norm(residual(problem, pressure, rest), problem.constraints);
+}
+
+}  // namespace
+
+StokesSolver::StokesSolver(const TetMesh& mesh, const Options& options)
+    : options_(options),
+      num_vertices_(mesh.num_vertices()),
+      pressure_(fem::pressure_space(mesh)),
+      jacobian_(mesh, pressure_) {}
+
+StokesState StokesSolver::state_at_rest() const {
+  return {Field<TetVertexId, Vec3>(num_vertices_, Vec3::Zero()),
+          std::vector<double>(pressure_.vertex.size(), 0.0)};
+}
+
+linear::SaddleSolver& StokesSolver::linear_solver(LinearSolver which) {
+  const auto found = linear_solvers_.find(which);
+  if (found != linear_solvers_.end()) return found->second;
+  return linear_solvers_
+      .emplace(which, linear::SaddleSolver(linear::Communicator::self(),
+                                           {.method = method(which),
+                                            .max_iterations = options_.max_iterations,
+                                            .petsc_options = options_.petsc_options}))
+      .first->second;
+}
+
+StokesReport StokesSolver::solve(const StokesProblem& problem, StokesState& state,
+                                 linear::Preconditioner preconditioner, PhaseTimes& times) {
+  problem.constraints.impose(state.v);
+  double reference = 0.0;
+  {
+    const PhaseTimer timer(times, "assemble");
+    reference = reference_residual(problem, pressure_);
+    jacobian_.assemble(problem);
+  }
+  StokesReport report;
+  report.reference = reference;
+  if (!std::isfinite(reference)) {
+    report.ok = false;
+    report.failure = "the data of the flow problem are not finite";
+    return report;
+  }
+  int iterations = 0;
+  std::vector<LinearSolver> order = solvers_in_order(options_.linear, problem.mesh.num_vertices());
+  if (preconditioner == linear::Preconditioner::kept) order.insert(order.begin(), order.front());
+  for (const LinearSolver which : order) {
+    StokesState attempt = state;
+    report = solve_with(which, problem, attempt, reference, preconditioner, times);
+    preconditioner = linear::Preconditioner::fresh;
+    iterations += report.iterations;
+    report.iterations = iterations;
+    if (report.ok) {
+      state = std::move(attempt);
+      return report;
+    }
+    log::warning("linear solver {}: {}", linear::name(method(which)), report.failure);
+  }
+  return report;
+}
+
+StokesReport StokesSolver::solve_with(LinearSolver which, const StokesProblem& problem,
+                                      StokesState& state, double reference,
+                                      linear::Preconditioner preconditioner, PhaseTimes& times) {
+  StokesReport report;
+  report.solver = which;
+  report.reference = reference;
+  const double target = options_.rtol * reference;
+  std::vector<double> step(3 * static_cast<std::size_t>(state.v.size()) + state.p.size());
+  for (; report.newton_steps <= most_newton_steps; ++report.newton_steps) {
+    const StokesResidual now = residual(problem, pressure_, state);
+    report.residual = free_norm(now, problem.constraints);
+    // 2: the residual that a Krylov method updates and the true one differ by roundoff.
+    if (report.residual <= 2.0 * target) return report;
+    if (report.newton_steps == most_newton_steps) break;
+    const PhaseTimer timer(times, "solve");
+    std::ranges::fill(step, 0.0);
+    const linear::LinearReport linear_report =
+        linear_solver(which).solve(jacobian_.system(), right_hand_side(now, problem.constraints),
+                                   step, target / report.residual, preconditioner);
+    report.iterations += linear_report.iterations;
+    report.linear_residuals = linear_report.residuals;
+    if (!linear_report.converged) {
+      report.ok = false;
+      report.failure = linear_report.reason;
+      return report;
+    }
+    add_step(state, problem.constraints, step);
+    preconditioner = linear::Preconditioner::kept;
+  }
+  report.ok = false;
+  report.failure = fmt::format("residual {:.1e} of {:.1e} after {} steps", report.residual,
+                               reference, most_newton_steps);
+  return report;
+}
+
+}  // namespace meniscus::fem

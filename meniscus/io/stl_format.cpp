@@ -1,0 +1,124 @@
+#include <cstdint>
+#include <map>
+
+#include <Eigen/Geometry>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/io/binary.hpp"
+#include "meniscus/io/surface_formats.hpp"
+#include "meniscus/io/text_scanner.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+
+namespace meniscus::io {
+namespace {
+
+// Binary STL: 80 bytes of any text, the number of triangles, then 50 bytes for each: normal and
+// three corners as 12 floats, and 2 bytes without meaning.
+constexpr std::size_t header_size = 80, preamble_size = 84, facet_size = 50, normal_size = 12;
+
+/// Triangles whose equal corners become one point.
+class CornerMerger {
+ public:
+  void add_corner(const Vec3& x) {
+    const std::array<double, 3> key = {x[0] + 0.0, x[1] + 0.0, x[2] + 0.0};  // −0 is 0
+    const auto next = static_cast<std::int64_t>(triangles_.points.size());
+    const auto [found, is_new] = point_.try_emplace(key, next);
+    if (is_new) triangles_.points.push_back(x);
+    corners_[num_corners_++ % 3] = found->second;
+  }
+  [[nodiscard]] int num_corners() const { return num_corners_; }
+  void finish_triangle(int tag) {
+    triangles_.corners.push_back(corners_);
+    triangles_.tags.push_back(tag);
+    num_corners_ = 0;
+  }
+  [[nodiscard]] RawTriangles take() { return std::move(triangles_); }
+
+ private:
+  RawTriangles triangles_;
+  std::map<std::array<double, 3>, std::int64_t> point_;
+  std::array<std::int64_t, 3> corners_ = {};
+  int num_corners_ = 0;
+};
+
+/// Whether the length is that of a binary file. (Some of them begin with "solid" all the same.)
+bool is_binary(std::string_view bytes) {
+  if (bytes.size() < preamble_size) return false;
+  const auto count = load<std::uint32_t>(bytes.substr(header_size), std::endian::little);
+  return bytes.size() == preamble_size + facet_size * std::size_t{count};
+}
+
+RawTriangles parse_binary(std::string_view bytes) {
+  CornerMerger merger;
+  for (std::size_t facet = preamble_size; facet < bytes.size(); facet += facet_size) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      Vec3 x;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t at = facet + normal_size + (3 * corner + i) * sizeof(float);
+        x[static_cast<Eigen::Index>(i)] = load<float>(bytes.substr(at), std::endian::little);
+      }
+      merger.add_corner(x);
+    }
+    merger.finish_triangle(0);
+  }
+  return merger.take();
+}
+
+RawTriangles parse_ascii(TextScanner& scanner) {
+  CornerMerger merger;
+  int num_solids = 0;
+  bool is_solid_open = false;
+  while (scanner.next_line()) {
+    const std::string_view keyword = scanner.words()[0];
+    if (keyword == "solid") {
+      ++num_solids;
+      is_solid_open = true;
+    } else if (keyword == "endsolid") {
+      is_solid_open = false;
+    } else if (keyword == "vertex") {
+      merger.add_corner(scanner.point(1));
+    } else if (keyword == "endfacet") {
+      if (merger.num_corners() != 3) {
+        scanner.fail("a face of {} corners; only triangles are read", merger.num_corners());
+      }
+      merger.finish_triangle(num_solids - 1);
+    } else if (keyword != "facet" && keyword != "outer" && keyword != "endloop") {
+      scanner.fail("`{}` is no keyword of STL", printable(keyword));
+    }
+  }
+  if (is_solid_open) scanner.fail("the file ends where `endsolid` is expected");
+  return merger.take();
+}
+
+void store_point(std::string& bytes, const Vec3& x) {
+  for (const double coordinate : x) store(bytes, static_cast<float>(coordinate));
+}
+
+}  // namespace
+
+RawTriangles parse_stl(const std::filesystem::path& path, std::string_view bytes) {
+  if (is_binary(bytes)) return parse_binary(bytes);
+  TextScanner scanner(path, bytes);
+  TextScanner first = scanner;
+  if (!first.next_line() || first.words()[0] != "solid") {
+    reject_input(
+        "{}: not an STL file, or cut short: neither begins with `solid` nor has the length "
+        "of a binary one",
+        path.string());
+  }
+  return parse_ascii(scanner);
+}
+
+std::string format_stl(const SurfaceMesh& mesh) {
+  std::string bytes = "STL, binary, written by Meniscus";
+  bytes.resize(header_size, '\0');
+  store(bytes, static_cast<std::uint32_t>(mesh.num_faces()));
+  for (const FaceId f : mesh.faces.ids()) {
+    store_point(bytes, face_area_vector(mesh, f).stableNormalized());
+    for (const VertexId v : mesh.faces[f]) store_point(bytes, mesh.x[v]);
+    store(bytes, std::uint16_t{0});
+  }
+  return bytes;
+}
+
+}  // namespace meniscus::io

@@ -1,0 +1,129 @@
+#include "meniscus/io/surface_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <span>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/io/atomic_file.hpp"
+#include "meniscus/io/surface_formats.hpp"
+#include "meniscus/io/vtk_file.hpp"
+
+namespace meniscus::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lower_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+[[noreturn]] void reject_extension(const fs::path& path) {
+  reject_input("{}: unknown kind of surface file; known are .stl, .ply, .obj, .off and .vtp",
+               path.string());
+}
+
+/// Tags of the cell array `patch`, if the file has one.
+std::vector<int> patch_tags(const fs::path& path, const MeshData& data) {
+  const auto patch = std::ranges::find(data.on_cells, "patch", &NamedArray::name);
+  std::vector<int> tags;
+  if (patch == data.on_cells.end()) return tags;
+  if (patch->components != 1)
+    reject_input("{}: the cell array `patch` is no scalar", path.string());
+  for (const double value : patch->values) {
+    // 2³¹: what an int holds
+    if (value != std::floor(value) || value < 0.0 || value >= 0x1p31) {
+      reject_input("{}: patch = {} is not a whole number from 0 on", path.string(), value);
+    }
+    tags.push_back(static_cast<int>(value));
+  }
+  return tags;
+}
+
+RawTriangles parse_vtp(const fs::path& path) {
+  const SurfaceFrame frame = read_vtp(path);
+  RawTriangles triangles;
+  triangles.points.assign(frame.mesh.x.begin(), frame.mesh.x.end());
+  for (const FaceVertices& f : frame.mesh.faces) {
+    triangles.corners.push_back({f[0].value, f[1].value, f[2].value});
+  }
+  triangles.tags = patch_tags(path, frame.data);
+  return triangles;
+}
+
+RawTriangles parse(const fs::path& path) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".vtp") return parse_vtp(path);
+  if (extension == ".stl") return parse_stl(path, read_file(path));
+  if (extension == ".ply") return parse_ply(path, read_file(path));
+  if (extension == ".obj") return parse_obj(path, read_file(path));
+  if (extension == ".off") return parse_off(path, read_file(path));
+  reject_extension(path);
+}
+
+void check(const fs::path& path, const RawTriangles& triangles) {
+  if (triangles.corners.empty()) reject_input("{}: holds no triangles", path.string());
+  const auto num_points = static_cast<std::int64_t>(triangles.points.size());
+  for (std::size_t f = 0; f < triangles.corners.size(); ++f) {
+    for (const std::int64_t corner : triangles.corners[f]) {
+      if (corner < 0 || corner >= num_points) {
+        reject_input("{}: triangle {} has the point {}; the file has {} points", path.string(), f,
+                     corner, num_points);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < triangles.points.size(); ++i) {
+    if (!triangles.points[i].allFinite()) {
+      reject_input("{}: point {} has a coordinate that is not finite", path.string(), i);
+    }
+  }
+}
+
+/// The checked triangles as a mesh, without the points that none of them uses.
+TaggedSurface to_surface(const RawTriangles& triangles) {
+  TaggedSurface surface;
+  std::vector<bool> is_used(triangles.points.size(), false);
+  for (const auto& corners : triangles.corners) {
+    for (const std::int64_t corner : corners) is_used[static_cast<std::size_t>(corner)] = true;
+  }
+  std::vector<VertexId> point_to_vertex(triangles.points.size());
+  for (std::size_t i = 0; i < triangles.points.size(); ++i) {
+    if (is_used[i]) point_to_vertex[i] = surface.mesh.x.add(triangles.points[i]);
+  }
+  for (std::size_t f = 0; f < triangles.corners.size(); ++f) {
+    FaceVertices face;
+    std::ranges::transform(triangles.corners[f], face.begin(), [&](std::int64_t corner) {
+      return point_to_vertex[static_cast<std::size_t>(corner)];
+    });
+    surface.mesh.faces.add(face);
+    surface.tag.add(triangles.tags.empty() ? 0 : triangles.tags[f]);
+  }
+  return surface;
+}
+
+}  // namespace
+
+TaggedSurface read_surface(const fs::path& path) {
+  const RawTriangles triangles = parse(path);
+  check(path, triangles);
+  return to_surface(triangles);
+}
+
+void write_surface(const fs::path& path, const SurfaceMesh& mesh) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".vtp") {
+    const SurfaceMesh* const surfaces[] = {&mesh};
+    return write_vtp(path, surfaces, {}, 0.0);
+  }
+  if (extension == ".stl") return write_file(path, format_stl(mesh));
+  if (extension == ".ply") return write_file(path, format_ply(mesh));
+  if (extension == ".obj") return write_file(path, format_obj(mesh));
+  if (extension == ".off") return write_file(path, format_off(mesh));
+  reject_extension(path);
+}
+
+}  // namespace meniscus::io

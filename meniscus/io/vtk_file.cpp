@@ -1,0 +1,145 @@
+#include "meniscus/io/vtk_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/io/atomic_file.hpp"
+
+namespace meniscus::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+vtkNew<vtkDoubleArray> to_vtk(const NamedArray& array) {
+  vtkNew<vtkDoubleArray> result;
+  result->SetName(array.name.c_str());
+  result->SetNumberOfComponents(array.components);
+  result->SetNumberOfTuples(static_cast<vtkIdType>(array.values.size()) / array.components);
+  std::ranges::copy(array.values, result->GetPointer(0));
+  return result;
+}
+
+void add_arrays(vtkFieldData& fields, std::span<const NamedArray> arrays,
+                [[maybe_unused]] vtkIdType num_elements) {
+  for (const NamedArray& array : arrays) {
+    MENISCUS_ASSERT(static_cast<vtkIdType>(array.values.size()) == num_elements * array.components,
+                    "array {} has {} values for {} elements", array.name, array.values.size(),
+                    num_elements);
+    fields.AddArray(to_vtk(array));
+  }
+}
+
+/// The field by which VTK's tools know the time of a file that stands alone.
+void add_time(vtkDataObject& data, double t) {
+  data.GetFieldData()->AddArray(to_vtk({.name = "TimeValue", .components = 1, .values = {t}}));
+}
+
+/// The bytes of the file, compressed; through a text in memory, because VTK's own files swallow
+/// the errors of a full disk.
+template <class Writer>
+std::string to_xml(vtkDataObject& data) {
+  vtkNew<Writer> writer;
+  writer->SetInputData(&data);
+  writer->SetCompressorTypeToZLib();
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->WriteToOutputStringOn();
+  if (writer->Write() != 1) throw RunFailure("VTK could not write a mesh");
+  return writer->GetOutputString();
+}
+
+vtkNew<vtkPolyData> to_poly_data(std::span<const SurfaceMesh* const> surfaces,
+                                 const MeshData& data) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> faces;
+  faces->Use32BitStorage();  // ids of ours have 32 bits
+  vtkIdType first = 0;
+  for (const SurfaceMesh* surface : surfaces) {
+    for (const Vec3& x : surface->x) points->InsertNextPoint(x.data());
+    for (const FaceVertices& f : surface->faces) {
+      faces->InsertNextCell({first + f[0].value, first + f[1].value, first + f[2].value});
+    }
+    first += surface->num_vertices();
+  }
+  vtkNew<vtkPolyData> poly;
+  poly->SetPoints(points);
+  poly->SetPolys(faces);
+  add_arrays(*poly->GetPointData(), data.on_vertices, poly->GetNumberOfPoints());
+  add_arrays(*poly->GetCellData(), data.on_cells, poly->GetNumberOfCells());
+  return poly;
+}
+
+/// Values at the vertices, given to every corner of every cell.
+NamedArray spread_to_corners(const TetMesh& mesh, const NamedArray& array) {
+  NamedArray result{.name = array.name, .components = array.components, .values = {}};
+  for (const CellVertices& cell : mesh.cells) {
+    for (const TetVertexId v : cell) {
+      const auto first = array.values.begin() + std::ptrdiff_t{v.value} * array.components;
+      result.values.insert(result.values.end(), first, first + array.components);
+    }
+  }
+  return result;
+}
+
+/// The cells; with corners of their own, point 4 c + k is corner k of cell c.
+vtkNew<vtkUnstructuredGrid> to_grid(const TetMesh& mesh, bool has_own_corners) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> cells;
+  cells->Use32BitStorage();
+  if (!has_own_corners) {
+    for (const Vec3& x : mesh.x) points->InsertNextPoint(x.data());
+  }
+  for (const CellVertices& cell : mesh.cells) {
+    std::array<vtkIdType, 4> corners;
+    std::ranges::transform(cell, corners.begin(), [&](TetVertexId v) -> vtkIdType {
+      return has_own_corners ? points->InsertNextPoint(mesh.x[v].data()) : v.value;
+    });
+    cells->InsertNextCell(4, corners.data());
+  }
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(points);
+  grid->SetCells(VTK_TETRA, cells);
+  return grid;
+}
+
+}  // namespace
+
+void write_vtp(const fs::path& path, std::span<const SurfaceMesh* const> surfaces,
+               const MeshData& data, double t) {
+  const vtkNew<vtkPolyData> poly = to_poly_data(surfaces, data);
+  add_time(*poly, t);
+  write_file(path, to_xml<vtkXMLPolyDataWriter>(*poly));
+}
+
+void write_vtu(const fs::path& path, const TetMesh& mesh, const MeshData& data, double t,
+               std::span<const NamedArray> on_corners) {
+  const bool has_own_corners = !on_corners.empty();
+  const vtkNew<vtkUnstructuredGrid> grid = to_grid(mesh, has_own_corners);
+  std::vector<NamedArray> at_points = data.on_vertices;
+  if (has_own_corners) {
+    for (NamedArray& array : at_points) array = spread_to_corners(mesh, array);
+    at_points.insert(at_points.end(), on_corners.begin(), on_corners.end());
+  }
+  add_arrays(*grid->GetPointData(), at_points, grid->GetNumberOfPoints());
+  add_arrays(*grid->GetCellData(), data.on_cells, grid->GetNumberOfCells());
+  add_time(*grid, t);
+  write_file(path, to_xml<vtkXMLUnstructuredGridWriter>(*grid));
+}
+
+}  // namespace meniscus::io

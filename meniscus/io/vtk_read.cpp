@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/io/atomic_file.hpp"
+#include "meniscus/io/vtk_file.hpp"
+#include "meniscus/io/vtk_messages.hpp"
+
+namespace meniscus::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether each array of numbers says of which type it is. VTK 9.1 follows a null pointer where an
+/// array among the field data does not.
+bool have_arrays_types(std::string_view bytes) {
+  static constexpr std::array types = {"Int8",   "UInt8", "Int16",  "UInt16",  "Int32",
+                                       "UInt32", "Int64", "UInt64", "Float32", "Float64"};
+  const std::string_view head = bytes.substr(0, bytes.find("<AppendedData"));
+  for (std::size_t at = head.find("<DataArray"); at != std::string_view::npos;
+       at = head.find("<DataArray", at + 1)) {
+    const std::string_view element = head.substr(at, head.find('>', at) - at);
+    const bool has_type = std::ranges::any_of(types, [&](std::string_view type) {
+      return element.find(fmt::format("type=\"{}\"", type)) != std::string_view::npos;
+    });
+    if (!has_type) return false;
+  }
+  return true;
+}
+
+[[noreturn]] void reject_foreign(const fs::path& path) {
+  reject_input("{}: not a surface file of VTK (.vtp), or corrupt", path.string());
+}
+
+vtkSmartPointer<vtkPolyData> read_poly_data(const fs::path& path) {
+  const std::string bytes = read_file(path);
+  if (!have_arrays_types(bytes)) reject_foreign(path);
+  const VtkMessages messages;
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->ReadFromInputStringOn();
+  reader->SetInputString(bytes);
+  try {
+    reader->Update();
+  } catch (const std::exception&) {  // an absurd length asks for more memory than there is
+    reject_foreign(path);
+  }
+  if (messages.any() || reader->GetErrorCode() != 0 || reader->GetOutput() == nullptr) {
+    reject_foreign(path);
+  }
+  return reader->GetOutput();
+}
+
+VertexField<Vec3> read_points(vtkPolyData& poly) {
+  VertexField<Vec3> x;
+  for (vtkIdType i = 0; i < poly.GetNumberOfPoints(); ++i) {
+    const double* point = poly.GetPoint(i);
+    x.add(Vec3(point[0], point[1], point[2]));
+  }
+  return x;
+}
+
+FaceField<FaceVertices> read_faces(const fs::path& path, vtkPolyData& poly) {
+  if (poly.GetNumberOfStrips() + poly.GetNumberOfLines() + poly.GetNumberOfVerts() > 0) {
+    reject_input("{}: holds strips, lines or points; only triangles are read", path.string());
+  }
+  FaceField<FaceVertices> faces;
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType c = 0; c < poly.GetPolys()->GetNumberOfCells(); ++c) {
+    poly.GetPolys()->GetCellAtId(c, corners);
+    if (corners->GetNumberOfIds() != 3) {
+      reject_input("{}: face {} has {} corners; only triangles are read", path.string(), c,
+                   corners->GetNumberOfIds());
+    }
+    FaceVertices face;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const vtkIdType corner = corners->GetId(static_cast<vtkIdType>(k));
+      if (corner < 0 || corner >= poly.GetNumberOfPoints()) {
+        reject_input("{}: face {} has the point {}; the file has {} points", path.string(), c,
+                     corner, poly.GetNumberOfPoints());
+      }
+      face[k] = VertexId{static_cast<std::int32_t>(corner)};
+    }
+    faces.add(face);
+  }
+  return faces;
+}
+
+/// All arrays of numbers, whatever their type in the file.
+std::vector<NamedArray> read_arrays(vtkFieldData& fields) {
+  std::vector<NamedArray> arrays;
+  for (int i = 0; i < fields.GetNumberOfArrays(); ++i) {
+    vtkDataArray* source = fields.GetArray(i);
+    if (source == nullptr || source->GetName() == nullptr) continue;
+    NamedArray& array = arrays.emplace_back();
+    array.name = source->GetName();
+    array.components = source->GetNumberOfComponents();
+    for (vtkIdType tuple = 0; tuple < source->GetNumberOfTuples(); ++tuple) {
+      for (int k = 0; k < array.components; ++k) {
+        array.values.push_back(source->GetComponent(tuple, k));
+      }
+    }
+  }
+  return arrays;
+}
+
+}  // namespace
+
+SurfaceFrame read_vtp(const fs::path& path) {
+  const vtkSmartPointer<vtkPolyData> poly = read_poly_data(path);
+  SurfaceFrame frame;
+  frame.mesh.x = read_points(*poly);
+  frame.mesh.faces = read_faces(path, *poly);
+  frame.data.on_vertices = read_arrays(*poly->GetPointData());
+  frame.data.on_cells = read_arrays(*poly->GetCellData());
+  return frame;
+}
+
+}  // namespace meniscus::io

@@ -1,0 +1,70 @@
+#include "meniscus/linear/petsc_objects.hpp"
+
+#include <cstdlib>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "meniscus/core/error.hpp"
+
+// One BLAS thread per rank: more only fight for the cores. Present when BLAS is OpenBLAS.
+extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+
+namespace meniscus::linear {
+namespace {
+
+void stop_petsc() {
+  PetscBool is_over = PETSC_FALSE;
+  if (PetscFinalized(&is_over) == 0 && !is_over) PetscFinalize();
+}
+
+}  // namespace
+
+void petsc_check(PetscErrorCode code, const char* function) {
+  if (code == 0) return;
+  const char* text = nullptr;
+  char* specific = nullptr;
+  PetscErrorMessage(code, &text, &specific);
+  throw PetscFailure(fmt::format("{}: {} ({})", function, text != nullptr ? text : "unknown error",
+                                 specific != nullptr ? specific : ""));
+}
+
+void start_petsc() {
+  PetscBool is_running = PETSC_FALSE;
+  petsc_check(PetscInitialized(&is_running), "PetscInitialized");
+  if (is_running) return;
+  petsc_check(PetscOptionsSetValue(nullptr, "-no_signal_handler", "true"), "PetscOptionsSetValue");
+  petsc_check(PetscOptionsSetValue(nullptr, "-skip_petscrc", "true"), "PetscOptionsSetValue");
+  petsc_check(PetscInitializeNoArguments(), "PetscInitializeNoArguments");
+  petsc_check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr), "PetscPushErrorHandler");
+  if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
+  std::atexit(stop_petsc);
+}
+
+MPI_Comm mpi_communicator(Communicator communicator) {
+  return MPI_Comm_f2c(static_cast<MPI_Fint>(communicator.handle()));
+}
+
+Communicator Communicator::self() {
+  start_petsc();
+  return Communicator(static_cast<int>(MPI_Comm_c2f(PETSC_COMM_SELF)));
+}
+
+Communicator Communicator::world() {
+  start_petsc();
+  return Communicator(static_cast<int>(MPI_Comm_c2f(PETSC_COMM_WORLD)));
+}
+
+int Communicator::rank() const {
+  int rank = 0;
+  MPI_Comm_rank(mpi_communicator(*this), &rank);
+  return rank;
+}
+
+int Communicator::size() const {
+  int size = 1;
+  MPI_Comm_size(mpi_communicator(*this), &size);
+  return size;
+}
+
+}  // namespace meniscus::linear

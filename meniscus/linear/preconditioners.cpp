@@ -1,0 +1,144 @@
+#include "meniscus/linear/preconditioners.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "meniscus/linear/petsc_matrix.hpp"
+
+namespace meniscus::linear {
+namespace {
+
+/// Applies `action(reading, writing)` to the raw arrays of two vectors.
+template <class Action>
+void with_arrays(Vec from, Vec to, Action action) {
+  const PetscScalar* reading = nullptr;
+  PetscScalar* writing = nullptr;
+  petsc_check(VecGetArrayRead(from, &reading), "VecGetArrayRead");
+  petsc_check(VecGetArray(to, &writing), "VecGetArray");
+  action(reading, writing);
+  petsc_check(VecRestoreArray(to, &writing), "VecRestoreArray");
+  petsc_check(VecRestoreArrayRead(from, &reading), "VecRestoreArrayRead");
+}
+
+KrylovSolver multigrid_cycle(Mat laplacian) {
+  KrylovSolver cycle;
+  petsc_check(KSPCreate(PETSC_COMM_SELF, cycle.out()), "KSPCreate");
+  petsc_check(KSPSetOptionsPrefix(cycle.get(), "v_"), "KSPSetOptionsPrefix");
+  petsc_check(KSPSetOperators(cycle.get(), laplacian, laplacian), "KSPSetOperators");
+  petsc_check(KSPSetFromOptions(cycle.get()), "KSPSetFromOptions");
+  petsc_check(KSPSetUp(cycle.get()), "KSPSetUp");
+  return cycle;
+}
+
+}  // namespace
+
+VelocityMultigrid::VelocityMultigrid(const SaddleSystem& system)
+    : num_nodes_(system.num_velocities() / 3),
+      laplacian_of_(system.laplacian_of),
+      component_r_(zero_vector(num_nodes_)),
+      component_z_(zero_vector(num_nodes_)) {
+  for (const CsrView& laplacian : system.laplacians) {
+    Matrix copy;
+    petsc_check(MatDuplicate(borrowed_matrix(laplacian).get(), MAT_COPY_VALUES, copy.out()),
+                "MatDuplicate");
+    cycles_.push_back(multigrid_cycle(copy.get()));
+    laplacians_.push_back(std::move(copy));
+  }
+}
+
+void VelocityMultigrid::apply(Vec r, Vec z) const {
+  const auto n = static_cast<std::size_t>(num_nodes_);
+  for (std::size_t k = 0; k < 3; ++k) {
+    with_arrays(r, component_r_.get(), [n, k](const double* from, double* to) {
+      for (std::size_t i = 0; i < n; ++i) to[i] = from[3 * i + k];
+    });
+    const KrylovSolver& cycle = cycles_[static_cast<std::size_t>(laplacian_of_[k])];
+    petsc_check(KSPSolve(cycle.get(), component_r_.get(), component_z_.get()), "KSPSolve");
+    with_arrays(component_z_.get(), z, [n, k](const double* from, double* to) {
+      for (std::size_t i = 0; i < n; ++i) to[3 * i + k] = from[i];
+    });
+  }
+}
+
+BlockPreconditioner::BlockPreconditioner(Shape shape, const SaddleSystem& system,
+                                         const VelocityMultigrid& multigrid)
+    : shape_(shape),
+      system_(system),
+      multigrid_(multigrid),
+      B_(borrowed_matrix(system.B)),
+      velocity_(zero_vector(system.num_velocities())),
+      pressure_(zero_vector(system.num_pressures())) {}
+
+void BlockPreconditioner::apply(Vec r, Vec z) const {
+  const auto num_velocities = static_cast<std::size_t>(system_.num_velocities());
+  const auto num_pressures = static_cast<std::size_t>(system_.num_pressures());
+  const double sign = shape_ == Shape::diagonal ? 1.0 : -1.0;
+  with_arrays(r, pressure_.get(), [&](const double* from, double* p) {
+    for (std::size_t i = 0; i < num_pressures; ++i)
+      p[i] = sign * from[num_velocities + i] / system_.pressure_mass[i];
+    if (!system_.constant_pressure_is_null) return;
+    const double mean = std::accumulate(p, p + num_pressures, 0.0) / double(num_pressures);
+    for (std::size_t i = 0; i < num_pressures; ++i) p[i] -= mean;
+  });
+  if (shape_ == Shape::upper_triangular)
+    petsc_check(MatMultTranspose(B_.get(), pressure_.get(), velocity_.get()), "MatMultTranspose");
+  with_arrays(r, velocity_.get(), [&](const double* from, double* v) {
+    const double keep = shape_ == Shape::upper_triangular ? 1.0 : 0.0;
+    for (std::size_t i = 0; i < num_velocities; ++i) v[i] = from[i] - keep * v[i];
+  });
+  const Vector z_velocity = [&] {
+    const PetscScalar* values = nullptr;
+    petsc_check(VecGetArrayRead(z, &values), "VecGetArrayRead");
+    Vector part = borrowed_vector({values, num_velocities});
+    petsc_check(VecRestoreArrayRead(z, &values), "VecRestoreArrayRead");
+    return part;
+  }();
+  multigrid_.apply(velocity_.get(), z_velocity.get());
+  with_arrays(pressure_.get(), z, [&](const double* p, double* to) {
+    std::copy(p, p + num_pressures, to + num_velocities);
+  });
+}
+
+Factorization::Factorization(const SaddleSystem& system)
+    : matrix_(merged(system, 1.0,
+                     system.constant_pressure_is_null ? system.pressure_mass.front() : 0.0)),
+      handle_(borrowed_matrix(matrix_.view())) {
+  petsc_check(MatSetOption(handle_.get(), MAT_SYMMETRIC, PETSC_TRUE), "MatSetOption");
+  petsc_check(MatSetOptionsPrefix(handle_.get(), "f_"), "MatSetOptionsPrefix");
+  petsc_check(KSPCreate(PETSC_COMM_SELF, solver_.out()), "KSPCreate");
+  petsc_check(KSPSetOptionsPrefix(solver_.get(), "f_"), "KSPSetOptionsPrefix");
+  petsc_check(KSPSetOperators(solver_.get(), handle_.get(), handle_.get()), "KSPSetOperators");
+  petsc_check(KSPSetFromOptions(solver_.get()), "KSPSetFromOptions");
+  petsc_check(KSPSetUp(solver_.get()), "KSPSetUp");
+  PCFailedReason failure = PC_NOERROR;
+  PC pc = nullptr;
+  petsc_check(KSPGetPC(solver_.get(), &pc), "KSPGetPC");
+  petsc_check(PCGetFailedReason(pc, &failure), "PCGetFailedReason");
+  if (failure != PC_NOERROR) throw PetscFailure("the factorisation failed: singular block");
+}
+
+void Factorization::apply(Vec r, Vec z) const {
+  petsc_check(KSPSolve(solver_.get(), r, z), "KSPSolve");
+}
+
+DiagonalScaling::DiagonalScaling(const CsrView& matrix) : root_(zero_vector(matrix.num_rows)) {
+  PetscScalar* root = nullptr;
+  petsc_check(VecGetArray(root_.get(), &root), "VecGetArray");
+  for (std::int32_t i = 0; i < matrix.num_rows; ++i) {
+    double diagonal = 0.0;
+    const auto row = static_cast<std::size_t>(i);
+    for (auto k = matrix.row_start[row]; k < matrix.row_start[row + 1]; ++k)
+      if (matrix.columns[static_cast<std::size_t>(k)] == i)
+        diagonal = matrix.values[static_cast<std::size_t>(k)];
+    root[i] = std::sqrt(std::abs(diagonal)) + 1e-6;  // ε of eq. 14
+  }
+  petsc_check(VecRestoreArray(root_.get(), &root), "VecRestoreArray");
+}
+
+void DiagonalScaling::apply(Vec r, Vec z) const {
+  petsc_check(VecPointwiseDivide(z, r, root_.get()), "VecPointwiseDivide");
+}
+
+}  // namespace meniscus::linear

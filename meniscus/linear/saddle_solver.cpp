@@ -1,0 +1,241 @@
+#include "meniscus/linear/saddle_solver.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <numeric>
+#include <optional>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/linear/petsc_matrix.hpp"
+#include "meniscus/linear/preconditioners.hpp"
+
+namespace meniscus::linear {
+namespace {
+
+using Apply = std::function<void(Vec, Vec)>;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool has_hypre() {
+  PetscBool has = PETSC_FALSE;
+  petsc_check(PetscHasExternalPackage("hypre", &has), "PetscHasExternalPackage");
+  return has == PETSC_TRUE;
+}
+
+/// The choices of each method, as options that the user's own may override.
+std::string method_options(SaddleMethod method) {
+  // HMIS coarsening, ext+i interpolation of at most 4 entries: the fastest of the variants tried on
+  // scalar Laplacians of tetrahedral meshes, and as good per iteration as an exact solve.
+  const std::string multigrid =
+      has_hypre() ? " -v_ksp_type preonly -v_pc_type hypre -v_pc_hypre_boomeramg_coarsen_type HMIS"
+                    " -v_pc_hypre_boomeramg_interp_type ext+i -v_pc_hypre_boomeramg_P_max 4"
+                  : " -v_ksp_type preonly -v_pc_type gamg -v_pc_gamg_threshold 0.02";
+  switch (method) {
+    case SaddleMethod::block:
+      return "-ksp_type fgmres -ksp_gmres_restart 60"
+             " -ksp_gmres_cgs_refinement_type refine_ifneeded" +
+             multigrid;
+    case SaddleMethod::minres:
+      return "-ksp_type minres" + multigrid;
+    case SaddleMethod::paper_gmres:
+      return "-ksp_type gmres -ksp_gmres_restart 100 -ksp_pc_side right";
+    case SaddleMethod::mumps:
+      break;
+  }
+  return "-ksp_type fgmres -f_ksp_type preonly -f_pc_type cholesky"
+         " -f_pc_factor_mat_solver_type mumps -f_mat_mumps_icntl_14 50";
+}
+
+PetscErrorCode apply_shell(PC pc, Vec r, Vec z) {
+  void* context = nullptr;
+  const PetscErrorCode code = PCShellGetContext(pc, &context);
+  if (code != 0) return code;
+  try {  // no exception may pass through PETSc's frames
+    (*static_cast<Apply*>(context))(r, z);
+  } catch (const std::exception&) {
+    return PETSC_ERR_LIB;
+  }
+  return 0;
+}
+
+/// Right-hand side of a consistent system: the pressures' part sums to zero where it must.
+std::vector<double> consistent(const SaddleSystem& system, std::span<const double> given,
+                               double continuity_sign) {
+  std::vector<double> values(given.begin(), given.end());
+  const auto pressures = std::span(values).subspan(std::size_t(system.num_velocities()));
+  const double mean =
+      system.constant_pressure_is_null
+          ? std::accumulate(pressures.begin(), pressures.end(), 0.0) / double(pressures.size())
+          : 0.0;
+  for (double& value : pressures) value = continuity_sign * (value - mean);
+  return values;
+}
+
+void remove_mean(std::span<double> values) {
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+  for (double& value : values) value -= mean;
+}
+
+}  // namespace
+
+std::string name(SaddleMethod method) {
+  switch (method) {
+    case SaddleMethod::block:
+      return "block";
+    case SaddleMethod::paper_gmres:
+      return "paper-gmres";
+    case SaddleMethod::minres:
+      return "minres";
+    case SaddleMethod::mumps:
+      break;
+  }
+  return "mumps";
+}
+
+class SaddleSolver::Implementation {
+ public:
+  Implementation(Communicator communicator, SaddleOptions options)
+      : communicator_(communicator), options_(std::move(options)) {
+    start_petsc();
+    petsc_check(PetscOptionsCreate(table_.out()), "PetscOptionsCreate");
+    petsc_check(PetscOptionsInsertString(table_.get(), method_options(options_.method).c_str()),
+                "PetscOptionsInsertString");
+    if (PetscOptionsInsertString(table_.get(), options_.petsc_options.c_str()) != 0)
+      reject_input("solver options \"{}\" are not what PETSc can read", options_.petsc_options);
+  }
+
+  LinearReport solve(const SaddleSystem& system, std::span<const double> right_hand_side,
+                     std::span<double> solution, double rtol, Preconditioner preconditioner) {
+    LinearReport report;
+    const OptionScope scope(table_.get());
+    try {
+      if (preconditioner == Preconditioner::fresh) forget();
+      const auto start = std::chrono::steady_clock::now();
+      prepare(system);
+      report.setup_seconds = seconds_since(start);
+      iterate(system, right_hand_side, solution, rtol, report);
+      report.solve_seconds = seconds_since(start) - report.setup_seconds;
+    } catch (const PetscFailure& failure) {
+      report.converged = false;
+      report.reason = failure.what();
+      forget();
+    }
+    release();
+    return report;
+  }
+
+  void forget() {
+    multigrid_.reset();
+    factorization_.reset();
+  }
+
+ private:
+  /// The operator, and a preconditioner for it: what was kept of one, and what is cheap anew.
+  void prepare(const SaddleSystem& system) {
+    const bool is_paper = options_.method == SaddleMethod::paper_gmres;
+    if (is_paper) {
+      merged_ = merged(system, -1.0, 0.0);
+      operator_ = borrowed_matrix(merged_.view());
+      scaling_.emplace(merged_.view());
+      apply_ = [this](Vec r, Vec z) { scaling_->apply(r, z); };
+    } else {
+      operator_ = nested_operator(system);
+    }
+    if (system.constant_pressure_is_null)
+      attach_constant_pressure(operator_.get(), system.num_velocities(), system.num_pressures());
+    if (options_.method == SaddleMethod::mumps) {
+      if (!factorization_ || factorization_->size() != system.size())
+        factorization_ = std::make_unique<Factorization>(system);
+      apply_ = [this](Vec r, Vec z) { factorization_->apply(r, z); };
+    } else if (!is_paper) {
+      if (!multigrid_ || 3 * multigrid_->num_nodes() != system.num_velocities())
+        multigrid_ = std::make_unique<VelocityMultigrid>(system);
+      using Shape = BlockPreconditioner::Shape;
+      block_.emplace(
+          options_.method == SaddleMethod::minres ? Shape::diagonal : Shape::upper_triangular,
+          system, *multigrid_);
+      apply_ = [this](Vec r, Vec z) { block_->apply(r, z); };
+    }
+  }
+
+  KrylovSolver make_outer_solver(double rtol) {
+    KrylovSolver outer;
+    petsc_check(KSPCreate(PETSC_COMM_SELF, outer.out()), "KSPCreate");
+    petsc_check(KSPSetOperators(outer.get(), operator_.get(), operator_.get()), "KSPSetOperators");
+    // A relative tolerance of one or more is refused by PETSc; the absolute one must not interfere.
+    petsc_check(KSPSetTolerances(outer.get(), std::min(rtol, 0.9), 1e-300, PETSC_DEFAULT,
+                                 options_.max_iterations),
+                "KSPSetTolerances");
+    PC pc = nullptr;
+    petsc_check(KSPGetPC(outer.get(), &pc), "KSPGetPC");
+    petsc_check(PCSetType(pc, PCSHELL), "PCSetType");
+    petsc_check(PCShellSetContext(pc, &apply_), "PCShellSetContext");
+    petsc_check(PCShellSetApply(pc, apply_shell), "PCShellSetApply");
+    petsc_check(KSPSetFromOptions(outer.get()), "KSPSetFromOptions");
+    return outer;
+  }
+
+  void iterate(const SaddleSystem& system, std::span<const double> right_hand_side,
+               std::span<double> solution, double rtol, LinearReport& report) {
+    const double sign = options_.method == SaddleMethod::paper_gmres ? -1.0 : 1.0;
+    const std::vector<double> consistent_side = consistent(system, right_hand_side, sign);
+    const Vector b = borrowed_vector(consistent_side), x = borrowed_vector(solution);
+    const KrylovSolver outer = make_outer_solver(rtol);
+    std::vector<PetscReal> history(static_cast<std::size_t>(options_.max_iterations) + 1);
+    petsc_check(KSPSetResidualHistory(outer.get(), history.data(),
+                                      static_cast<PetscInt>(history.size()), PETSC_TRUE),
+                "KSPSetResidualHistory");
+    petsc_check(KSPSolve(outer.get(), b.get(), x.get()), "KSPSolve");
+    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+    PetscInt iterations = 0, recorded = 0;
+    petsc_check(KSPGetConvergedReason(outer.get(), &reason), "KSPGetConvergedReason");
+    petsc_check(KSPGetIterationNumber(outer.get(), &iterations), "KSPGetIterationNumber");
+    petsc_check(KSPGetResidualHistory(outer.get(), nullptr, &recorded), "KSPGetResidualHistory");
+    report.converged = reason > 0;
+    report.reason = KSPConvergedReasons[reason];
+    report.iterations = iterations;
+    report.residuals.assign(history.begin(), history.begin() + recorded);
+    if (system.constant_pressure_is_null)
+      remove_mean(solution.subspan(std::size_t(system.num_velocities())));
+  }
+
+  /// What refers to the caller's arrays goes; what may be kept stays.
+  void release() {
+    apply_ = nullptr;
+    block_.reset();
+    scaling_.reset();
+    operator_.reset();
+    merged_ = {};
+  }
+
+  Communicator communicator_;
+  SaddleOptions options_;
+  OptionTable table_;
+  Matrix operator_;
+  CsrMatrix merged_;
+  Apply apply_;
+  std::optional<BlockPreconditioner> block_;
+  std::optional<DiagonalScaling> scaling_;
+  std::unique_ptr<VelocityMultigrid> multigrid_;
+  std::unique_ptr<Factorization> factorization_;
+};
+
+SaddleSolver::SaddleSolver(Communicator communicator, SaddleOptions options)
+    : implementation_(std::make_unique<Implementation>(communicator, std::move(options))) {}
+SaddleSolver::SaddleSolver(SaddleSolver&&) noexcept = default;
+SaddleSolver& SaddleSolver::operator=(SaddleSolver&&) noexcept = default;
+SaddleSolver::~SaddleSolver() = default;
+
+LinearReport SaddleSolver::solve(const SaddleSystem& system,
+                                 std::span<const double> right_hand_side,
+                                 std::span<double> solution, double rtol,
+                                 Preconditioner preconditioner) {
+  return implementation_->solve(system, right_hand_side, solution, rtol, preconditioner);
+}
+
+void SaddleSolver::forget_preconditioner() { implementation_->forget(); }
+
+}  // namespace meniscus::linear

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace meniscus::linear {
+
+/// A sparse matrix in compressed rows, columns rising in each row. The arrays are the caller's and
+/// must outlive every solver that was given the view.
+struct CsrView {
+  std::int32_t num_rows = 0, num_columns = 0;
+  std::span<const std::int32_t> row_start;  ///< num_rows + 1
+  std::span<const std::int32_t> columns;
+  std::span<const double> values;
+};
+
+/// The symmetric system of a mixed velocity-pressure problem with n nodes and m pressures,
+///   [A  Bᵀ] [v]   [f]
+///   [B  −C] [p] = [g],
+/// the velocity's three components side by side at each node, all velocities before all pressures.
+/// Constrained unknowns have been eliminated: their rows and columns hold the diagonal alone.
+struct SaddleSystem {
+  CsrView A;  ///< 3n × 3n, positive definite
+  CsrView B;  ///< m × 3n
+  CsrView C;  ///< m × m, positive semi-definite
+  /// Scalar n × n Laplacians ∫μ∇φ·∇φ that stand for the diagonal blocks of A, and which of them
+  /// belongs to each component (they differ only in the nodes eliminated).
+  std::vector<CsrView> laplacians;
+  std::array<int, 3> laplacian_of = {0, 0, 0};
+  std::span<const double> pressure_mass;  ///< m, lumped ∫ψψ/μ: stands for the Schur complement
+  /// The constant pressure is a null vector (no open boundary). The right-hand side must then sum
+  /// to zero over the pressures, and the solution's pressures do.
+  bool constant_pressure_is_null = false;
+
+  [[nodiscard]] std::int32_t num_velocities() const { return A.num_rows; }
+  [[nodiscard]] std::int32_t num_pressures() const { return B.num_rows; }
+  [[nodiscard]] std::int32_t size() const { return num_velocities() + num_pressures(); }
+};
+
+/// The whole system as one matrix [A Bᵀ; sB −sC], s = ±1, with `pin` added to the diagonal entry
+/// −sC_00 as −s·pin.
+struct CsrMatrix {
+  std::int32_t num_columns = 0;
+  std::vector<std::int32_t> row_start, columns;
+  std::vector<double> values;
+  [[nodiscard]] CsrView view() const {
+    return {static_cast<std::int32_t>(row_start.size()) - 1, num_columns, row_start, columns,
+            values};
+  }
+};
+[[nodiscard]] CsrMatrix merged(const SaddleSystem& system, double continuity_sign, double pin);
+
+}  // namespace meniscus::linear

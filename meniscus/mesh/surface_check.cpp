@@ -1,0 +1,189 @@
+#include "meniscus/mesh/surface_check.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+#include <Eigen/Geometry>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/geometry/predicates.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/mesh/surface_tree.hpp"
+
+namespace meniscus {
+namespace {
+
+Triangle corners(const SurfaceMesh& mesh, FaceId f) {
+  const FaceVertices& v = mesh.faces[f];
+  return {mesh.x[v[0]], mesh.x[v[1]], mesh.x[v[2]]};
+}
+
+Vec3 low(const Triangle& x) { return x[0].cwiseMin(x[1]).cwiseMin(x[2]); }
+Vec3 high(const Triangle& x) { return x[0].cwiseMax(x[1]).cwiseMax(x[2]); }
+
+std::string place(const Vec3& x) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", x.x(), x.y(), x.z());
+}
+
+/// A point near which two triangles meet, for messages: the middle of the overlap of their boxes.
+std::string meeting_place(const Triangle& s, const Triangle& t) {
+  return place(0.5 * (low(s).cwiseMax(low(t)) + high(s).cwiseMin(high(t))));
+}
+
+/// Whether two faces of one surface meet elsewhere than in the vertices they share.
+bool meet_elsewhere(const SurfaceMesh& mesh, FaceId f, FaceId g) {
+  const FaceVertices &u = mesh.faces[f], &v = mesh.faces[g];
+  std::array<std::size_t, 3> shared_in_f{}, shared_in_g{};
+  std::size_t num_shared = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      if (u[i] == v[j] && num_shared < 3) {
+        shared_in_f[num_shared] = i;
+        shared_in_g[num_shared++] = j;
+      }
+  const Triangle s = corners(mesh, f), t = corners(mesh, g);
+  if (num_shared == 0) return do_intersect(s, t);
+  if (num_shared == 1) {
+    // What they share is convex and contains the vertex; if it is more than that, it reaches the
+    // edge of one of them that lies opposite the vertex.
+    const std::size_t i = shared_in_f[0], j = shared_in_g[0];
+    return do_intersect(s, t[(j + 1) % 3], t[(j + 2) % 3]) ||
+           do_intersect(t, s[(i + 1) % 3], s[(i + 2) % 3]);
+  }
+  if (num_shared == 2) {
+    const std::size_t i = 3 - shared_in_f[0] - shared_in_f[1],
+                      j = 3 - shared_in_g[0] - shared_in_g[1];
+    return is_folded(s[shared_in_f[0]], s[shared_in_f[1]], s[i], t[j]);
+  }
+  return true;
+}
+
+std::string find_self_intersection(const SurfaceMesh& mesh, const SurfaceTree& tree) {
+  std::string found;
+  for (const FaceId f : mesh.faces.ids()) {
+    const Triangle s = corners(mesh, f);
+    tree.visit_box(low(s), high(s), [&](FaceId g, const Triangle& t) {
+      if (g <= f || !meet_elsewhere(mesh, f, g)) return true;
+      found = fmt::format("surface meets itself near {} (faces {} and {})", meeting_place(s, t),
+                          f.value, g.value);
+      return false;
+    });
+    if (!found.empty()) break;
+  }
+  return found;
+}
+
+/// Whether the segment p q crosses the inside of a triangle; unclear when it passes through an edge
+/// or a corner, or an end of it lies in the triangle's plane.
+enum class Crossing { no, yes, unclear };
+Crossing crossing(const Triangle& x, const Vec3& p, const Vec3& q) {
+  const int side_of_p = orientation(x[0], x[1], x[2], p),
+            side_of_q = orientation(x[0], x[1], x[2], q);
+  if (side_of_p * side_of_q > 0) return Crossing::no;
+  const std::array<int, 3> turn{orientation(p, q, x[0], x[1]), orientation(p, q, x[1], x[2]),
+                                orientation(p, q, x[2], x[0])};
+  const auto [least, most] = std::ranges::minmax(turn);
+  if (least < 0 && most > 0) return Crossing::no;
+  const bool is_clear = side_of_p != 0 && side_of_q != 0 && least == most && least != 0;
+  return is_clear ? Crossing::yes : Crossing::unclear;
+}
+
+bool has_vertices_out_of_range(const SurfaceMesh& mesh) {
+  return std::ranges::any_of(mesh.faces, [&](const FaceVertices& f) {
+    return std::ranges::any_of(
+        f, [&](VertexId v) { return v.value < 0 || v.value >= mesh.num_vertices(); });
+  });
+}
+
+std::string find_broken_topology(const SurfaceMesh& mesh) {
+  try {
+    const SurfaceTopology topology(mesh);
+    for (const VertexId v : mesh.x.ids())
+      if (topology.valence(v) == 0)
+        return fmt::format("vertex {} at {} belongs to no face", v.value, place(mesh.x[v]));
+  } catch (const InvalidInput& fault) {
+    return fault.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string find_defect(const SurfaceMesh& mesh) {
+  if (mesh.num_faces() == 0) return "surface has no faces";
+  if (has_vertices_out_of_range(mesh)) return "surface has a face that names a missing vertex";
+  for (const VertexId v : mesh.x.ids())
+    if (!mesh.x[v].allFinite()) return fmt::format("vertex {} is not finite", v.value);
+  if (std::string fault = find_broken_topology(mesh); !fault.empty()) return fault;
+  for (const FaceId f : mesh.faces.ids())
+    if (is_degenerate(corners(mesh, f)))
+      return fmt::format("face {} near {} has no area", f.value, place(corners(mesh, f)[0]));
+  if (std::string fault = find_self_intersection(mesh); !fault.empty()) return fault;
+  if (const double volume = enclosed_volume(mesh); !(volume > 0.0))
+    return fmt::format("surface is inside out: it encloses the volume {:.6g}", volume);
+  return {};
+}
+
+std::string find_self_intersection(const SurfaceMesh& mesh) {
+  if (!is_finite(mesh)) return "surface is not finite";
+  return find_self_intersection(mesh, SurfaceTree(mesh));
+}
+
+std::string find_intersection(const SurfaceMesh& a, const SurfaceMesh& b) {
+  if (!is_finite(a) || !is_finite(b)) return "a surface is not finite";
+  const SurfaceTree tree(b);
+  std::string found;
+  for (const FaceId f : a.faces.ids()) {
+    const Triangle s = corners(a, f);
+    tree.visit_box(low(s), high(s), [&](FaceId g, const Triangle& t) {
+      if (!do_intersect(s, t)) return true;
+      found = fmt::format("surfaces meet near {} (face {} of the first, {} of the second)",
+                          meeting_place(s, t), f.value, g.value);
+      return false;
+    });
+    if (!found.empty()) break;
+  }
+  return found;
+}
+
+bool encloses(const SurfaceMesh& mesh, const Vec3& point) {
+  return encloses(SurfaceTree(mesh), point);
+}
+
+bool encloses(const SurfaceTree& tree, const Vec3& point) {
+  if ((point.array() < tree.low().array()).any() || (point.array() > tree.high().array()).any())
+    return false;
+  // Nearly along an axis, so that the ray's box touches few faces. A ray that grazes an edge or a
+  // vertex does not count: another direction is drawn.
+  const double reach = 2.0 * (tree.high() - tree.low()).norm();
+  std::minstd_rand random(1);
+  std::uniform_real_distribution<double> tilt(-0.02, 0.02);
+  for (int attempt = 0; attempt < 16; ++attempt) {
+    Vec3 direction(tilt(random), tilt(random), tilt(random));
+    direction[attempt % 3] = 1.0;
+    const Vec3 end = point + reach * direction;
+    int crossings = 0;
+    bool is_clear = true, is_on_surface = false;
+    tree.visit_box(point.cwiseMin(end), point.cwiseMax(end), [&](FaceId, const Triangle& x) {
+      const Crossing here = crossing(x, point, end);
+      if (here == Crossing::yes) ++crossings;
+      is_clear = here != Crossing::unclear;
+      is_on_surface = !is_clear && contains(x, point);
+      return is_clear;
+    });
+    if (is_on_surface) return false;
+    if (is_clear) return crossings % 2 == 1;
+  }
+  return false;
+}
+
+double smallest_gap(const SurfaceMesh& a, const SurfaceMesh& b) {
+  const SurfaceTree tree_a(a), tree_b(b);
+  double gap = std::numeric_limits<double>::infinity();
+  for (const Vec3& x : a.x) gap = std::min(gap, tree_b.closest(x, gap).distance);
+  for (const Vec3& x : b.x) gap = std::min(gap, tree_a.closest(x, gap).distance);
+  return gap;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "meniscus/geometry/triangle.hpp"
+#include "meniscus/mesh/surface_mesh.hpp"
+
+namespace meniscus {
+
+/// A tree of boxes over the faces of a surface as it was when the tree was built (it keeps its own
+/// copy of the positions). Built in O(|F| log |F|), about 0.2 µs per face and level; a query is
+/// O(log |F|).
+class SurfaceTree {
+ public:
+  struct Hit {
+    FaceId face;
+    Vec3 point = Vec3::Zero();
+    Vec3 weights = Vec3::Zero();  ///< of the face's corners
+    double distance = std::numeric_limits<double>::infinity();
+  };
+
+  explicit SurfaceTree(const SurfaceMesh& mesh);
+
+  /// The nearest point of the surface, if it is nearer than `within`; else `face` is invalid.
+  /// With `slack` > 0 its distance may exceed the least by that fraction: much cheaper where many
+  /// faces are about equally near, as at the centre of a sphere.
+  [[nodiscard]] Hit closest(const Vec3& p, double within = std::numeric_limits<double>::infinity(),
+                            double slack = 0.0) const;
+  /// The first face met by the ray from `origin` along the unit vector `direction`.
+  [[nodiscard]] std::optional<Hit> first_hit(const Vec3& origin, const Vec3& direction) const;
+  /// Calls `visit` for every face whose box the box [low, high] touches, until it returns false.
+  void visit_box(const Vec3& low, const Vec3& high,
+                 const std::function<bool(FaceId, const Triangle&)>& visit) const;
+
+  [[nodiscard]] const Vec3& low() const { return nodes_.front().low; }
+  [[nodiscard]] const Vec3& high() const { return nodes_.front().high; }
+
+ private:
+  struct Leaf {
+    Triangle corners;
+    FaceId face;
+  };
+  /// A box over leaves_[begin, end); its children are the next node and node `right` (0: a leaf).
+  struct Node {
+    Vec3 low, high;
+    std::int32_t begin, end, right;
+  };
+  void build(std::int32_t begin, std::int32_t end);
+  struct ClosestSearch;
+  void search_closest(std::int32_t node, ClosestSearch& search) const;
+  void search_ray(std::int32_t node, const Vec3& origin, const Vec3& direction, Hit& best) const;
+
+  std::vector<Leaf> leaves_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace meniscus::report {
+
+/// A colour of screen, each part in [0, 1].
+struct Color {
+  double red = 0.0, green = 0.0, blue = 0.0;
+};
+
+/// Viridis at s in [0, 1] (values beyond are clamped): lightness rises evenly with s, readable
+/// without colour vision.
+[[nodiscard]] Color viridis(double s);
+[[nodiscard]] Color scaled(const Color& color, double factor);
+[[nodiscard]] std::string hex(const Color& color);  ///< "#rrggbb"
+
+/// The range of values that a colour map spans.
+struct ValueRange {
+  double low = 0.0, high = 1.0;
+  [[nodiscard]] double fraction(double value) const { return (value - low) / (high - low); }
+};
+
+/// From the 1st to the 99th of each hundred of the finite values, so that a few wild ones do not
+/// spend the colours; widened to at least a fiftieth of the values.
+[[nodiscard]] ValueRange color_range(std::span<const double> values);
+
+}  // namespace meniscus::report

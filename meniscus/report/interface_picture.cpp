@@ -1,0 +1,173 @@
+#include "meniscus/report/interface_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/report/text.hpp"
+#include "meniscus/report/ticks.hpp"
+
+namespace meniscus::report {
+namespace {
+
+constexpr double margin = 10.0;  // [px] around the widest frame
+// Triangles are written as whole numbers of this fraction of a px: short, and finer than any
+// screen.
+constexpr double subpixel = 0.1;
+
+/// The box of a frame along the axes of the view [R0].
+struct Box {
+  Vec3 low, high;
+};
+
+Box box_of(const SurfaceFrame& frame, const View& view) {
+  Box box{Vec3::Constant(1e300), Vec3::Constant(-1e300)};
+  for (const Vec3& x : frame.mesh.x) {
+    const Vec3 p(view.right.dot(x), view.up.dot(x), view.toward.dot(x));
+    box.low = box.low.cwiseMin(p);
+    box.high = box.high.cwiseMax(p);
+  }
+  return box;
+}
+
+View flow_plane_view() {
+  View view;
+  view.toward = Vec3(0.30, 0.38, 1.0).normalized();  // 20° above the flow plane, 17° beside it
+  view.right = Vec3::UnitY().cross(view.toward).normalized();
+  view.up = view.toward.cross(view.right);
+  return view;
+}
+
+/// Brightness of a face with unit normal n: even the darkest side shows its colour.
+double brightness(const View& view, const Vec3& n) {
+  const Vec3 light = (-0.45 * view.right + 0.6 * view.up + 0.75 * view.toward).normalized();
+  return 0.62 + 0.42 * std::max(0.0, n.dot(light));
+}
+
+Color face_color(const SurfaceFrame& frame, FaceId f, const ValueRange& range) {
+  constexpr Color plain = {0.45, 0.62, 0.75};  // a frame without curvature
+  if (frame.curvature.empty()) return plain;
+  double mean = 0.0;
+  for (const VertexId v : frame.mesh.faces[f]) mean += frame.curvature[v] / 3.0;
+  return viridis(range.fraction(mean));
+}
+
+/// Faces turned to the eye, the farthest first.
+std::vector<FaceId> visible_faces(const SurfaceFrame& frame, const View& view) {
+  std::vector<FaceId> faces;
+  FaceField<double> nearness(frame.mesh.num_faces());
+  for (const FaceId f : frame.mesh.faces.ids()) {
+    if (face_area_vector(frame.mesh, f).dot(view.toward) <= 0.0) continue;
+    for (const VertexId v : frame.mesh.faces[f]) nearness[f] += view.toward.dot(frame.mesh.x[v]);
+    faces.push_back(f);
+  }
+  std::ranges::stable_sort(faces, {}, [&](FaceId f) { return nearness[f]; });
+  return faces;
+}
+
+}  // namespace
+
+View common_view(std::span<const SurfaceFrame> frames, double width) {
+  View view = flow_plane_view();
+  Vec3 extent = Vec3::Constant(1e-12);
+  for (const SurfaceFrame& frame : frames) {
+    const Box box = box_of(frame, view);
+    extent = extent.cwiseMax(box.high - box.low);
+  }
+  // Not taller than wide.
+  view.scale = (width - 2.0 * margin) / std::max(extent.x(), extent.y());
+  view.width = width;
+  view.height = std::ceil(view.scale * extent.y() + 2.0 * margin);
+  return view;
+}
+
+ValueRange curvature_range(std::span<const SurfaceFrame> frames) {
+  std::vector<double> all;
+  for (const SurfaceFrame& frame : frames) {
+    all.insert(all.end(), frame.curvature.begin(), frame.curvature.end());
+  }
+  return color_range(all);
+}
+
+bool have_curvature(std::span<const SurfaceFrame> frames) {
+  return std::ranges::all_of(frames, [](const SurfaceFrame& f) { return !f.curvature.empty(); });
+}
+
+std::string draw_surface(const SurfaceFrame& frame, const View& view, const ValueRange& range) {
+  const Box box = box_of(frame, view);
+  const Vec3 center = 0.5 * (box.low + box.high);
+  struct Point {
+    long x = 0, y = 0;
+  };
+  VertexField<Point> points;
+  for (const Vec3& x : frame.mesh.x) {
+    const double right = view.right.dot(x) - center.x(), up = view.up.dot(x) - center.y();
+    points.add({std::lround((0.5 * view.width + view.scale * right) / subpixel),
+                std::lround((0.5 * view.height - view.scale * up) / subpixel)});
+  }
+  std::string text = fmt::format(R"x(<g class="mesh" transform="scale({})" stroke-width="{}">)x",
+                                 subpixel, 0.5 / subpixel);
+  for (const FaceId f : visible_faces(frame, view)) {
+    const FaceVertices& face = frame.mesh.faces[f];
+    const Point a = points[face[0]], b = points[face[1]], c = points[face[2]];
+    const Vec3 n = face_area_vector(frame.mesh, f).stableNormalized();
+    const Color color = scaled(face_color(frame, f, range), brightness(view, n));
+    text += fmt::format(R"(<path fill="{}" d="M{} {}l{} {} {} {}z"/>)", hex(color), a.x, a.y,
+                        b.x - a.x, b.y - a.y, c.x - b.x, c.y - b.y);
+  }
+  return text + "</g>";
+}
+
+std::string draw_color_bar(const ValueRange& range, std::string_view label, double x, double y,
+                           double width) {
+  constexpr int num_strips = 64;  // finer than the eye tells apart on this length
+  constexpr double thickness = 10.0, overlap = 0.5;
+  std::string text;
+  for (int i = 0; i < num_strips; ++i) {
+    text += fmt::format(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{}" fill="{}"/>)",
+                        x + width * i / num_strips, y, width / num_strips + overlap, thickness,
+                        hex(viridis((i + 0.5) / num_strips)));
+  }
+  const Ticks ticks = linear_ticks(range.low, range.high, 5, false);
+  for (std::size_t i = 0; i < ticks.values.size(); ++i) {
+    const double at = x + width * range.fraction(ticks.values[i]);
+    text += fmt::format(
+        R"(<path class="ax" d="M{0:.1f} {1:.1f}v4"/>)"
+        R"(<text class="small" x="{0:.1f}" y="{2:.1f}" text-anchor="middle">{3}</text>)",
+        at, y + thickness, y + thickness + 16.0, ticks.labels[i]);
+  }
+  const std::string factor = ticks.factor.empty() ? "" : " (" + ticks.factor + ")";
+  return text + fmt::format(R"(<text x="{:.1f}" y="{:.1f}">{}</text>)", x, y - 7.0,
+                            escaped(label) + factor);
+}
+
+std::string draw_key(const View& view, const ValueRange& range, bool has_colors) {
+  std::string text;
+  if (has_colors) {
+    text += draw_color_bar(range, "Curvature κ = k₁ + k₂ [1/R₀]", 10.0, 24.0, 260.0);
+  }
+  // The length R0, or the part of it that has room.
+  const double length = std::min(view.scale, 120.0);
+  const std::string name = view.scale <= 120.0 ? "R₀" : readable(length / view.scale, 2) + " R₀";
+  text += fmt::format(R"(<path class="ax" d="M310 29h{0:.1f}m0 -4v8m-{0:.1f} 0v-8"/>)"
+                      R"(<text x="{1:.1f}" y="17" text-anchor="middle">{2}</text>)",
+                      length, 310.0 + 0.5 * length, name);
+  const double x = 490.0, y = 44.0, arrow = 26.0;  // the axes
+  const char* names[] = {"x", "y", "z"};
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 axis = Vec3::Unit(k);
+    const double dx = arrow * view.right.dot(axis), dy = -arrow * view.up.dot(axis);
+    text += fmt::format(R"(<path class="ax" d="M{0:.1f} {1:.1f}l{2:.1f} {3:.1f}"/>)"
+                        R"(<text class="small" font-style="italic" x="{4:.1f}" y="{5:.1f}" )"
+                        R"(text-anchor="middle">{6}</text>)",
+                        x, y, dx, dy, x + 1.4 * dx, y + 1.4 * dy + 4.0, names[k]);
+  }
+  return text;
+}
+
+}  // namespace meniscus::report

@@ -1,0 +1,112 @@
+#include "meniscus/report/surface_frames.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+
+namespace meniscus::report {
+namespace {
+
+const io::NamedArray* find_scalar(const std::vector<io::NamedArray>& arrays, const char* name,
+                                  std::int32_t size) {
+  const auto found = std::ranges::find(arrays, name, &io::NamedArray::name);
+  const bool is_usable = found != arrays.end() && found->components == 1 &&
+                         found->values.size() == static_cast<std::size_t>(size);
+  return is_usable ? &*found : nullptr;
+}
+
+SurfaceFrame load_surface(const std::filesystem::path& path, double t) {
+  const io::SurfaceFrame file = io::read_vtp(path);
+  if (!is_finite(file.mesh)) reject_input("{}: a coordinate is not finite", path.string());
+  SurfaceFrame frame{.t = t, .mesh = file.mesh, .curvature = {}, .drop = {}};
+  const auto* kappa = find_scalar(file.data.on_vertices, "curvature", frame.mesh.num_vertices());
+  if (kappa != nullptr) frame.curvature = VertexField<double>(kappa->values);
+  frame.drop = FaceField<int>(frame.mesh.num_faces(), 0);
+  if (const auto* drop = find_scalar(file.data.on_cells, "drop", frame.mesh.num_faces())) {
+    std::ranges::transform(drop->values, frame.drop.begin(),
+                           [](double id) { return static_cast<int>(std::lround(id)); });
+  }
+  return frame;
+}
+
+}  // namespace
+
+std::vector<io::PvdEntry> nearest_frames(std::span<const io::PvdEntry> frames,
+                                         std::span<const double> times) {
+  std::vector<std::size_t> chosen;
+  for (const double time : times) {
+    const auto nearest = std::ranges::min_element(
+        frames, {}, [&](const io::PvdEntry& frame) { return std::abs(frame.t - time); });
+    if (nearest != frames.end())
+      chosen.push_back(static_cast<std::size_t>(nearest - frames.begin()));
+  }
+  std::ranges::sort(chosen);
+  const auto repeated = std::ranges::unique(chosen);
+  chosen.erase(repeated.begin(), repeated.end());
+  std::vector<io::PvdEntry> result;
+  for (const std::size_t i : chosen) result.push_back(frames[i]);
+  return result;
+}
+
+std::vector<io::PvdEntry> spread_frames(std::span<const io::PvdEntry> frames, int count) {
+  if (frames.empty()) return {};
+  std::vector<double> times;
+  const double first = frames.front().t, last = frames.back().t;
+  for (int k = 0; k < count; ++k) times.push_back(first + (last - first) * k / (count - 1));
+  return nearest_frames(frames, times);
+}
+
+std::vector<SurfaceFrame> load_surfaces(RunData& run, std::span<const io::PvdEntry> frames) {
+  std::vector<SurfaceFrame> surfaces;
+  for (const io::PvdEntry& frame : frames) {
+    try {
+      surfaces.push_back(load_surface(run.folder / frame.file, frame.t));
+    } catch (const InvalidInput& error) {
+      run.faults.emplace_back(error.what());
+    }
+  }
+  return surfaces;
+}
+
+SurfaceFrame coarsened(const SurfaceFrame& frame, int num_faces) {
+  if (frame.mesh.num_faces() <= num_faces) return frame;
+  // A surface of area S crosses about 1.5 S/h² cells of edge h, each with two faces around it.
+  const double h = std::sqrt(3.0 * surface_area(frame.mesh) / num_faces);
+  SurfaceFrame result{.t = frame.t, .mesh = {}, .curvature = {}, .drop = {}};
+  std::map<std::array<long, 3>, VertexId> cell_to_vertex;
+  VertexField<VertexId> to_coarse(frame.mesh.num_vertices());
+  VertexField<double> count;
+  for (const VertexId v : frame.mesh.x.ids()) {
+    const Vec3& x = frame.mesh.x[v];
+    const std::array<long, 3> cell = {std::lround(x[0] / h), std::lround(x[1] / h),
+                                      std::lround(x[2] / h)};
+    const auto [found, is_new] = cell_to_vertex.try_emplace(cell, VertexId{count.size()});
+    to_coarse[v] = found->second;
+    if (is_new) {
+      count.add(0.0);
+      result.mesh.x.add(Vec3::Zero());
+      if (!frame.curvature.empty()) result.curvature.add(0.0);
+    }
+    const double n = ++count[to_coarse[v]];
+    Vec3& mean = result.mesh.x[to_coarse[v]];
+    mean += (x - mean) / n;
+    if (frame.curvature.empty()) continue;
+    double& kappa = result.curvature[to_coarse[v]];
+    kappa += (frame.curvature[v] - kappa) / n;
+  }
+  for (const FaceId f : frame.mesh.faces.ids()) {
+    FaceVertices face;
+    std::ranges::transform(frame.mesh.faces[f], face.begin(),
+                           [&](VertexId v) { return to_coarse[v]; });
+    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
+    result.mesh.faces.add(face);
+    result.drop.add(frame.drop[f]);
+  }
+  return result;
+}
+
+}  // namespace meniscus::report

@@ -1,0 +1,82 @@
+#include "meniscus/report/text.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace meniscus::report {
+namespace {
+
+std::string with_true_minus(std::string text) {
+  for (std::size_t at = text.find('-'); at != std::string::npos; at = text.find('-', at)) {
+    text.replace(at, 1, "−");
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        if (static_cast<unsigned char>(c) >= ' ' || c == '\n' || c == '\t') result += c;
+    }
+  }
+  return result;
+}
+
+std::string superscript(int value) {
+  static constexpr std::array digits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string result;
+  for (const char c : fmt::format("{}", value)) {
+    result += c == '-' ? "⁻" : digits[static_cast<std::size_t>(c - '0')];
+  }
+  return result;
+}
+
+std::string readable(double value, int digits) {
+  if (!std::isfinite(value)) return "–";
+  if (value == 0.0) return "0";
+  const double magnitude = std::abs(value);
+  if (magnitude >= 1e-4 && magnitude < 1e6) {
+    return with_true_minus(fmt::format("{:.{}g}", value, std::max(digits, 6 * (magnitude >= 1e4))));
+  }
+  const int exponent = static_cast<int>(std::floor(std::log10(magnitude)));
+  const double mantissa = value / std::pow(10.0, exponent);
+  return with_true_minus(fmt::format("{:.{}g}", mantissa, digits)) + "×10" + superscript(exponent);
+}
+
+std::string readable_count(double value) {
+  if (!std::isfinite(value)) return "–";
+  std::string text = fmt::format("{:.0f}", std::abs(value));
+  for (int at = static_cast<int>(text.size()) - 3; at > 0; at -= 3) {
+    text.insert(static_cast<std::size_t>(at), "\u202f");
+  }
+  return value < 0.0 ? "−" + text : text;
+}
+
+std::string readable_duration(double seconds) {
+  if (!std::isfinite(seconds)) return "–";
+  if (seconds < 10.0) return fmt::format("{:.2f} s", seconds);
+  if (seconds < 60.0) return fmt::format("{:.1f} s", seconds);
+  const long whole = std::lround(seconds);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+}  // namespace meniscus::report

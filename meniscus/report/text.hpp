@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace meniscus::report {
+
+/// Text as HTML and SVG hold it, also between quotes. Control characters, which XML has no way to
+/// write, are left out.
+[[nodiscard]] std::string escaped(std::string_view text);
+
+/// A number for readers: `digits` significant ones, a true minus sign, powers of ten as ×10ⁿ beyond
+/// 10⁻⁴…10⁶; "–" when it is not finite.
+[[nodiscard]] std::string readable(double value, int digits = 4);
+
+/// A whole number with thin spaces between thousands.
+[[nodiscard]] std::string readable_count(double value);
+
+/// "0.35 s", "12.4 s", "3 min 05 s", "2 h 07 min".
+[[nodiscard]] std::string readable_duration(double seconds);
+
+/// An integer in superscript digits: "⁻¹²".
+[[nodiscard]] std::string superscript(int value);
+
+}  // namespace meniscus::report

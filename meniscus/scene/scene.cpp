@@ -1,0 +1,133 @@
+#include "meniscus/scene/scene.hpp"
+
+#include <algorithm>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/mesh/surface_check.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+
+namespace meniscus {
+namespace {
+
+std::string place(const Vec3& x) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", x.x(), x.y(), x.z());
+}
+
+RegionId region_within(std::size_t interface) { return {static_cast<std::int32_t>(interface) + 1}; }
+
+struct Bounds {
+  explicit Bounds(const SurfaceMesh& mesh) : low(mesh.x[VertexId{0}]), high(low) {
+    for (const Vec3& x : mesh.x) {
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+  }
+  [[nodiscard]] bool overlap(const Bounds& other) const {
+    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+  }
+  Vec3 low, high;
+};
+
+std::string find_not_finite(const Scene& scene) {
+  for (const Interface& interface : scene.interfaces)
+    if (interface.mesh.num_faces() == 0 || !is_finite(interface.mesh))
+      return fmt::format("drop {} has no surface, or one that is not finite", interface.drop);
+  return {};
+}
+
+std::string find_touching(const Scene& scene, const std::vector<Bounds>& bounds) {
+  const auto& interfaces = scene.interfaces;
+  for (std::size_t i = 0; i < interfaces.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!bounds[i].overlap(bounds[j])) continue;
+      const std::string meeting = find_intersection(interfaces[j].mesh, interfaces[i].mesh);
+      if (!meeting.empty())
+        return fmt::format("drops {} and {} touch: {}", interfaces[j].drop, interfaces[i].drop,
+                           meeting);
+    }
+  if (scene.is_unbounded) return {};
+  for (const Interface& interface : interfaces)
+    if (std::string meeting = find_intersection(interface.mesh, scene.boundary.mesh);
+        !meeting.empty())
+      return fmt::format("drop {} touches the outer boundary: {}", interface.drop, meeting);
+  return {};
+}
+
+/// For surfaces that do not meet, one vertex tells on which side of the other a surface lies.
+std::string find_outside(const Scene& scene) {
+  if (scene.is_unbounded) return {};
+  for (const Interface& interface : scene.interfaces)
+    if (const Vec3& x = interface.mesh.x[VertexId{0}]; !encloses(scene.boundary.mesh, x))
+      return fmt::format("drop {} lies outside the outer boundary, at {}", interface.drop,
+                         place(x));
+  return {};
+}
+
+/// The innermost interface around each interface: the enclosing one that is itself enclosed most.
+std::vector<RegionId> surrounding_regions(const Scene& scene, const std::vector<Bounds>& bounds) {
+  const std::size_t n = scene.interfaces.size();
+  std::vector<std::vector<std::size_t>> enclosing(n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      if (i != j && bounds[i].overlap(bounds[j]) &&
+          encloses(scene.interfaces[j].mesh, scene.interfaces[i].mesh.x[VertexId{0}]))
+        enclosing[i].push_back(j);
+  std::vector<RegionId> result(n, RegionId{0});
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto innermost = std::ranges::max_element(
+        enclosing[i], {}, [&](std::size_t j) { return enclosing[j].size(); });
+    if (innermost != enclosing[i].end()) result[i] = region_within(*innermost);
+  }
+  return result;
+}
+
+std::string find_wrong_nesting(const Scene& scene, const std::vector<Bounds>& bounds) {
+  const std::vector<RegionId> surrounding = surrounding_regions(scene, bounds);
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+    const Interface& interface = scene.interfaces[i];
+    if (interface.inside != region_within(i))
+      return fmt::format(
+          "drop {} at {}: its liquid is region {}, but interface {} encloses "
+          "region {}",
+          interface.drop, place(mean_vertex(interface.mesh)), interface.inside.value, i, i + 1);
+    if (interface.outside != surrounding[i])
+      return fmt::format("drop {} at {} lies in region {}, not in region {} as it says",
+                         interface.drop, place(mean_vertex(interface.mesh)), surrounding[i].value,
+                         interface.outside.value);
+  }
+  return {};
+}
+
+}  // namespace
+
+double imposed_flux(const Scene& scene, double t) {
+  const OuterBoundary& boundary = scene.boundary;
+  double flux = 0.0;
+  for (const FaceId f : boundary.mesh.faces.ids()) {
+    const auto* imposed =
+        std::get_if<ImposedVelocity>(&boundary.patches[boundary.patch[f]].condition);
+    if (imposed == nullptr) continue;
+    Vec3 mean = Vec3::Zero();
+    for (const VertexId v : boundary.mesh.faces[f])
+      mean += imposed->velocity(boundary.mesh.x[v], t) / 3.0;
+    flux += mean.dot(face_area_vector(boundary.mesh, f));
+  }
+  return flux;
+}
+
+bool has_open_patch(const Scene& scene) {
+  return std::ranges::any_of(scene.boundary.patches, [](const Patch& patch) {
+    return std::holds_alternative<ImposedTraction>(patch.condition);
+  });
+}
+
+std::string find_conflict(const Scene& scene) {
+  if (std::string fault = find_not_finite(scene); !fault.empty()) return fault;
+  std::vector<Bounds> bounds;
+  for (const Interface& interface : scene.interfaces) bounds.emplace_back(interface.mesh);
+  if (std::string fault = find_touching(scene, bounds); !fault.empty()) return fault;
+  if (std::string fault = find_outside(scene); !fault.empty()) return fault;
+  return find_wrong_nesting(scene, bounds);
+}
+
+}  // namespace meniscus

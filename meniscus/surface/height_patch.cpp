@@ -1,0 +1,158 @@
+#include "meniscus/surface/height_patch.hpp"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+namespace meniscus {
+namespace {
+
+/// Smallest pivot of the Cholesky factor over the largest; below it two or more directions of the
+/// polynomial space are told apart by less than the noise of a fit (columns have unit scale).
+constexpr double kSingularPivot = 1e-3;
+
+template <int Terms>
+Eigen::Matrix<double, Terms, 1> monomials(double u, double v) {
+  Eigen::Matrix<double, Terms, 1> m;
+  m[0] = u;
+  m[1] = v;
+  m[2] = 0.5 * u * u;
+  m[3] = u * v;
+  m[4] = 0.5 * v * v;
+  if constexpr (Terms == 9) {
+    m[5] = u * m[2] / 3.0;
+    m[6] = m[2] * v;
+    m[7] = u * m[4];
+    m[8] = v * m[4] / 3.0;
+  }
+  return m;
+}
+
+double root_mean_square_distance(const Vec3& x, std::span<const Vec3> points) {
+  double sum = 0.0;
+  for (const Vec3& p : points) sum += (p - x).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+template <int Terms>
+std::optional<HeightPatch> fit_terms(const HeightPatch& frame, std::span<const Vec3> points) {
+  if (points.size() < Terms) return std::nullopt;
+  // Lengths in units of h keep the normal equations well scaled.
+  const double h = root_mean_square_distance(frame.x, points);
+  Eigen::Matrix<double, Terms, Terms> normal = Eigen::Matrix<double, Terms, Terms>::Zero();
+  Eigen::Matrix<double, Terms, 1> rhs = Eigen::Matrix<double, Terms, 1>::Zero();
+  for (const Vec3& p : points) {
+    const Vec3 d = (p - frame.x) / h;
+    const auto m = monomials<Terms>(d.dot(frame.t1), d.dot(frame.t2));
+    const double weight = 1.0 / d.squaredNorm();
+    const Eigen::Matrix<double, Terms, 1> wm = weight * m;
+    for (int j = 0; j < Terms; ++j) normal.col(j).tail(Terms - j) += m[j] * wm.tail(Terms - j);
+    rhs += d.dot(frame.n) * wm;
+  }
+  const Eigen::LLT<Eigen::Matrix<double, Terms, Terms>> factor(normal);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  const auto pivots = factor.matrixLLT().diagonal();
+  if (!(pivots.minCoeff() > kSingularPivot * pivots.maxCoeff())) return std::nullopt;
+  const Eigen::Matrix<double, Terms, 1> solution = factor.solve(rhs);
+  HeightPatch patch = frame;
+  patch.c.fill(0.0);
+  for (int j = 0; j < Terms; ++j) {
+    const double scale = j < 2 ? 1.0 : (j < 5 ? 1.0 / h : 1.0 / (h * h));
+    patch.c[static_cast<std::size_t>(j)] = scale * solution[j];
+  }
+  return patch;
+}
+
+/// z = −½k(u² + v²), the sphere that best fits: what a tetrahedron's vertex still determines.
+std::optional<HeightPatch> fit_umbilic(const HeightPatch& frame, std::span<const Vec3> points) {
+  if (points.empty()) return std::nullopt;
+  double k = 0.0;
+  for (const Vec3& p : points) {
+    const Vec3 d = p - frame.x;
+    k -= 2.0 * d.dot(frame.n) / d.squaredNorm();
+  }
+  k /= static_cast<double>(points.size());
+  HeightPatch patch = frame;
+  patch.c.fill(0.0);
+  patch.c[2] = patch.c[4] = -k;
+  return patch;
+}
+
+}  // namespace
+
+HeightPatch::Height HeightPatch::height(double u, double v) const {
+  const double uu = 0.5 * (c[2] + c[5] * u / 3.0 + c[6] * v);
+  const double vv = 0.5 * (c[4] + c[8] * v / 3.0 + c[7] * u);
+  return {.z = u * (c[0] + uu * u + c[3] * v) + v * (c[1] + vv * v),
+          .z_u = c[0] + c[2] * u + c[3] * v + 0.5 * c[5] * u * u + c[6] * u * v + 0.5 * c[7] * v * v,
+          .z_v = c[1] + c[3] * u + c[4] * v + 0.5 * c[6] * u * u + c[7] * u * v + 0.5 * c[8] * v * v};
+}
+
+HeightPatch::Height HeightPatch::rolled_height(double u, double v) const {
+  const double squared = u * u + v * v;
+  if (squared == 0.0) return {0.0, c[0], c[1]};
+  const Height f = height(u, v);
+  const double slope = f.z / squared;  // f/ρ²
+  const double s = std::sqrt(1.0 + f.z * slope);
+  const double s_u = slope * (f.z_u - slope * u) / s, s_v = slope * (f.z_v - slope * v) / s;
+  const Height g = height(s * u, s * v);
+  const double along = g.z_u * u + g.z_v * v;
+  return {.z = g.z, .z_u = s * g.z_u + along * s_u, .z_v = s * g.z_v + along * s_v};
+}
+
+VertexCurvature HeightPatch::curvature() const {
+  const double w = std::sqrt(1.0 + c[0] * c[0] + c[1] * c[1]);
+  const Vec3 r_u = t1 + c[0] * n, r_v = t2 + c[1] * n;
+  // Cholesky factor of the first fundamental form: metric = l lᵀ.
+  const double l11 = r_u.norm(), l21 = r_u.dot(r_v) / l11, l22 = w / l11;
+  // −(second fundamental form), positive where the surface bends away from n.
+  const double b11 = -c[2] / w, b12 = -c[3] / w, b22 = -c[4] / w;
+  // Symmetric matrix of the shape operator in the orthonormal basis e1 ∥ r_u, e2: l⁻¹ b l⁻ᵀ.
+  const double s11 = b11 / (l11 * l11), s12 = (b12 / l11 - l21 * s11) / l22,
+               s22 = (b22 - 2.0 * l21 * b12 / l11 + l21 * l21 * s11) / (l22 * l22);
+  const double angle = 0.5 * std::atan2(2.0 * s12, s11 - s22);
+  const double mean = 0.5 * (s11 + s22), deviation = std::hypot(0.5 * (s11 - s22), s12);
+  VertexCurvature result;
+  result.n = (n - c[0] * t1 - c[1] * t2) / w;
+  const Vec3 e1 = r_u / l11, e2 = result.n.cross(e1);
+  result.k1 = mean + deviation;
+  result.k2 = mean - deviation;
+  result.d1 = std::cos(angle) * e1 + std::sin(angle) * e2;
+  result.d2 = result.n.cross(result.d1);
+  return result;
+}
+
+HeightPatch flat_patch(const Vec3& x, const Vec3& n) {
+  HeightPatch patch;
+  patch.x = x;
+  patch.n = n;
+  patch.t1 = n.unitOrthogonal();
+  patch.t2 = n.cross(patch.t1);
+  return patch;
+}
+
+void unroll(std::span<const Vec3> points, const HeightPatch& frame, std::vector<Vec3>& unrolled) {
+  unrolled.clear();
+  for (const Vec3& p : points) {
+    const Vec3 d = p - frame.x;
+    const double z = d.dot(frame.n);
+    const Vec3 flat = d - z * frame.n;
+    unrolled.push_back(frame.x + d.norm() / flat.norm() * flat + z * frame.n);
+  }
+}
+
+std::optional<HeightPatch> fit_patch(const HeightPatch& frame, std::span<const Vec3> points,
+                                     PatchDegree degree) {
+  switch (degree) {
+    case PatchDegree::umbilic:
+      return fit_umbilic(frame, points);
+    case PatchDegree::quadratic:
+      return fit_terms<5>(frame, points);
+    case PatchDegree::cubic:
+      return fit_terms<9>(frame, points);
+  }
+  return std::nullopt;
+}
+
+}  // namespace meniscus

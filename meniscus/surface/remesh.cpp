@@ -1,0 +1,138 @@
+#include "meniscus/surface/remesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/restructure.hpp"
+#include "meniscus/surface/sizing.hpp"
+#include "meniscus/surface/springs.hpp"
+
+namespace meniscus {
+namespace {
+
+/// Spring steps between two looks at connectivity. A step that is not enough is continued by the
+/// next remesh; a remesh that changes little needs two or three.
+constexpr int kStepsPerSweep = 30;
+/// Smallest angle of a face that is let through when the surface had none as small before.
+constexpr double kLeastAngleDeg = 5.0;
+
+RemeshReference reference_surface(const SurfaceMesh& mesh, const SurfaceTopology& topology,
+                                  const RemeshOptions& options) {
+  SmoothSurface surface(mesh, topology);
+  VertexField<double> lengths =
+      rest_lengths(mesh, topology, surface.vertex_curvature(), options);
+  return {std::move(surface), SurfaceWalk(mesh, topology), std::move(lengths)};
+}
+
+/// Restructures and equilibrates in turn until nothing is left to restructure.
+void equilibrate(RemeshState& state, const RemeshOptions& options, RemeshReport& report) {
+  while (report.sweeps < options.max_sweeps) {
+    ++report.sweeps;
+    const int flips_before = report.flips;
+    report.flips += flip_to_delaunay(state);
+    const DensityEdits edits = balance_density(state);
+    report.splits += edits.splits;
+    report.collapses += edits.collapses;
+    const bool is_edited = edits.splits + edits.collapses > 0;
+    if (is_edited) report.flips += flip_to_delaunay(state);
+    if (report.sweeps > 1 && !is_edited && report.flips == flips_before) return;
+    relax_springs(state, options.equilibrium, kStepsPerSweep);
+  }
+}
+
+SurfaceMesh assembled(const RemeshState& state) {
+  const EditMesh::Compacted compacted = state.mesh.compacted();
+  SurfaceMesh mesh;
+  mesh.faces = compacted.faces;
+  mesh.x.reserve(static_cast<std::int32_t>(compacted.vertices.size()));
+  for (const VertexId v : compacted.vertices) mesh.x.add(state.vertices[v].x);
+  return mesh;
+}
+
+/// Restores the volume and records by how much it had changed and how far vertices moved for it.
+void correct_volume(SurfaceMesh& mesh, double volume_before, const RemeshOptions& options,
+                    RemeshReport& report) {
+  report.volume_change = enclosed_volume(mesh) / volume_before - 1.0;
+  const double shift =
+      restore_volume(mesh, options.volume > 0.0 ? options.volume : volume_before);
+  report.volume_shift = std::abs(shift);
+  const SurfaceTopology topology(mesh);
+  for (const VertexId v : mesh.x.ids()) {
+    double sum = 0.0;
+    for (const VertexId w : topology.ring(v)) sum += (mesh.x[w] - mesh.x[v]).norm();
+    report.volume_shift_over_edge =
+        std::max(report.volume_shift_over_edge, std::abs(shift) * topology.valence(v) / sum);
+  }
+}
+
+bool has_fold(const RemeshState& state) {
+  for (std::int32_t i = 0; i < state.mesh.num_halfedge_slots(); i += 3) {
+    const HalfedgeId h{i};
+    if (!state.mesh.is_alive(h)) continue;
+    if (!is_upright(state.vertices[state.mesh.from(h)], state.vertices[state.mesh.to(h)],
+                    state.vertices[state.mesh.opposite(h)]))
+      return true;
+  }
+  return false;
+}
+
+std::string find_fault(const SurfaceMesh& mesh, double angle_before, const RemeshOptions& options,
+                       const RemeshReport& report) {
+  if (!is_finite(mesh)) return "a vertex is not finite";
+  if (report.min_angle_deg < std::min(kLeastAngleDeg, angle_before))
+    return fmt::format("a face has an angle of {:.3g} degrees", report.min_angle_deg);
+  return options.find_fault ? options.find_fault(mesh) : std::string();
+}
+
+}  // namespace
+
+void RemeshOptions::validate() const {
+  const auto require = [](bool holds, const char* field, double value, const char* range) {
+    if (!holds) reject_input("remesh: {} = {:g} must be {}", field, value, range);
+  };
+  require(C0 > 0.0 && std::isfinite(C0), "C0", C0, "positive");
+  require(volume >= 0.0 && std::isfinite(volume), "volume", volume, "zero or positive");
+  require(edge_floor >= 0.0 && std::isfinite(edge_floor), "edge_floor", edge_floor,
+          "zero or positive");
+  require(edge_ceiling > edge_floor, "edge_ceiling", edge_ceiling, "larger than edge_floor");
+  require(gradation > 0.0, "gradation", gradation, "positive");
+  require(min_vertices >= 4, "min_vertices", min_vertices, "at least 4");
+  require(max_sweeps >= 1, "max_sweeps", max_sweeps, "at least 1");
+  require(equilibrium > 0.0 && equilibrium < 1.0, "equilibrium", equilibrium, "in (0, 1)");
+}
+
+RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options) {
+  options.validate();
+  RemeshReport report;
+  const auto fail = [&](std::string why) {
+    report.ok = false;
+    report.failure = std::move(why);
+    return report;
+  };
+  if (!is_finite(mesh)) return fail("a vertex of the given surface is not finite");
+  const double volume = enclosed_volume(mesh);
+  if (!(volume > 0.0)) return fail(fmt::format("the given surface encloses a volume of {:g}", volume));
+
+  try {
+    const SurfaceTopology topology(mesh);
+    const RemeshReference reference = reference_surface(mesh, topology, options);
+    RemeshState state = start_state(reference, mesh, topology);
+    equilibrate(state, options, report);
+    if (has_fold(state)) return fail("a face is folded over");
+
+    report.expected_vertices = expected_vertices(state);
+    SurfaceMesh result = assembled(state);
+    correct_volume(result, volume, options, report);
+    report.min_angle_deg = smallest_angle_deg(result);
+    std::string fault = find_fault(result, smallest_angle_deg(mesh), options, report);
+    if (!fault.empty()) return fail(std::move(fault));
+    mesh = std::move(result);
+  } catch (const InvalidInput& invalid) {  // from the topology check, before or after
+    return fail(invalid.what());
+  }
+  return report;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,94 @@
+#include "meniscus/surface/smooth_surface.hpp"
+
+#include <cmath>
+
+#include "meniscus/surface/rings.hpp"
+
+namespace meniscus {
+namespace {
+
+HeightPatch patch_at(const HeightPatch& frame, std::span<const Vec3> rings,
+                     std::vector<Vec3>& unrolled) {
+  unroll(rings, frame, unrolled);
+  for (const PatchDegree degree :
+       {PatchDegree::cubic, PatchDegree::quadratic, PatchDegree::umbilic})
+    if (const auto patch = fit_patch(frame, unrolled, degree)) return *patch;
+  return frame;
+}
+
+struct Lift {
+  double height;  // of the patch above the flat point, along the patch's n
+  Vec3 normal;
+};
+
+Lift lift(const HeightPatch& patch, const Vec3& flat) {
+  const Vec3 d = flat - patch.x;
+  const HeightPatch::Height h = patch.rolled_height(d.dot(patch.t1), d.dot(patch.t2));
+  const double w = 1.0 / std::sqrt(1.0 + h.z_u * h.z_u + h.z_v * h.z_v);
+  return {h.z - d.dot(patch.n), w * (patch.n - h.z_u * patch.t1 - h.z_v * patch.t2)};
+}
+
+}  // namespace
+
+SmoothSurface::SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& topology)
+    : curvature_(osculating_curvature(mesh, topology)), patches_(mesh.num_vertices()),
+      faces_(mesh.faces) {
+  RingGatherer rings(mesh, topology);
+  std::vector<Vec3> unrolled;
+  for (const VertexId v : mesh.x.ids())
+    patches_[v] = patch_at(flat_patch(mesh.x[v], curvature_[v].n), rings.gather(v, true), unrolled);
+}
+
+Vec3 SmoothSurface::flat_point(const SurfaceLocation& location) const {
+  const FaceVertices& v = faces_[location.face];
+  return location.weights[0] * patches_[v[0]].x + location.weights[1] * patches_[v[1]].x +
+         location.weights[2] * patches_[v[2]].x;
+}
+
+SmoothSurface::PointNormal SmoothSurface::at(const SurfaceLocation& location) const {
+  const FaceVertices& v = faces_[location.face];
+  const Vec3 flat = flat_point(location);
+  const Vec3 squares = location.weights.cwiseProduct(location.weights);
+  const double total = squares.sum();
+  PointNormal result{.x = flat, .n = Vec3::Zero()};
+  for (int k = 0; k < 3; ++k) {
+    if (squares[k] == 0.0) continue;
+    const HeightPatch& patch = patches_[v[static_cast<std::size_t>(k)]];
+    const Lift lifted = lift(patch, flat);
+    const double w = squares[k] / total;
+    result.x += w * lifted.height * patch.n;
+    result.n += w * lifted.normal;
+  }
+  result.n.normalize();
+  return result;
+}
+
+Vec3 SmoothSurface::edge_point(VertexId a, VertexId b, double s) const {
+  const HeightPatch &pa = patches_[a], &pb = patches_[b];
+  const Vec3 flat = (1.0 - s) * pa.x + s * pb.x;
+  const double wa = (1.0 - s) * (1.0 - s), wb = s * s;
+  return flat + (wa * lift(pa, flat).height * pa.n + wb * lift(pb, flat).height * pb.n) / (wa + wb);
+}
+
+VertexCurvature SmoothSurface::curvature(const SurfaceLocation& location) const {
+  const FaceVertices& v = faces_[location.face];
+  const Vec3 n = at(location).n;
+  Mat3 shape = Mat3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const VertexCurvature& c = curvature_[v[static_cast<std::size_t>(k)]];
+    // Directions turned with the normal by the smallest rotation, so that none is foreshortened.
+    const auto turned = [&](const Vec3& d) -> Vec3 {
+      return d - n.dot(d) / (1.0 + n.dot(c.n)) * (n + c.n);
+    };
+    const Vec3 d1 = turned(c.d1), d2 = turned(c.d2);
+    shape += location.weights[k] * (c.k1 * d1 * d1.transpose() + c.k2 * d2 * d2.transpose());
+  }
+  // In the tangent plane the operator is a symmetric 2 × 2 matrix.
+  HeightPatch tangent = flat_patch(Vec3::Zero(), n);
+  tangent.c[2] = -tangent.t1.dot(shape * tangent.t1);
+  tangent.c[3] = -tangent.t1.dot(shape * tangent.t2);
+  tangent.c[4] = -tangent.t2.dot(shape * tangent.t2);
+  return tangent.curvature();
+}
+
+}  // namespace meniscus

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+
+#include "meniscus/surface/smooth_surface.hpp"
+
+namespace meniscus {
+
+/// Finds places on a triangulation by walking from face to face: the vertices of a remesh move by
+/// fractions of an edge, so that the next place is a face or two away from the last and no search
+/// tree is needed.
+class SurfaceWalk {
+ public:
+  SurfaceWalk(const SurfaceMesh& mesh, const SurfaceTopology& topology);
+
+  /// The place reached from `start` on its flat face by the displacement d: where the walk from
+  /// face to face toward the target ends. Zero displacement returns the start. Beyond an edge that
+  /// bends away, where the target is above no face, the nearest place on that edge.
+  [[nodiscard]] SurfaceLocation moved(const SurfaceLocation& start, const Vec3& d) const;
+
+ private:
+  struct Chart {
+    Vec3 x0, g1, g2;                  // b1 = g1·(x − x0), b2 = g2·(x − x0)
+    std::array<FaceId, 3> neighbour;  // across the edge opposite to corner k
+  };
+  FaceField<Chart> charts_;
+  FaceField<std::array<Vec3, 3>> corners_;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,83 @@
+#include "meniscus/volume/facets.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace meniscus {
+namespace {
+
+/// The same sense of rotation, smallest vertex first.
+FacetVertices rotated(const FacetVertices& f) {
+  if (f[0] < f[1]) return f[0] < f[2] ? f : FacetVertices{f[2], f[0], f[1]};
+  return f[1] < f[2] ? FacetVertices{f[1], f[2], f[0]} : FacetVertices{f[2], f[0], f[1]};
+}
+
+/// The other two vertices of a rotated facet whatever its sense: equal for the two sides of one.
+std::pair<TetVertexId, TetVertexId> without_sense(const FacetVertices& f) {
+  return std::minmax(f[1], f[2]);
+}
+
+}  // namespace
+
+FacetVertices facet(const CellVertices& cell, std::size_t k) {
+  // Corners of the facets of (0, 1, 2, 3) with det[x1 − x0, x2 − x0, x3 − x0] > 0, outward.
+  constexpr std::array<std::array<std::size_t, 3>, 4> kOutward{
+      {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+  return {cell[kOutward[k][0]], cell[kOutward[k][1]], cell[kOutward[k][2]]};
+}
+
+FacetTable::FacetTable(const TetMesh& mesh)
+    : first_(static_cast<std::size_t>(mesh.num_vertices()) + 1, 0),
+      entries_(4 * static_cast<std::size_t>(mesh.num_cells())),
+      neighbours_(mesh.num_cells()) {
+  gather(mesh);
+  for (std::size_t v = 0; v + 1 < first_.size(); ++v)
+    pair_up(std::span(entries_).subspan(static_cast<std::size_t>(first_[v]),
+                                        static_cast<std::size_t>(first_[v + 1] - first_[v])));
+}
+
+/// Counting sort of all facets by their smallest vertex.
+void FacetTable::gather(const TetMesh& mesh) {
+  for (const CellVertices& cell : mesh.cells)
+    for (std::size_t k = 0; k < 4; ++k)
+      ++first_[static_cast<std::size_t>(rotated(facet(cell, k))[0].value) + 1];
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
+  for (const CellId c : mesh.cells.ids())
+    for (std::uint8_t k = 0; k < 4; ++k) {
+      const FacetVertices f = rotated(facet(mesh.cells[c], k));
+      std::int32_t& slot = next[static_cast<std::size_t>(f[0].value)];
+      entries_[static_cast<std::size_t>(slot++)] = {f, c, k};
+    }
+}
+
+/// Makes the two sides of each facet among those of one smallest vertex neighbours in memory.
+void FacetTable::pair_up(std::span<Entry> entries) {
+  std::ranges::sort(entries, [](const Entry& a, const Entry& b) {
+    return std::pair(without_sense(a.facet), a.facet[1]) <
+           std::pair(without_sense(b.facet), b.facet[1]);
+  });
+  for (std::size_t i = 0; i + 1 < entries.size(); ++i) {
+    const Entry &a = entries[i], &b = entries[i + 1];
+    if (without_sense(a.facet) != without_sense(b.facet)) continue;
+    if (a.facet == b.facet) {
+      overlapping_ = a.cell;
+      continue;
+    }
+    neighbours_[a.cell][a.corner] = b.cell;
+    neighbours_[b.cell][b.corner] = a.cell;
+  }
+}
+
+CellId FacetTable::find(const FacetVertices& facet) const {
+  const FacetVertices wanted = rotated(facet);
+  const auto v = static_cast<std::size_t>(wanted[0].value);
+  for (std::int32_t i = first_[v]; i < first_[v + 1]; ++i) {
+    const Entry& entry = entries_[static_cast<std::size_t>(i)];
+    if (entry.facet == wanted) return entry.cell;
+  }
+  return {};
+}
+
+}  // namespace meniscus

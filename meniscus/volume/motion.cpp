@@ -1,0 +1,54 @@
+#include "meniscus/volume/motion.hpp"
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/volume/harmonic_extension.hpp"
+#include "meniscus/volume/spines.hpp"
+
+namespace meniscus {
+namespace {
+
+/// The given motion on the interfaces, zero everywhere else.
+Field<TetVertexId, Vec3> surface_motion(const TetMesh& mesh,
+                                        std::span<const VertexField<Vec3>> interface_motion) {
+  MENISCUS_ASSERT(interface_motion.size() == mesh.interfaces.size(), "{} motions for {} interfaces",
+                  interface_motion.size(), mesh.interfaces.size());
+  Field<TetVertexId, Vec3> w(mesh.num_vertices(), Vec3::Zero());
+  for (std::size_t i = 0; i < mesh.interfaces.size(); ++i) {
+    MENISCUS_ASSERT(interface_motion[i].size() == mesh.interfaces[i].num_vertices,
+                    "a motion of another surface");
+    for (const VertexId v : interface_motion[i].ids())
+      w[mesh.interfaces[i].vertex(v)] = interface_motion[i][v];
+  }
+  return w;
+}
+
+TetVertexId first_free_vertex(const TetMesh& mesh) {
+  return {mesh.boundary.first_vertex.value + mesh.boundary.num_vertices};
+}
+
+}  // namespace
+
+VolumeVelocity volume_velocity(const Scene& scene, const TetMesh& mesh,
+                               std::span<const VertexField<Vec3>> interface_motion,
+                               const Field<TetVertexId, Vec3>& fluid, VolumeMotion motion) {
+  VolumeVelocity result{surface_motion(mesh, interface_motion), motion};
+  const TetVertexId first_free = first_free_vertex(mesh);
+  if (motion == VolumeMotion::lagrangian) {
+    for (TetVertexId v = first_free; v.value < mesh.num_vertices(); ++v.value)
+      result.w[v] = fluid[v];
+    return result;
+  }
+  if (motion == VolumeMotion::spines && scene.interfaces.size() == 1) {
+    const Spines spines(scene.interfaces[0].mesh, scene.boundary.mesh);
+    if (spines.exist()) {
+      for (TetVertexId v = first_free; v.value < mesh.num_vertices(); ++v.value)
+        result.w[v] = spines.velocity(mesh.x[v], interface_motion[0]);
+      return result;
+    }
+  }
+  extend_harmonically(mesh, first_free, result.w);
+  result.used = VolumeMotion::harmonic;
+  return result;
+}
+
+}  // namespace meniscus

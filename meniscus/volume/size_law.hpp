@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "meniscus/mesh/surface_tree.hpp"
+#include "meniscus/volume/tetrahedralize.hpp"
+
+namespace meniscus {
+
+/// Wanted edge length at a point between a surface of edge length `h_s`, at distance `d_s`, and one
+/// of edge length `h_b`, at distance `d_b` [R0]. With s = d_s/(d_s + d_b),
+///   linear       h = h_s + (h_b − h_s) s
+///   exponential  h = h_s (h_b/h_s)^s
+///   gaussian     h = h_b + (h_s − h_b) (e^(−9s²/2) − e^(−9/2))/(1 − e^(−9/2)),
+/// the last a bell whose standard deviation is a third of the way to the other surface.
+[[nodiscard]] double graded_size(Grading grading, double h_s, double d_s, double h_b, double d_b);
+
+/// The wanted edge length of the tetrahedra of a scene as a function of the point.
+///
+/// Each region is bounded from outside by one surface (the interface that encloses it, or the outer
+/// boundary) and from inside by any number of interfaces. The size is the smallest of the laws
+/// between each inner interface and the enclosing surface; where there is no inner interface it is
+/// h_s + interior_growth d of the enclosing one. A law between two neighbouring drops would keep
+/// all of the space between them as fine as they are, however far apart; the smallest of the laws
+/// towards the enclosing surface is fine near each of them and grows in between.
+class SizeLaw {
+ public:
+  SizeLaw(const Scene& scene, const VolumeMeshOptions& options);
+
+  /// [R0]; a few µs per surface of the point's region. The scene must outlive the law.
+  [[nodiscard]] double operator()(const Vec3& x) const;
+
+ private:
+  /// A surface with the mean length of the edges at each vertex.
+  struct Sized {
+    explicit Sized(const SurfaceMesh& mesh);
+    struct Nearest {
+      double distance = 0.0, size = 0.0;
+    };
+    [[nodiscard]] Nearest nearest(const Vec3& x) const;
+
+    const SurfaceMesh* mesh;
+    SurfaceTree tree;
+    VertexField<double> size;
+  };
+  [[nodiscard]] std::size_t enclosing_surface(const Vec3& x) const;
+
+  VolumeMeshOptions options_;
+  std::vector<Sized> surfaces_;            // interfaces, then the outer boundary
+  std::vector<std::size_t> container_;     // of each interface, an index into surfaces_
+  std::vector<std::size_t> inside_first_;  // interfaces, the most deeply nested first
+};
+
+}  // namespace meniscus

@@ -1,0 +1,147 @@
+#include "meniscus/volume/tetrahedralize.hpp"
+
+#include <vector>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/mesh/surface_check.hpp"
+#include "meniscus/volume/facets.hpp"
+#include "meniscus/volume/size_law.hpp"
+#include "meniscus/volume/tetgen_mesher.hpp"
+
+namespace meniscus {
+namespace {
+
+/// A cell may have up to this many times the volume of the regular tetrahedron of the wanted edge.
+/// Chosen once so that a drop in a sphere gets about the number of nodes of hooper2001, table 1
+/// (docs/volume-mesh.md).
+constexpr double kVolumeFactor = 2.0;
+
+SurfaceComplex gather_surfaces(const Scene& scene) {
+  SurfaceComplex complex;
+  const auto append = [&](const SurfaceMesh& surface) {
+    const auto first = static_cast<std::int32_t>(complex.x.size());
+    complex.x.insert(complex.x.end(), surface.x.begin(), surface.x.end());
+    for (const FaceVertices& f : surface.faces)
+      complex.triangles.push_back({first + f[0].value, first + f[1].value, first + f[2].value});
+  };
+  for (const Interface& interface : scene.interfaces) append(interface.mesh);
+  append(scene.boundary.mesh);
+  return complex;
+}
+
+/// Names each surface's vertices and the cells on both sides of each of its faces.
+/// Returns a face that is no facet, by its place.
+std::string embed(const SurfaceMesh& surface, std::int32_t first_vertex, const FacetTable& facets,
+                  bool has_outside, EmbeddedSurface& embedded) {
+  embedded = {{first_vertex},
+              surface.num_vertices(),
+              FaceField<EmbeddedSurface::Sides>(surface.num_faces())};
+  for (const FaceId f : surface.faces.ids()) {
+    const FaceVertices& v = surface.faces[f];
+    const FacetVertices vertices{embedded.vertex(v[0]), embedded.vertex(v[1]),
+                                 embedded.vertex(v[2])};
+    embedded.sides[f] = {facets.find(vertices), facets.find_across(vertices)};
+    const auto& [inside, outside] = embedded.sides[f];
+    if (!inside.is_valid() || outside.is_valid() != has_outside) {
+      const Vec3& x = surface.x[v[0]];
+      return fmt::format("the mesher lost the face {} near ({:.6g}, {:.6g}, {:.6g})", f.value,
+                         x.x(), x.y(), x.z());
+    }
+  }
+  return {};
+}
+
+std::string embed_surfaces(const Scene& scene, const FacetTable& facets, TetMesh& mesh) {
+  std::int32_t first = 0;
+  mesh.interfaces.resize(scene.interfaces.size());
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+    const SurfaceMesh& surface = scene.interfaces[i].mesh;
+    std::string lost = embed(surface, first, facets, true, mesh.interfaces[i]);
+    if (!lost.empty()) return lost;
+    first += surface.num_vertices();
+  }
+  return embed(scene.boundary.mesh, first, facets, false, mesh.boundary);
+}
+
+/// Gives the cells next to each interface their regions and lets these spread across every facet
+/// that has no region on its other side yet. Interfaces need no special care: both of their sides
+/// are labelled before anything spreads.
+void label_regions(const Scene& scene, const FacetTable& facets, TetMesh& mesh) {
+  mesh.region = CellField<RegionId>(mesh.num_cells());
+  std::vector<CellId> front;
+  const auto label = [&](CellId c, RegionId region) {
+    if (mesh.region[c].is_valid()) return;
+    mesh.region[c] = region;
+    front.push_back(c);
+  };
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+    for (const EmbeddedSurface::Sides& sides : mesh.interfaces[i].sides) {
+      label(sides.inside, scene.interfaces[i].inside);
+      label(sides.outside, scene.interfaces[i].outside);
+    }
+  for (const EmbeddedSurface::Sides& sides : mesh.boundary.sides) label(sides.inside, RegionId{0});
+  while (!front.empty()) {
+    const CellId c = front.back();
+    front.pop_back();
+    for (const CellId next : facets.neighbours(c))
+      if (next.is_valid()) label(next, mesh.region[c]);
+  }
+}
+
+/// One attempt: mesh, find the surfaces in it, label the regions, validate.
+std::string try_to_mesh(const Scene& scene, const SurfaceComplex& complex,
+                        const std::string& switches, const SizeLaw& size, TetMesh& mesh) {
+  MesherResult result = run_tetgen(complex, switches, size, kVolumeFactor);
+  if (!result.failure.empty()) return result.failure;
+  mesh = {};
+  mesh.x = std::move(result.x);
+  mesh.cells = std::move(result.cells);
+  const FacetTable facets(mesh);
+  if (std::string lost = embed_surfaces(scene, facets, mesh); !lost.empty()) return lost;
+  label_regions(scene, facets, mesh);
+  return find_defect(mesh, scene);
+}
+
+std::string find_unfit_surface(const Scene& scene) {
+  if (scene.is_unbounded) return "an unbounded scene has no volume mesh";
+  if (std::string fault = find_conflict(scene); !fault.empty()) return fault;
+  for (const Interface& interface : scene.interfaces)
+    if (std::string fault = find_self_intersection(interface.mesh); !fault.empty())
+      return fmt::format("drop {}: {}", interface.drop, fault);
+  return {};
+}
+
+}  // namespace
+
+void VolumeMeshOptions::validate() const {
+  if (!(interior_growth >= 0.0 && interior_growth <= 10.0))
+    reject_input("interior_growth = {} must lie between 0 and 10", interior_growth);
+  // Below √2 Delaunay refinement has no guarantee to end; in practice it does from 1.1 on.
+  if (!(radius_edge >= 1.1 && radius_edge <= 10.0))
+    reject_input("radius_edge = {} must lie between 1.1 and 10", radius_edge);
+}
+
+VolumeMeshReport tetrahedralize(const Scene& scene, const VolumeMeshOptions& options,
+                                TetMesh& mesh) {
+  options.validate();
+  VolumeMeshReport report;
+  report.failure = find_unfit_surface(scene);
+  report.ok = report.failure.empty();
+  if (!report.ok) return report;
+
+  const SurfaceComplex complex = gather_surfaces(scene);
+  const SizeLaw size(scene, options);
+  for (const std::string& switches : tetgen_switches(options.radius_edge)) {
+    TetMesh candidate;
+    report.failure = try_to_mesh(scene, complex, switches, size, candidate);
+    report.ok = report.failure.empty();
+    if (report.ok) {
+      mesh = std::move(candidate);
+      return report;
+    }
+    ++report.attempt;
+  }
+  return report;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# Installs the Debian 12 packages that are missing for one purpose and does nothing when none is.
+#   scripts/setup.sh run|test|long|coverage
+set -euo pipefail
+
+build=(make g++ cmake ninja-build pkgconf git ca-certificates python3 libpetsc-real-dev openmpi-bin
+       libopenblas-dev libeigen3-dev libcgal-dev libtet1.5-dev libhdf5-openmpi-dev libvtk9-dev
+       libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libspdlog-dev)
+test=(libgtest-dev clang-format-14)
+# clang 14, Debian's default, cannot read the ranges of libstdc++ 12.
+long=(clang-tidy-16)
+coverage=(gcovr)
+
+case "${1:-}" in
+  run) wanted=("${build[@]}") ;;
+  test) wanted=("${build[@]}" "${test[@]}") ;;
+  long) wanted=("${build[@]}" "${test[@]}" "${long[@]}") ;;
+  coverage) wanted=("${build[@]}" "${test[@]}" "${coverage[@]}") ;;
+  *) echo "usage: $0 run|test|long|coverage" >&2; exit 2 ;;
+esac
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "setup: no Debian packages here; this needs the equivalents of: ${wanted[*]}"
+  exit 0
+fi
+
+missing=()
+for package in "${wanted[@]}"; do
+  dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed ||
+    missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then
+  exit 0
+fi
+
+as_root=()
+if ((EUID != 0)); then
+  command -v sudo >/dev/null || {
+    echo "setup: become root, or install sudo, to install: ${missing[*]}" >&2
+    exit 1
+  }
+  as_root=(sudo)
+fi
+apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=600)
+echo "setup: installing ${missing[*]}"
+"${apt[@]}" update
+"${apt[@]}" install -y --no-install-recommends "${missing[@]}" >/dev/null
+echo "setup: done"

@@ -1,0 +1,230 @@
+// Every mistake in a case file gives one line with place, key, value and what is allowed.
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/case/case_files.hpp"
+
+namespace meniscus {
+namespace {
+
+using test::kShear;
+using test::message_of;
+
+struct BadCase {
+  std::string title;
+  std::string text;
+  std::string message;  ///< complete
+  std::vector<std::string> overrides = {};
+};
+
+std::string shear_with(const std::string& more) { return std::string(kShear) + more; }
+std::string flow(const std::string& lines) { return "[flow]\n" + lines + "[[drop]]\nradius = 1\n"; }
+
+const std::vector<BadCase> kSyntax{
+    {"empty file", "",
+     "case.toml: flow.kind is missing: it must be one of \"simple-shear\", \"uniaxial-extension\", "
+     "\"planar-extension\", \"quiescent\", unless flow.gradient is given"},
+    {"no drop", "[flow]\nkind = \"quiescent\"\n", "case.toml: needs at least one [[drop]]"},
+    {"misspelt key", shear_with("viscocity-ratio = 2.0\n"),
+     "case.toml:6: drop.viscocity-ratio: unknown key; did you mean \"viscosity-ratio\"?"},
+    {"misspelt table", shear_with("[solvr]\nrtol = 1e-6\n"),
+     "case.toml:6: solvr: unknown key; did you mean \"solver\"?"},
+    {"key in the wrong table", shear_with("edge-floor = 0.1\n"),
+     "case.toml:6: drop.edge-floor: unknown key; did you mean \"interface.edge-floor\"?"},
+    {"key like no other", shear_with("[time]\nxyzzy = 1\n"),
+     "case.toml:7: time.xyzzy: unknown key"},
+    {"underscore for hyphen", shear_with("[time]\nmax_step = 1\n"),
+     "case.toml:7: time.max_step: unknown key; did you mean \"max-step\"?"},
+    {"a table for an array of tables", "[flow]\nkind = \"quiescent\"\n[drop]\nradius = 1\n",
+     "case.toml:3: drop must be an array of tables: [[drop]]"},
+    {"an array of tables for a table", shear_with("[[time]]\nend = 1\n"),
+     "case.toml:6: time must be a table: [time]"},
+    {"a number for a table", "flow = 3\n", "case.toml:1: flow must be a table: [flow]"},
+};
+
+const std::vector<BadCase> kValues{
+    {"text for a number", shear_with("viscosity-ratio = \"two\"\n"),
+     "case.toml:6: drop.viscosity-ratio = \"two\" must be a number"},
+    {"real for a whole number", shear_with("nodes = 110.5\n"),
+     "case.toml:6: drop.nodes = 110.5 must be a whole number"},
+    {"number for a flag", shear_with("[output]\nvolume = 1\n"),
+     "case.toml:7: output.volume = 1 must be true or false"},
+    {"two numbers for three", shear_with("center = [0, 0]\n"),
+     "case.toml:6: drop.center = [0, 0] must be three numbers [x, y, z]"},
+    {"number for a word", shear_with("[time]\nscheme = 2\n"),
+     "case.toml:7: time.scheme = 2 must be one of \"rk2\", \"euler\""},
+    {"number for a text", "title = 7\n" + std::string(kShear),
+     "case.toml:1: title = 7 must be a text in quotes"},
+    {"misspelt word", flow("kind = \"simple-sheer\"\n"),
+     "case.toml:2: flow.kind = \"simple-sheer\" must be one of \"simple-shear\", "
+     "\"uniaxial-extension\", \"planar-extension\", \"quiescent\"; did you mean \"simple-shear\"?"},
+    {"word of a coming version", shear_with("[solver]\nelements = \"P2-P1\"\n"),
+     "case.toml:7: solver.elements = \"P2-P1\" is not available in this version; available: "
+     "\"P1-P1\""},
+    {"solver of a coming version", shear_with("[solver]\nmethod = \"boundary-integral\"\n"),
+     "case.toml:7: solver.method = \"boundary-integral\" is not available in this version; "
+     "available: \"finite-element\""},
+    {"unbounded domain", shear_with("[domain]\nshape = \"unbounded\"\n"),
+     "case.toml:7: domain.shape = \"unbounded\" is not available in this version; available: "
+     "\"box\", \"sphere\", \"cylinder\""},
+    {"coalescence", shear_with("[topology]\ncoalescence = \"on\"\n"),
+     "case.toml:7: topology.coalescence = \"on\" is not available in this version; available: "
+     "\"off\""},
+    {"breakup", shear_with("[topology]\nbreakup-radius = 0.01\n"),
+     "case.toml:7: topology.breakup-radius = 0.01 is not available in this version; only 0.0 is"},
+    {"gap layers", shear_with("[interface]\ngap-layers = 3\n"),
+     "case.toml:7: interface.gap-layers = 3 is not available in this version; only 0 is"},
+    {"Ca = 0", flow("kind = \"simple-shear\"\ncapillary-number = 0\n"),
+     "case.toml:3: flow.capillary-number = 0.0 must be > 0 or inf"},
+    {"negative Ca", flow("kind = \"simple-shear\"\ncapillary-number = -inf\n"),
+     "case.toml:3: flow.capillary-number = -inf must be > 0 or inf"},
+    {"zero viscosity", shear_with("viscosity-ratio = 0.0\n"),
+     "case.toml:6: drop.viscosity-ratio = 0.0 must be > 0"},
+    {"negative viscosity", shear_with("viscosity-ratio = -1.0\n"),
+     "case.toml:6: drop.viscosity-ratio = -1.0 must be > 0"},
+    {"NaN", shear_with("viscosity-ratio = nan\n"),
+     "case.toml:6: drop.viscosity-ratio = nan must be finite and > 0"},
+    {"NaN in a vector", shear_with("center = [0, nan, 0]\n"),
+     "case.toml:6: drop.center = [0.0, nan, 0.0] must be finite"},
+    {"infinite time", shear_with("[time]\nend = inf\n"),
+     "case.toml:7: time.end = inf must be finite and at least 0"},
+    {"too few nodes", shear_with("nodes = 8\n"),
+     "case.toml:6: drop.nodes = 8 must be between 42 and 1000000"},
+    {"too many nodes", shear_with("nodes = 99999999\n"),
+     "case.toml:6: drop.nodes = 99999999 must be between 42 and 1000000"},
+    {"tolerance out of range", shear_with("[solver]\nrtol = 0.0\n"),
+     "case.toml:7: solver.rtol = 0.0 must be between 0 and 0.1, 0 excluded"},
+    {"zero axis", "[flow]\nkind = \"quiescent\"\n[[drop]]\naxes = [1, 0, 1]\n",
+     "case.toml:4: drop.axes = [1.0, 0.0, 1.0] must be > 0"},
+    {"smallest step above the largest", shear_with("[time]\nmin-step = 0.5\n"),
+     "case.toml:7: time.min-step = 0.5 must be at most time.max-step = 0.1 (unit: 1/G)"},
+};
+
+const std::vector<BadCase> kMeaning{
+    {"gradient with a trace", flow("gradient = [[1, 0, 0], [0, 1, 0], [0, 0, -1]]\n"),
+     "case.toml:2: flow.gradient = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]] has the "
+     "trace 1; the trace of a gradient must be 0 (no net inflow)"},
+    {"kind and gradient",
+     flow("kind = \"quiescent\"\ngradient = [[0, 1, 0], [0, 0, 0], [0, 0, 0]]\n"),
+     "case.toml:3: flow.gradient = [[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]] conflicts "
+     "with kind: give one of the two"},
+    {"drop without a shape", "[flow]\nkind = \"quiescent\"\n[[drop]]\nnodes = 110\n",
+     "case.toml:3: drop needs one of radius, axes, surface, from-run"},
+    {"drop with two shapes", shear_with("axes = [1, 1, 1]\n"),
+     "case.toml:6: drop.axes = [1.0, 1.0, 1.0] conflicts with radius: a drop has one shape"},
+    {"schedule out of order",
+     shear_with("[[flow.schedule]]\ntime = 2\nfactor = 0\n[[flow.schedule]]\ntime = 1\n"
+                "factor = 1\n"),
+     "case.toml:10: flow.schedule.time = 1.0 must come after the entry before it has begun and its "
+     "ramp has ended (2 1/G)"},
+    {"schedule inside a ramp",
+     shear_with("[[flow.schedule]]\ntime = 2\nfactor = 0\nramp = 1\n[[flow.schedule]]\n"
+                "time = 2.5\nfactor = 1\n"),
+     "case.toml:11: flow.schedule.time = 2.5 must come after the entry before it has begun and its "
+     "ramp has ended (3 1/G)"},
+    {"schedule without a flow", shear_with("[[flow.schedule]]\ntime = 2\n"),
+     "case.toml:6: flow.schedule needs one of kind, gradient, factor"},
+    {"schedule without a time", shear_with("[[flow.schedule]]\nfactor = 0\n"),
+     "case.toml:6: flow.schedule.time is missing"},
+    {"size of another shape", shear_with("[domain]\nshape = \"sphere\"\nhalf-width = 5.0\n"),
+     "case.toml:8: domain.half-width has no effect here: it applies with shape = \"box\", "
+     "without half-widths"},
+    {"unknown patch", shear_with("[[domain.patch]]\nname = \"top\"\n"),
+     "case.toml:7: domain.patch.name = \"top\" is not a patch of the box; its patches are \"x-\", "
+     "\"x+\", \"y-\", \"y+\", \"z-\", \"z+\""},
+    {"patch without a name", shear_with("[[domain.patch]]\ncondition = \"open\"\n"),
+     "case.toml:6: domain.patch.name is missing"},
+    {"patch twice",
+     shear_with("[[domain.patch]]\nname = \"x-\"\n[[domain.patch]]\nname = \"x-\"\n"),
+     "case.toml:9: domain.patch.name = \"x-\" has a condition already, from the [[domain.patch]] "
+     "at case.toml:6"},
+    {"traction on a wall", shear_with("[[domain.patch]]\nname = \"x-\"\ntraction = [1, 0, 0]\n"),
+     "case.toml:8: domain.patch.traction has no effect here: it applies with condition = \"open\""},
+    {"tag on a box", shear_with("[[domain.patch]]\nname = \"x-\"\ntag = 1\n"),
+     "case.toml:8: domain.patch.tag has no effect here: it applies with domain.surface"},
+    {"incomplete scale", shear_with("[scale]\nlength = 1e-3\n"),
+     "case.toml:6: scale.viscosity is missing"},
+    {"scale and Ca",
+     shear_with("[scale]\nlength = 1e-3\nviscosity = 1.0\nsurface-tension = 0.01\nrate = 1.0\n"),
+     "case.toml:3: flow.capillary-number has no effect here: it applies without [scale]"},
+    {"missing surface file", "[flow]\nkind = \"quiescent\"\n[[drop]]\nsurface = \"none.stl\"\n",
+     "case.toml:4: drop.surface = \"none.stl\" does not exist"},
+    {"missing run", "[flow]\nkind = \"quiescent\"\n[[drop]]\nfrom-run = \"nowhere\"\n",
+     "case.toml:4: drop.from-run = \"nowhere\" does not exist"},
+};
+
+const std::vector<BadCase> kOverrides{
+    {"no equals sign",
+     std::string(kShear),
+     "--set time.end: expected key=value, as in --set drop[0].nodes=200",
+     {"time.end"}},
+    {"no value",
+     std::string(kShear),
+     "--set time.end=: expected key=value, as in --set drop[0].nodes=200",
+     {"time.end="}},
+    {"unknown key",
+     std::string(kShear),
+     "--set time.edn=3: time.edn: unknown key; did you mean \"end\"?",
+     {"time.edn=3"}},
+    {"no index",
+     std::string(kShear),
+     "--set drop.nodes=200: drop.nodes: the key needs an index, as in drop[0].nodes",
+     {"drop.nodes=200"}},
+    {"index out of range",
+     std::string(kShear),
+     "--set drop[4].nodes=200: drop[4] does not exist; the next to add is drop[1]",
+     {"drop[4].nodes=200"}},
+    {"wrong type",
+     std::string(kShear),
+     "--set drop[0].nodes=many: drop[0].nodes = \"many\" must be a whole number",
+     {"drop[0].nodes=many"}},
+    {"out of range",
+     std::string(kShear),
+     "--set flow.capillary-number=0: flow.capillary-number = 0.0 must be > 0 or inf",
+     {"flow.capillary-number=0"}},
+};
+
+void expect_messages(const std::vector<BadCase>& cases) {
+  for (const BadCase& bad : cases) {
+    SCOPED_TRACE(bad.title);
+    EXPECT_EQ(message_of(bad.text, bad.overrides), bad.message);
+  }
+}
+
+TEST(BadCase, NamesLineAndKeyOfWhatIsNotInTheSchema) { expect_messages(kSyntax); }
+TEST(BadCase, NamesValueAndWhatIsAllowed) { expect_messages(kValues); }
+TEST(BadCase, NamesWhatKeysContradictEachOther) { expect_messages(kMeaning); }
+TEST(BadCase, NamesTheOptionOfAnOverride) { expect_messages(kOverrides); }
+
+TEST(BadCase, TomlSyntaxErrorsNameTheLine) {
+  const std::string unclosed = message_of("[flow]\nkind = \"simple-shear\n[[drop]]\n");
+  EXPECT_TRUE(unclosed.starts_with("case.toml:2: not valid TOML: ")) << unclosed;
+  const std::string twice = message_of("[flow]\nkind = \"quiescent\"\nkind = \"quiescent\"\n");
+  EXPECT_TRUE(twice.starts_with("case.toml:3: not valid TOML: ")) << twice;
+  const std::string binary = message_of(std::string("\x00\xff\xfe", 3));
+  EXPECT_TRUE(binary.starts_with("case.toml:1: not valid TOML: ")) << binary;
+  for (const std::string& message : {unclosed, twice, binary})
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+TEST(BadCase, MissingFileAndFolderAreNamed) {
+  const test::TemporaryFolder folder;
+  const auto message = [](const std::filesystem::path& file) -> std::string {
+    try {
+      (void)read_case(file);
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  const std::filesystem::path none = folder.path() / "none.toml";
+  EXPECT_EQ(message(none), none.string() + ": cannot be read: No such file or directory");
+  EXPECT_EQ(message(folder.path()), folder.path().string() + ": is a folder, not a case file");
+  const std::filesystem::path empty = folder.write("empty.toml", "");
+  EXPECT_TRUE(message(empty).starts_with(empty.string() + ": flow.kind is missing"));
+}
+
+}  // namespace
+}  // namespace meniscus

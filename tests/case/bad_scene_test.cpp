@@ -1,0 +1,164 @@
+// Faults that show only when the scene of a case is built: surfaces, places, fluxes, other runs.
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "meniscus/io/archive_file.hpp"
+#include "meniscus/mesh/shapes.hpp"
+#include "tests/case/case_files.hpp"
+
+namespace meniscus {
+namespace {
+
+using test::message_of;
+
+constexpr const char* kQuiescent = "[flow]\nkind = \"quiescent\"\n";
+
+/// Asserts that a message begins and goes on with the given parts, on one line.
+void expect_parts(const std::string& message, const std::vector<std::string>& parts) {
+  ASSERT_FALSE(parts.empty());
+  EXPECT_TRUE(message.starts_with(parts.front())) << message;
+  for (const std::string& part : parts)
+    EXPECT_NE(message.find(part), std::string::npos) << message << "\nlacks: " << part;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+TEST(BadScene, DropReachingBeyondItsDomainIsNamed) {
+  const std::string drop = std::string(kQuiescent) + "[[drop]]\nradius = 1\n";
+  expect_parts(message_of(drop + "[domain]\nhalf-width = 0.5\n"),
+               {"case.toml:6: domain.half-width = 0.5 must exceed the reach of drop 0, 0.99",
+                " (unit: R0)"});
+  expect_parts(message_of(drop + "[domain]\nhalf-widths = [2, 2, 0.9]\n"),
+               {"case.toml:6: domain.half-widths = [2.0, 2.0, 0.9] must exceed the reach of drop "
+                "0, 0.98"});
+}
+
+TEST(BadScene, DropOutsideOrTouchingTheWallIsNamed) {
+  const std::string drop = std::string(kQuiescent) + "[[drop]]\nradius = 1\n";
+  expect_parts(message_of(drop + "[domain]\nshape = \"sphere\"\nradius = 0.9\n"),
+               {"case.toml:7: domain.radius = 0.9 must exceed the reach of drop 0, 1 (unit: R0)"});
+  expect_parts(message_of(drop + "center = [30, 0, 0]\n"),
+               {"case.toml: domain.half-width = 10.0 must exceed the reach of drop 0, 3"});
+  expect_parts(
+      message_of(drop + "[domain]\nshape = \"cylinder\"\nradius = 3.0\nhalf-length = 0.9\n"),
+      {"case.toml:8: domain.half-length = 0.9 must exceed the reach of drop 0, 0.9"});
+  // Inside the sphere, but not inside its fifty-odd flat faces.
+  expect_parts(message_of(drop + "center = [0.49, 0, 0]\n"
+                                 "[domain]\nshape = \"sphere\"\nradius = 1.5\nnodes = 50\n"),
+               {"case.toml:", "drop 0"});
+}
+
+TEST(BadScene, OverlappingDropsAreNamed) {
+  const std::string two = std::string(kQuiescent) +
+                          "[[drop]]\nradius = 1\n[[drop]]\nradius = 1\ncenter = [1.5, 0, 0]\n";
+  expect_parts(message_of(two), {"case.toml: drops 0 and 1 touch: ", "near ("});
+  const std::string partly_inside =
+      std::string(kQuiescent) +
+      "[[drop]]\nradius = 2\n[[drop]]\nradius = 1\ncenter = [1.5, 0, 0]\n";
+  expect_parts(message_of(partly_inside), {"case.toml: drops 0 and 1 touch: ", "near ("});
+}
+
+std::string file_case(const std::string& file) {
+  return std::string(kQuiescent) + "[[drop]]\nsurface = \"" + file + "\"\n";
+}
+
+TEST(BadScene, UnclosedSurfaceIsRefused) {
+  const test::TemporaryFolder folder;
+  SurfaceMesh mesh = sphere(100);
+  std::vector<FaceVertices> faces(mesh.faces.begin(), mesh.faces.end());
+  faces.pop_back();
+  mesh.faces = FaceField<FaceVertices>(faces);
+  folder.write_stl("open.stl", mesh);
+  expect_parts(message_of(file_case("open.stl"), {}, folder.path()),
+               {"case.toml:4: drop.surface = \"open.stl\" is unfit: ", "closed"});
+}
+
+TEST(BadScene, InsideOutSurfaceIsRefused) {
+  const test::TemporaryFolder folder;
+  SurfaceMesh mesh = sphere(100);
+  for (FaceVertices& f : mesh.faces) std::swap(f[1], f[2]);
+  folder.write_stl("inside-out.stl", mesh);
+  expect_parts(message_of(file_case("inside-out.stl"), {}, folder.path()),
+               {"case.toml:4: drop.surface = \"inside-out.stl\" is unfit: ", "volume"});
+}
+
+TEST(BadScene, SelfIntersectingSurfaceIsRefused) {
+  const test::TemporaryFolder folder;
+  SurfaceMesh mesh = sphere(200);
+  for (Vec3& x : mesh.x)
+    if (x.x() > 0.8) x.x() -= 2.5;  // one cap is pushed out through the other side
+  folder.write_stl("crossing.stl", mesh);
+  expect_parts(message_of(file_case("crossing.stl"), {}, folder.path()),
+               {"case.toml:4: drop.surface = \"crossing.stl\" is unfit: "});
+}
+
+TEST(BadScene, UnreadableSurfaceFilesAreNamed) {
+  const test::TemporaryFolder folder;
+  folder.write("empty.stl", "");
+  folder.write("noise.ply", "no surface at all");
+  folder.write("drop.xyz", "0 0 0");
+  for (const char* file : {"empty.stl", "noise.ply", "drop.xyz"})
+    expect_parts(message_of(file_case(file), {}, folder.path()),
+                 {std::string("case.toml:4: drop.surface = \"") + file + "\" cannot be used: "});
+}
+
+TEST(BadScene, ForeignRunFoldersAreNamed) {
+  const test::TemporaryFolder folder;
+  const std::string text = std::string(kQuiescent) + "[[drop]]\nfrom-run = \".\"\n";
+  EXPECT_EQ(message_of(text, {}, folder.path()),
+            "case.toml:4: drop.from-run = \".\" holds no run: no checkpoint-<step>.h5 in the "
+            "folder");
+  folder.write("checkpoint-7.h5", "not ours");
+  expect_parts(message_of(text, {}, folder.path()),
+               {"case.toml:4: drop.from-run = \".\" cannot be used: ", "checkpoint-7.h5"});
+  Archive foreign;
+  foreign.reals["something/else"] = {1.0};
+  io::write_archive(folder.path() / "checkpoint-8.h5", foreign);
+  EXPECT_EQ(message_of(text, {}, folder.path()),
+            "case.toml:4: drop.from-run = \".\" holds a checkpoint without a drop");
+  folder.write("file.h5", "");
+  EXPECT_EQ(
+      message_of(std::string(kQuiescent) + "[[drop]]\nfrom-run = \"file.h5\"\n", {}, folder.path()),
+      "case.toml:4: drop.from-run = \"file.h5\" is not a folder");
+}
+
+TEST(BadScene, NetInflowWithoutAnOpenPatchIsRefused) {
+  const std::string tube = std::string(kQuiescent) +
+                           "[[drop]]\nradius = 1\n[domain]\nshape = \"cylinder\"\nradius = 3.0\n"
+                           "half-length = 4.0\n";
+  const std::string inlet = "[[domain.patch]]\nname = \"x-\"\nvelocity = [1, 0, 0]\n";
+  expect_parts(message_of(tube + inlet),
+               {"case.toml:9: domain.patch: at t = 0 the imposed velocities carry ",
+                " in in sum; "
+                "make them balance or one patch open"});
+  EXPECT_EQ(message_of(tube + inlet + "[[domain.patch]]\nname = \"x+\"\ncondition = \"open\"\n"),
+            "no error");
+  // Half the parabola's peak carries the same flux uniformly, to the error of interpolation.
+  EXPECT_EQ(message_of(tube + "[[domain.patch]]\nname = \"x-\"\nvelocity = [1, 0, 0]\n"
+                              "profile = \"parabolic\"\n[[domain.patch]]\nname = \"x+\"\n"
+                              "velocity = [1, 0, 0]\nprofile = \"parabolic\"\n"),
+            "no error");
+}
+
+TEST(BadScene, SymmetryOnACurvedPatchIsRefused) {
+  const std::string patch = "[[domain.patch]]\nname = \"side\"\ncondition = \"symmetry\"\n";
+  EXPECT_EQ(message_of(std::string(kQuiescent) +
+                       "[[drop]]\nradius = 1\n[domain]\nshape = \"cylinder\"\n" + patch),
+            "case.toml:9: domain.patch.condition = \"symmetry\" needs a flat patch, which this one "
+            "is not");
+}
+
+TEST(BadScene, NetInflowThatAScheduleBringsIsRefused) {
+  // The x-faces are walls: harmless at rest, but the extension then only takes liquid in.
+  const std::string walls =
+      "[[domain.patch]]\nname = \"x-\"\nvelocity = [0, 0, 0]\n"
+      "[[domain.patch]]\nname = \"x+\"\nvelocity = [0, 0, 0]\n";
+  const std::string start =
+      "[[flow.schedule]]\ntime = 2\nramp = 1\nkind = \"uniaxial-extension\"\n";
+  const std::string base = std::string(kQuiescent) + "[[drop]]\nradius = 1\n";
+  EXPECT_EQ(message_of(base + walls), "no error");
+  expect_parts(message_of(base + walls + start), {"case.toml:5: domain.patch: at t = 3 "});
+}
+
+}  // namespace
+}  // namespace meniscus

@@ -1,0 +1,173 @@
+#include "meniscus/case/case.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/case/case_files.hpp"
+
+namespace meniscus {
+namespace {
+
+using test::shear_case;
+
+TEST(Case, HasTheDocumentedDefaults) {
+  const Case c = shear_case();
+  EXPECT_EQ(c.title, "");
+  EXPECT_EQ(c.Ca, 0.3);
+  EXPECT_EQ(c.flow.family(), FlowFamily::planar);
+  EXPECT_EQ(c.flow.gradient(3.0), ImposedFlow::simple_shear());
+  ASSERT_EQ(c.drops.size(), 1u);
+  EXPECT_EQ(std::get<BallShape>(c.drops[0].shape).radius, 1.0);
+  EXPECT_EQ(c.drops[0].center, Vec3(0, 0, 0));
+  EXPECT_EQ(c.drops[0].viscosity_ratio, 1.0);
+  EXPECT_EQ(c.drops[0].tension_ratio, 1.0);
+  EXPECT_EQ(c.drops[0].nodes, 110);
+  EXPECT_EQ(c.domain.shape, DomainCase::Shape::box);
+  EXPECT_EQ(c.domain.half_widths, Vec3::Constant(10.0));
+  EXPECT_EQ(c.domain.nodes, 507);
+  EXPECT_TRUE(c.domain.is_symmetric_in_z);
+  EXPECT_EQ(c.output.interval, 0.2);
+  EXPECT_EQ(c.output.volume_interval, 0.2);
+  EXPECT_TRUE(c.output.volume);
+}
+
+TEST(Case, DefaultOptionsAreThoseOfTheRooms) {
+  const Case c = shear_case("[time]\nend = 1.0\n");
+  const EvolutionOptions evolution;
+  EXPECT_EQ(c.evolution.scheme, evolution.scheme);
+  EXPECT_EQ(c.evolution.motion_normal, evolution.motion_normal);
+  EXPECT_EQ(c.evolution.end, evolution.end);
+  EXPECT_EQ(c.evolution.step_factor, evolution.step_factor);
+  EXPECT_EQ(c.evolution.step_edges, evolution.step_edges);
+  EXPECT_EQ(c.evolution.max_step, evolution.max_step);
+  EXPECT_EQ(c.evolution.min_step, evolution.min_step);
+  EXPECT_EQ(c.evolution.remesh_every, evolution.remesh_every);
+  EXPECT_EQ(c.evolution.edge_floor, evolution.edge_floor);
+  const fem::Options solver;
+  EXPECT_EQ(c.flow_solver.capillary, solver.capillary);
+  EXPECT_EQ(c.flow_solver.linear, solver.linear);
+  EXPECT_EQ(c.flow_solver.rtol, solver.rtol);
+  EXPECT_EQ(c.flow_solver.max_iterations, solver.max_iterations);
+  EXPECT_EQ(c.flow_solver.volume_mesh.grading, solver.volume_mesh.grading);
+  EXPECT_EQ(c.flow_solver.volume_motion, solver.volume_motion);
+  EXPECT_EQ(c.flow_solver.petsc_options, solver.petsc_options);
+}
+
+TEST(Case, WordsBecomeOptions) {
+  const Case c = shear_case(
+      "[interface]\nsurface-tension = \"balanced\"\nmotion-normal = \"fit\"\n"
+      "volume-motion = \"harmonic\"\n[solver]\nlinear = \"mumps\"\n[time]\nscheme = \"euler\"\n"
+      "step-edges = \"mesh\"\n[domain]\ngrading = \"gaussian\"\n");
+  EXPECT_EQ(c.flow_solver.capillary, fem::CapillaryForm::balanced);
+  EXPECT_EQ(c.evolution.motion_normal, MotionNormal::fit);
+  EXPECT_EQ(c.flow_solver.volume_motion, VolumeMotion::harmonic);
+  EXPECT_EQ(c.flow_solver.linear, fem::LinearSolver::mumps);
+  EXPECT_EQ(c.evolution.scheme, TimeScheme::euler);
+  EXPECT_EQ(c.evolution.step_edges, StepEdges::mesh);
+  EXPECT_EQ(c.flow_solver.volume_mesh.grading, Grading::gaussian);
+}
+
+TEST(Case, OverridesWinAndAddDrops) {
+  const Case c = shear_case(
+      "", {"drop[0].nodes=200", "flow.capillary-number=inf", "interface.surface-tension=nodal",
+           "drop[1].radius=0.5", "drop[1].center=[0, 0, 3]", "time.scheme=\"euler\""});
+  EXPECT_EQ(c.drops[0].nodes, 200);
+  EXPECT_TRUE(std::isinf(c.Ca));
+  EXPECT_EQ(c.flow_solver.capillary, fem::CapillaryForm::nodal);
+  ASSERT_EQ(c.drops.size(), 2u);
+  EXPECT_EQ(c.drops[1].center, Vec3(0, 0, 3));
+  EXPECT_EQ(c.evolution.scheme, TimeScheme::euler);
+}
+
+TEST(Case, ScheduleStopsRampsAndReverses) {
+  const Case c = shear_case(
+      "[[flow.schedule]]\ntime = 1\nfactor = 0\nramp = 2\n"
+      "[[flow.schedule]]\ntime = 4\nfactor = -1\n"
+      "[[flow.schedule]]\ntime = 5\nkind = \"planar-extension\"\nfactor = 0.5\n"
+      "[[flow.schedule]]\ntime = 6\ngradient = [[0, 0, 0], [0, 0, 2], [0, 0, 0]]\n");
+  const auto shear_rate = [&](double t) { return c.flow.gradient(t)(0, 1); };
+  EXPECT_EQ(shear_rate(0.9), 1.0);
+  EXPECT_DOUBLE_EQ(shear_rate(2.0), 0.5);
+  EXPECT_EQ(shear_rate(3.5), 0.0);
+  EXPECT_EQ(shear_rate(4.5), -1.0);
+  EXPECT_EQ(c.flow.gradient(5.5), Mat3(0.5 * ImposedFlow::planar_extension()));
+  EXPECT_EQ(c.flow.gradient(7.0)(1, 2), 2.0);
+  EXPECT_FALSE(c.domain.is_symmetric_in_z);  // the last entry has vorticity along x
+}
+
+TEST(Case, EveryFlowHasItsFamilyAndGradient) {
+  const auto flow = [](const std::string& line) {
+    return parse_case("[flow]\n" + line + "\n[[drop]]\nradius = 1\n", "case.toml").flow;
+  };
+  EXPECT_EQ(flow("kind = \"uniaxial-extension\"").family(), FlowFamily::axial);
+  EXPECT_EQ(flow("kind = \"uniaxial-extension\"").gradient(0), ImposedFlow::uniaxial_extension());
+  EXPECT_EQ(flow("kind = \"planar-extension\"").family(), FlowFamily::planar);
+  EXPECT_EQ(flow("kind = \"quiescent\"").family(), FlowFamily::quiescent);
+  EXPECT_EQ(flow("kind = \"quiescent\"").gradient(0), Mat3::Zero());
+  const ImposedFlow general = flow("gradient = [[0.1, 1, 0], [0, 0.2, 0], [0, 0, -0.3]]");
+  EXPECT_EQ(general.family(), FlowFamily::general);
+  EXPECT_EQ(general.gradient(0)(1, 1), 0.2);
+}
+
+constexpr const char* kScaled =
+    "[flow]\nkind = \"simple-shear\"\n"
+    "[[drop]]\nradius = 2e-3\nbody-force = [100.0, 0, 0]\n"
+    "[domain]\nhalf-width = 0.01\n"
+    "[time]\nend = 3.0\n"
+    "[scale]\nlength = 1e-3\nviscosity = 5.0\nsurface-tension = 0.02\nrate = 2.0\n";
+
+TEST(Case, ScaleConvertsOnce) {
+  const Case c = parse_case(kScaled, "case.toml");
+  EXPECT_DOUBLE_EQ(c.Ca, 5.0 * 2.0 * 1e-3 / 0.02);
+  EXPECT_DOUBLE_EQ(std::get<BallShape>(c.drops[0].shape).radius, 2.0);
+  EXPECT_DOUBLE_EQ(c.domain.half_widths.x(), 10.0);
+  EXPECT_DOUBLE_EQ(c.evolution.end, 6.0);             // 3 s at 2 per second
+  EXPECT_DOUBLE_EQ(c.drops[0].body_force.x(), 0.01);  // over viscosity · rate/length = 1e4 N/m³
+  EXPECT_DOUBLE_EQ(c.evolution.max_step, 0.1);        // a default stays dimensionless
+}
+
+TEST(Case, ScaleOfAQuiescentFlowIsTheCapillaryTime) {
+  const Case c = parse_case(
+      "[flow]\nkind = \"quiescent\"\n[[drop]]\nradius = 1e-3\n"
+      "[scale]\nlength = 1e-3\nviscosity = 2.0\nsurface-tension = 0.03\n",
+      "case.toml");
+  EXPECT_DOUBLE_EQ(c.Ca, 1.0);
+  EXPECT_DOUBLE_EQ(c.settings.scale()->rate, 15.0);
+}
+
+TEST(Case, TomlWithDefaultsReadsBackToTheSameCase) {
+  const std::string text = std::string(test::kShear) +
+                           "viscosity-ratio = 0.1\n[[drop]]\naxes = [1, 2, 0.3]\n"
+                           "center = [5, 0, 0]\n[[flow.schedule]]\ntime = 3\nfactor = -1\n"
+                           "[[domain.patch]]\nname = \"x+\"\nvelocity = [0.1, 0, 0]\n";
+  for (const std::string& source : {text, std::string(kScaled)}) {
+    const Case first = parse_case(source, "case.toml");
+    const Case second = parse_case(case_toml(first), "again.toml");
+    EXPECT_EQ(case_toml(first), case_toml(second));
+    EXPECT_EQ(first.Ca, second.Ca);
+    EXPECT_EQ(first.evolution.max_step, second.evolution.max_step);
+    EXPECT_EQ(first.drops.size(), second.drops.size());
+    EXPECT_EQ(first.flow.gradient(4.0), second.flow.gradient(4.0));
+    EXPECT_EQ(first.domain.is_symmetric_in_z, second.domain.is_symmetric_in_z);
+  }
+}
+
+TEST(Case, JsonHasEveryValueInItsPlace) {
+  const Case c = shear_case("[[drop]]\nradius = 0.5\ncenter = [0, 0, 3]\n",
+                            {"flow.capillary-number=inf", "title=A \"quoted\" title"});
+  const nlohmann::json json = nlohmann::json::parse(case_json(c));
+  EXPECT_EQ(json["title"], "A \"quoted\" title");
+  EXPECT_EQ(json["flow"]["capillary-number"], "inf");
+  ASSERT_EQ(json["drop"].size(), 2u);
+  EXPECT_EQ(json["drop"][1]["center"], nlohmann::json({0.0, 0.0, 3.0}));
+  EXPECT_EQ(json["drop"][1]["nodes"], 110);
+  EXPECT_EQ(json["time"]["scheme"], "rk2");
+  EXPECT_EQ(json["topology"]["coalescence"], "off");
+  EXPECT_EQ(json["output"]["volume"], true);
+  EXPECT_FALSE(json["domain"].contains("radius"));  // of another shape
+}
+
+}  // namespace
+}  // namespace meniscus

@@ -1,0 +1,32 @@
+# Checks of the tree itself (label static: they need no build), of the package and of the program.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+
+function(meniscus_static_check NAME)
+  add_test(NAME ${NAME} COMMAND ${ARGN})
+  set_tests_properties(${NAME} PROPERTIES LABELS static)
+endfunction()
+
+meniscus_static_check(format ${PROJECT_SOURCE_DIR}/scripts/check_format.sh)
+foreach(CHECK layers citations)
+  set(FOLDER ${CMAKE_CURRENT_SOURCE_DIR}/${CHECK})
+  meniscus_static_check(${CHECK} Python3::Interpreter ${FOLDER}/check_${CHECK}.py
+    ${PROJECT_SOURCE_DIR})
+  meniscus_static_check(${CHECK}_check Python3::Interpreter -B ${FOLDER}/check_${CHECK}_test.py)
+endforeach()
+
+add_test(NAME end_to_end COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/run.py
+  $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/end_to_end)
+set_tests_properties(end_to_end PROPERTIES TIMEOUT 900)
+
+# An instrumented library asks its flags of whoever links it; the plain builds carry this test.
+if(NOT MENISCUS_SANITIZE AND NOT MENISCUS_COVERAGE)
+  add_test(NAME package COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR}
+    -DWORK=${CMAKE_CURRENT_BINARY_DIR}/package -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/package
+    -P ${CMAKE_CURRENT_SOURCE_DIR}/package/run.cmake)
+  set_tests_properties(package PROPERTIES TIMEOUT 900)
+endif()
+
+add_test(NAME interrupted COMMAND Python3::Interpreter
+  ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/interrupted.py
+  $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/interrupted)
+set_tests_properties(interrupted PROPERTIES TIMEOUT 900)

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "meniscus/flow/fem/options.hpp"
+#include "meniscus/mesh/surface_mesh.hpp"
+#include "tests/flow/fem/sphere_scene.hpp"
+
+namespace meniscus::fem {
+
+/// Measurements on one drop in a concentric sphere, each a solve or a few of them through
+/// FlowSolver, with N0 = `num_vertices` on the drop.
+
+struct StaticSphere {
+  double largest_velocity = 0.0;  ///< times Ca
+  double jump_error = 0.0;  ///< of the mean of p_in − p_out over the interface's vertices, over 2
+  double jump_deviation = 0.0;  ///< standard deviation of p_in − p_out
+};
+/// λ = 1, outer radius 10 at rest: exactly v = 0, p_in − p_out = 2/Ca.
+[[nodiscard]] StaticSphere static_sphere(int num_vertices, CapillaryForm form);
+
+/// Rate of decay of r = 1 + ε P_l for Ca = 1 inside a radius of 10 on which the unbounded solution
+/// is imposed: means of ±ε at ε = 0.05 and 0.025, extrapolated to ε = 0.
+[[nodiscard]] double measured_relaxation_rate(int num_vertices, CapillaryForm form, int l,
+                                              double lambda);
+
+/// cE: rate of growth of the P2 part of a tensionless sphere inside radius b, where v = E·x with
+/// E = diag(1, −1/2, −1/2). cf: rate of decay of r = 1 + ε P2 for Ca = 1 inside radius b at rest,
+/// the balanced form, extrapolated in ε as above.
+[[nodiscard]] double measured_stretching(int num_vertices, double lambda, double b);
+[[nodiscard]] double measured_relaxation_in_wall(int num_vertices, double lambda, double b,
+                                                 CapillaryForm form);
+/// The same in closed form (derived by computer algebra; its values at b → ∞ are the unbounded
+/// drop's).
+[[nodiscard]] double exact_stretching(double lambda, double b);
+
+/// Velocity of a drop at the centre of a sphere of radius b at rest, under a body force in it whose
+/// sum is the exact drag at velocity 1.
+[[nodiscard]] double measured_translation(int num_vertices, double lambda, double b);
+/// Drag over μRU at the centre of a container of radius b, in closed form.
+[[nodiscard]] double exact_drag(double lambda, double b);
+
+/// Order of the error against N0^(1/2) ~ 1/h from the first to the last of a series.
+[[nodiscard]] double order_in_h(const std::vector<int>& num_vertices,
+                                const std::vector<double>& errors);
+
+}  // namespace meniscus::fem

@@ -1,0 +1,186 @@
+#include "tests/report/synthetic_run.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "meniscus/io/table.hpp"
+#include "meniscus/io/vtk_file.hpp"
+#include "meniscus/mesh/shapes.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+
+namespace meniscus::test {
+namespace {
+
+namespace fs = std::filesystem;
+using io::Cell;
+
+constexpr double end_time = 6.0;
+
+/// An ellipsoid in the flow plane: half axes L > W > B with L B W = 1, L at an angle to x.
+struct Shape {
+  double L = 1.0, B = 1.0, W = 1.0, angle = std::numbers::pi / 4.0;
+  Vec3 center = Vec3::Zero();
+};
+
+Shape shape_at(double t, int drop) {
+  const double growth = 1.0 - std::exp(-t / 1.5);
+  Shape shape;
+  shape.L = 1.0 + (0.55 + 0.1 * drop) * growth;
+  shape.W = 1.0 - 0.08 * growth;
+  shape.B = 1.0 / (shape.L * shape.W);
+  shape.angle = std::numbers::pi / 180.0 * (45.0 - 19.0 * growth);
+  if (drop > 0) shape.center = Vec3(1.2 + 0.3 * t, 1.9, 0.2);
+  return shape;
+}
+
+/// Maps the unit sphere on the ellipsoid.
+Mat3 stretch(const Shape& s) {
+  const double c = std::cos(s.angle), d = std::sin(s.angle);
+  Mat3 axes;
+  axes << c, -d, 0, d, c, 0, 0, 0, 1;
+  return axes * Vec3(s.L, s.B, s.W).asDiagonal();
+}
+
+/// k1 + k2 of the ellipsoid at the image of a point u of the unit sphere:
+/// h³/(abc)² (a² + b² + c² − r²), h the distance of the tangent plane, r that of the point.
+double curvature_at(const Shape& s, const Vec3& u) {
+  const Vec3 axes(s.L, s.B, s.W), x = axes.cwiseProduct(u);
+  const double h = 1.0 / x.cwiseQuotient(axes.cwiseProduct(axes)).norm();
+  const double abc = s.L * s.B * s.W;
+  return h * h * h / (abc * abc) * (axes.squaredNorm() - x.squaredNorm());
+}
+
+void write_frame(const fs::path& path, const SyntheticRun& run, double t) {
+  std::vector<SurfaceMesh> meshes;
+  io::NamedArray curvature{"curvature", 1, {}}, speed{"normal_velocity", 1, {}},
+      velocity{"velocity", 3, {}}, density{"node_density", 1, {}}, drop{"drop", 1, {}};
+  for (int k = 0; k < run.num_drops; ++k) {
+    const Shape shape = shape_at(t, k);
+    SurfaceMesh mesh = sphere(run.num_vertices);
+    for (Vec3& x : mesh.x) {
+      curvature.values.push_back(curvature_at(shape, x));
+      speed.values.push_back(std::exp(-t));
+      velocity.values.insert(velocity.values.end(), {x.y(), 0.0, 0.0});
+      x = stretch(shape) * x + shape.center;
+    }
+    for (const double area : vertex_areas(mesh)) density.values.push_back(1.0 / area);
+    drop.values.insert(drop.values.end(), static_cast<std::size_t>(mesh.num_faces()), k);
+    meshes.push_back(mesh);
+  }
+  std::vector<const SurfaceMesh*> surfaces;
+  for (const SurfaceMesh& mesh : meshes) surfaces.push_back(&mesh);
+  io::write_vtp(path, surfaces, {{curvature, speed, velocity, density}, {drop}}, t);
+}
+
+void write_frames(const fs::path& folder, const SyntheticRun& run) {
+  fs::create_directories(folder / "surface");
+  std::vector<io::PvdEntry> entries;
+  for (int i = 0; i < run.num_frames; ++i) {
+    const double t = run.num_frames > 1 ? end_time * i / (run.num_frames - 1) : 0.0;
+    entries.push_back({t, fmt::format("surface/surface-{:04}.vtp", i)});
+    write_frame(folder / entries.back().file, run, t);
+  }
+  io::write_pvd(folder / "surface.pvd", entries);
+}
+
+void write_drops(io::TableWriter& drops, const SyntheticRun& run, int step, double t) {
+  for (int k = 0; k < run.num_drops; ++k) {
+    const Shape s = shape_at(t, k);
+    const double volume = 4.0 / 3.0 * std::numbers::pi;
+    drops.add({std::int64_t{step}, t, std::int64_t{k}, Cell(), volume,
+               1e-13 * std::sin(5.0 * step + k), 1e-5 * (1.0 + std::sin(0.3 * step)), 12.6 * s.L,
+               s.center.x(), s.center.y(), s.center.z(), s.L, s.B, s.W, (s.L - s.B) / (s.L + s.B),
+               s.angle * 180.0 / std::numbers::pi, s.L, s.L * s.L, 0.9});
+  }
+}
+
+void write_tables(const fs::path& folder, const SyntheticRun& run) {
+  io::TableWriter history(folder / "history.csv", {"step",
+                                                   "t",
+                                                   "dt",
+                                                   "drops",
+                                                   "surface_nodes",
+                                                   "nodes",
+                                                   "tetrahedra",
+                                                   "min_gap",
+                                                   "min_dihedral_deg",
+                                                   "linear_iterations",
+                                                   "power_in",
+                                                   "dissipation",
+                                                   "surface_rate",
+                                                   "power_residual",
+                                                   "stress_xx",
+                                                   "stress_yy",
+                                                   "stress_zz",
+                                                   "stress_xy",
+                                                   "stress_xz",
+                                                   "stress_yz",
+                                                   "N1",
+                                                   "N2"});
+  io::TableWriter drops(
+      folder / "drops.csv",
+      {"step", "t", "drop", "parent", "volume", "volume_drift", "volume_correction", "area", "x",
+       "y", "z", "L", "B", "W", "D", "angle_deg", "extent_x", "H_max", "D_inertia"});
+  io::TableWriter timing(folder / "timing.csv", {"step", "t", "solve", "output"});
+  for (int step = 0; step <= run.num_steps; ++step) {
+    const double t = run.num_steps > 0 ? end_time * step / run.num_steps : 0.0;
+    const double rate = 0.8 * std::exp(-t / 1.5);
+    const Cell gap = run.num_drops > 1 ? Cell(0.3 + 0.1 * t) : Cell();
+    history.add({std::int64_t{step},
+                 t,
+                 step > 0 ? 0.1 : 0.0,
+                 std::int64_t{run.num_drops},
+                 std::int64_t{200 + step},
+                 std::int64_t{5400 + 20 * step},
+                 std::int64_t{30000 + 150 * step},
+                 gap,
+                 7.0 + std::sin(step),
+                 std::int64_t{44},
+                 9.0 - 0.1 * rate,
+                 9.0 - rate,
+                 0.88 * rate,
+                 0.02 * rate,
+                 0.1,
+                 -0.1,
+                 0.0,
+                 4.0 + rate,
+                 0.0,
+                 0.0,
+                 2.0 - 2.0 * rate,
+                 -0.6 + 0.6 * rate});
+    write_drops(drops, run, step, t);
+    timing.add({std::int64_t{step}, t, 0.3 + 0.05 * std::sin(step), 0.02});
+  }
+}
+
+constexpr const char* record = R"({
+  "program": "meniscus", "version": "0.1.0", "commit": "0123456789ab",
+  "title": "Drop in simple shear, <subcritical> & steady", "status": "done",
+  "case_file": "cases/shear/case.toml",
+  "case_text": "title = \"Drop in simple shear\"\n[flow]\nkind = \"simple-shear\"   # v_x = G y\ncapillary-number = 0.3\n\n[[drop]]\nradius = 1.0\n",
+  "case": {"title": "Drop in simple shear", "flow": {"kind": "simple-shear", "capillary-number": 0.3},
+    "drop": [{"radius": 1.0, "viscosity-ratio": 1.0, "nodes": 200, "center": [0, 0, 0]}],
+    "domain": {"shape": "box", "half-width": 10.0}, "interface": {"surface-tension": "nodal"},
+    "solver": {"method": "finite-element", "elements": "P1-P1", "linear": "block"},
+    "time": {"scheme": "rk2", "end": 6.0}},
+  "host": "example", "ranks": 1, "started": "2001-02-03T04:05:06Z",
+  "finished": "2001-02-03T04:07:01Z", "wall_seconds": 115.2,
+  "seconds": {"remesh surface": 3.1, "tetrahedralize": 14.8, "assemble": 31.2, "solve": 52.4,
+    "move mesh": 4.4, "diagnostics": 6.2, "output": 2.1},
+  "steps": 60, "t": 6.0, "warnings": []
+}
+)";
+
+}  // namespace
+
+void write_synthetic_run(const fs::path& folder, const SyntheticRun& run) {
+  fs::create_directories(folder);
+  write_tables(folder, run);
+  write_frames(folder, run);
+  std::ofstream(folder / "run.json") << record;
+}
+
+}  // namespace meniscus::test
