@@ -127,12 +127,23 @@ class SaddleSolver::Implementation {
     return report;
   }
 
+  void keep(const SaddleSystem& system) {
+    const OptionScope scope(table_.get());
+    forget();
+    try {
+      prepare(system);
+    } catch (const PetscFailure&) {  // the solve that wants it will report why
+      forget();
+    }
+    release();
+  }
+
+ private:
   void forget() {
     multigrid_.reset();
     factorization_.reset();
   }
 
- private:
   /// The operator, and a preconditioner for it: what was kept of one, and what is cheap anew.
   void prepare(const SaddleSystem& system) {
     const bool is_paper = options_.method == SaddleMethod::paper_gmres;
@@ -236,6 +247,6 @@ LinearReport SaddleSolver::solve(const SaddleSystem& system,
   return implementation_->solve(system, right_hand_side, solution, rtol, preconditioner);
 }
 
-void SaddleSolver::forget_preconditioner() { implementation_->forget(); }
+void SaddleSolver::prepare(const SaddleSystem& system) { implementation_->keep(system); }
 
 }  // namespace meniscus::linear

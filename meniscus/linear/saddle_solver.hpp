@@ -52,7 +52,8 @@ class SaddleSolver {
   LinearReport solve(const SaddleSystem& system, std::span<const double> right_hand_side,
                      std::span<double> solution, double rtol,
                      Preconditioner preconditioner = Preconditioner::fresh);
-  void forget_preconditioner();
+  /// Makes and keeps the preconditioner that a fresh solve of this system would make. Collective.
+  void prepare(const SaddleSystem& system);
 
  private:
   class Implementation;

@@ -35,6 +35,11 @@ Color scaled(const Color& color, double factor) {
   return {part(color.red), part(color.green), part(color.blue)};
 }
 
+Color whitened(const Color& color, double share) {
+  const auto part = [&](double value) { return value + share * (1.0 - value); };
+  return {part(color.red), part(color.green), part(color.blue)};
+}
+
 std::string hex(const Color& color) {
   const auto part = [](double value) { return std::lround(255.0 * value); };
   return fmt::format("#{:02x}{:02x}{:02x}", part(color.red), part(color.green), part(color.blue));

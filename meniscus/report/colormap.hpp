@@ -13,13 +13,19 @@ struct Color {
 /// Viridis at s in [0, 1] (values beyond are clamped): lightness rises evenly with s, readable
 /// without colour vision.
 [[nodiscard]] Color viridis(double s);
+/// Brightened or darkened by a factor; brightened towards white by a share in [0, 1].
 [[nodiscard]] Color scaled(const Color& color, double factor);
+[[nodiscard]] Color whitened(const Color& color, double share);
 [[nodiscard]] std::string hex(const Color& color);  ///< "#rrggbb"
 
-/// The range of values that a colour map spans.
+/// The values that a part of viridis spans.
 struct ValueRange {
   double low = 0.0, high = 1.0;
+  double first = 0.0, last = 1.0;  ///< the part: all of it, or without the ends
   [[nodiscard]] double fraction(double value) const { return (value - low) / (high - low); }
+  [[nodiscard]] Color color(double value) const {
+    return viridis(first + (last - first) * fraction(value));
+  }
 };
 
 /// From the 1st to the 99th of each hundred of the finite values, so that a few wild ones do not

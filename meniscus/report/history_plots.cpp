@@ -68,6 +68,10 @@ Plot drop_plot(Plot plot, const Columns& drops, const std::vector<Quantity>& qua
   const auto rows = rows_of_drops(drops);
   const bool is_single = rows.size() == 1;
   const std::vector<double> t = drops["t"];
+  if (!is_single && quantities.size() == 3) {
+    plot.title += fmt::format(": {} solid, {} dashed, {} dotted", quantities[0].label,
+                              quantities[1].label, quantities[2].label);
+  }
   for (const auto& [drop, of_drop] : rows) {
     const auto rank = static_cast<std::size_t>(std::distance(rows.begin(), rows.find(drop)));
     for (std::size_t q = 0; q < quantities.size(); ++q) {
@@ -79,11 +83,10 @@ Plot drop_plot(Plot plot, const Columns& drops, const std::vector<Quantity>& qua
         curve.x.push_back(t[row]);
         curve.y.push_back(values[row]);
       }
-      if (quantities.size() > 1) curve.label = quantities[q].label;
-      if (!is_single)
-        curve.label =
-            fmt::format("{}{}drop {}", curve.label, quantities.size() > 1 ? ", " : "", drop);
-      if (rank >= most_drops_in_legend) curve.label.clear();
+      if (is_single && quantities.size() > 1) curve.label = quantities[q].label;
+      if (!is_single && q == 0 && rank < most_drops_in_legend) {
+        curve.label = fmt::format("drop {}", drop);
+      }
       plot.curves.push_back(std::move(curve));
     }
   }
@@ -156,8 +159,10 @@ PlotGroup energy_group(const Columns& history) {
                         {"dissipation", "dissipation"},
                         {"surface_rate", "rate of surface energy"}}),
            residual_plot(history),
-           column_plot(time_plot("Drop contribution to stress", "μG"), history,
-                       {{"stress_xy", "σxy"}, {"N1", "N₁"}, {"N2", "N₂"}})}};
+           column_plot(time_plot("Shear stress (xy) added by the drops", "μG"), history,
+                       {{"stress_xy", "xy"}}),
+           column_plot(time_plot("Normal stress differences added by the drops", "μG"), history,
+                       {{"N1", "N₁"}, {"N2", "N₂"}})}};
 }
 
 /// The step that led to each row; the first row has none, which its 0 stands for.

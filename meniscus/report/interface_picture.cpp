@@ -19,6 +19,8 @@ constexpr double margin = 10.0;  // [px] around the widest frame
 // Triangles are written as whole numbers of this fraction of a px: short, and finer than any
 // screen.
 constexpr double subpixel = 0.1;
+// How much whiter than their face edges are: the mesh shows on dark colours without ruling them.
+constexpr double edge_whiteness = 0.2;
 
 /// The box of a frame along the axes of the view [R0].
 struct Box {
@@ -43,10 +45,12 @@ View flow_plane_view() {
   return view;
 }
 
-/// Brightness of a face with unit normal n: even the darkest side shows its colour.
-double brightness(const View& view, const Vec3& n) {
+/// The colour of a face with unit normal n in the light: even the darkest side shows its colour,
+/// and the brightest does not lose it.
+Color lit(const Color& color, const View& view, const Vec3& n) {
   const Vec3 light = (-0.45 * view.right + 0.6 * view.up + 0.75 * view.toward).normalized();
-  return 0.62 + 0.42 * std::max(0.0, n.dot(light));
+  const double share = std::max(0.0, n.dot(light));
+  return whitened(scaled(color, 0.72 + 0.36 * share), 0.16 * share * share);
 }
 
 Color face_color(const SurfaceFrame& frame, FaceId f, const ValueRange& range) {
@@ -54,7 +58,7 @@ Color face_color(const SurfaceFrame& frame, FaceId f, const ValueRange& range) {
   if (frame.curvature.empty()) return plain;
   double mean = 0.0;
   for (const VertexId v : frame.mesh.faces[f]) mean += frame.curvature[v] / 3.0;
-  return viridis(range.fraction(mean));
+  return range.color(mean);
 }
 
 /// Faces turned to the eye, the farthest first.
@@ -111,14 +115,15 @@ std::string draw_surface(const SurfaceFrame& frame, const View& view, const Valu
                 std::lround((0.5 * view.height - view.scale * up) / subpixel)});
   }
   std::string text = fmt::format(R"x(<g class="mesh" transform="scale({})" stroke-width="{}">)x",
-                                 subpixel, 0.5 / subpixel);
+                                 subpixel, 0.6 / subpixel);
   for (const FaceId f : visible_faces(frame, view)) {
     const FaceVertices& face = frame.mesh.faces[f];
     const Point a = points[face[0]], b = points[face[1]], c = points[face[2]];
     const Vec3 n = face_area_vector(frame.mesh, f).stableNormalized();
-    const Color color = scaled(face_color(frame, f, range), brightness(view, n));
-    text += fmt::format(R"(<path fill="{}" d="M{} {}l{} {} {} {}z"/>)", hex(color), a.x, a.y,
-                        b.x - a.x, b.y - a.y, c.x - b.x, c.y - b.y);
+    const Color color = lit(face_color(frame, f, range), view, n);
+    text += fmt::format(R"(<path fill="{}" stroke="{}" d="M{} {}l{} {} {} {}z"/>)", hex(color),
+                        hex(whitened(color, edge_whiteness)), a.x, a.y, b.x - a.x, b.y - a.y,
+                        c.x - b.x, c.y - b.y);
   }
   return text + "</g>";
 }
@@ -129,9 +134,10 @@ std::string draw_color_bar(const ValueRange& range, std::string_view label, doub
   constexpr double thickness = 10.0, overlap = 0.5;
   std::string text;
   for (int i = 0; i < num_strips; ++i) {
-    text += fmt::format(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{}" fill="{}"/>)",
-                        x + width * i / num_strips, y, width / num_strips + overlap, thickness,
-                        hex(viridis((i + 0.5) / num_strips)));
+    text += fmt::format(
+        R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{}" fill="{}"/>)",
+        x + width * i / num_strips, y, width / num_strips + overlap, thickness,
+        hex(range.color(range.low + (i + 0.5) / num_strips * (range.high - range.low))));
   }
   const Ticks ticks = linear_ticks(range.low, range.high, 5, false);
   for (std::size_t i = 0; i < ticks.values.size(); ++i) {

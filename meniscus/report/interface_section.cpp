@@ -13,6 +13,13 @@ namespace {
 
 using Edge = std::pair<VertexId, VertexId>;  ///< the lower id first
 
+/// The plane x[normal] = offset.
+struct Plane {
+  int normal = 2;
+  double offset = 0.0;
+  [[nodiscard]] double height(const Vec3& x) const { return x[normal] - offset; }
+};
+
 Edge edge_between(VertexId a, VertexId b) { return std::minmax(a, b); }
 
 /// The faces of one drop, with all vertices of the frame.
@@ -26,14 +33,15 @@ SurfaceMesh faces_of_drop(const SurfaceFrame& frame, int drop) {
 
 /// For each edge that the plane cuts, the next one along the section. A face that the plane cuts
 /// has one edge going down through it and one going up; its neighbour sees the latter going down.
-std::map<Edge, Edge> section_links(const SurfaceMesh& mesh, double z) {
+std::map<Edge, Edge> section_links(const SurfaceMesh& mesh, const Plane& plane) {
   std::map<Edge, Edge> next;
   for (const FaceVertices& face : mesh.faces) {
     Edge down, up;
     bool is_cut = false;
     for (std::size_t k = 0; k < 3; ++k) {
       const VertexId a = face[k], b = face[(k + 1) % 3];
-      const bool is_a_above = mesh.x[a].z() >= z, is_b_above = mesh.x[b].z() >= z;
+      const bool is_a_above = plane.height(mesh.x[a]) >= 0.0,
+                 is_b_above = plane.height(mesh.x[b]) >= 0.0;
       if (is_a_above == is_b_above) continue;
       is_cut = true;
       (is_a_above ? down : up) = edge_between(a, b);
@@ -43,9 +51,10 @@ std::map<Edge, Edge> section_links(const SurfaceMesh& mesh, double z) {
   return next;
 }
 
-Vec3 crossing(const SurfaceMesh& mesh, const Edge& edge, double z) {
+Vec3 crossing(const SurfaceMesh& mesh, const Edge& edge, const Plane& plane) {
   const Vec3 &a = mesh.x[edge.first], &b = mesh.x[edge.second];
-  return a + (z - a.z()) / (b.z() - a.z()) * (b - a);
+  const double below = plane.height(a), above = plane.height(b);
+  return a - below / (above - below) * (b - a);
 }
 
 void add_point(Curve& curve, double x, double y) {
@@ -54,32 +63,32 @@ void add_point(Curve& curve, double x, double y) {
 }
 
 /// Follows the links round, one closed curve after the other.
-void add_loops(Curve& curve, const SurfaceMesh& mesh, double z) {
+void add_loops(Curve& curve, const SurfaceMesh& mesh, const Plane& plane) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  std::map<Edge, Edge> next = section_links(mesh, z);
+  std::map<Edge, Edge> next = section_links(mesh, plane);
   while (!next.empty()) {
     const Edge start = next.begin()->first;
     for (auto link = next.begin(); link != next.end();) {
-      const Vec3 x = crossing(mesh, link->first, z);
-      add_point(curve, x.x(), x.y());
+      const Vec3 x = crossing(mesh, link->first, plane);
+      add_point(curve, x.x(), x[3 - plane.normal]);
       const Edge following = link->second;
       next.erase(link);
       link = next.find(following);
     }
-    const Vec3 x = crossing(mesh, start, z);
-    add_point(curve, x.x(), x.y());
+    const Vec3 x = crossing(mesh, start, plane);
+    add_point(curve, x.x(), x[3 - plane.normal]);
     add_point(curve, nan, nan);
   }
 }
 
 }  // namespace
 
-Curve section_through_centroids(const SurfaceFrame& frame) {
+Curve section_through_centroids(const SurfaceFrame& frame, int normal) {
   Curve curve;
   const std::set<int> drops(frame.drop.begin(), frame.drop.end());
   for (const int drop : drops) {
     const SurfaceMesh mesh = faces_of_drop(frame, drop);
-    add_loops(curve, mesh, enclosed_centroid(mesh).z());
+    add_loops(curve, mesh, {normal, enclosed_centroid(mesh)[normal]});
   }
   return curve;
 }

@@ -23,9 +23,9 @@ border:1px solid currentColor;margin-left:10px;vertical-align:5px;letter-spacing
 .done{color:var(--good)}.failed{color:var(--bad)}.other{color:var(--soft)}
 .notice{border-left:3px solid var(--bad);background:var(--card);padding:8px 16px;margin:16px 0 0}
 .notice p{margin:2px 0}
-.tiles{display:grid;grid-template-columns:repeat(auto-fit,minmax(132px,1fr));gap:1px;
+.tiles{display:flex;flex-wrap:wrap;gap:1px;
 background:var(--line);border:1px solid var(--line);border-radius:8px;overflow:hidden;margin:0}
-.tiles div{background:var(--card);padding:12px 16px}
+.tiles div{background:var(--card);padding:12px 16px;flex:1 1 auto}
 .tiles dt{font-size:13px;color:var(--soft)}
 .tiles dd{margin:0;font-size:21px;font-weight:600;font-variant-numeric:tabular-nums;white-space:nowrap}
 .tiles dd small{font-size:14px;font-weight:400;color:var(--soft)}
@@ -37,7 +37,9 @@ figcaption{font-size:14px;color:var(--soft);text-align:center;font-variant-numer
 svg{display:block;width:100%;height:auto}
 .key{max-width:560px;margin:8px 0 0}
 .plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,460px),1fr));gap:16px}
-.wide{max-width:760px}
+.sections{margin-top:16px}
+.sections .key{grid-column:1/-1;margin:0}
+.card+.card,.columns+.card{margin-top:16px}.columns .card,.plots .card{margin-top:0}
 .columns{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,420px),1fr));gap:16px;
 align-items:start}
 table{border-collapse:collapse;width:100%;font-size:15px;font-variant-numeric:tabular-nums}

@@ -14,7 +14,7 @@ svg .grid{stroke:#e4e7eb;stroke-width:1;fill:none}
 svg .ax{stroke:#9aa3ad;stroke-width:1;fill:none}
 svg .mk{stroke:#9aa3ad;stroke-width:1;stroke-dasharray:2 3;fill:none}
 svg .ln{fill:none;stroke-width:1.8;stroke-linejoin:round;stroke-linecap:round}
-svg .mesh{stroke:#10151c;stroke-opacity:.28;stroke-linejoin:round}
+svg .mesh{stroke-linejoin:round}
 svg .d1{stroke-dasharray:6 3.5}
 svg .d2{stroke-dasharray:1.5 3.5}
 svg .s0{stroke:#0072b2}svg .f0{fill:#0072b2}

@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 
 constexpr int num_page_frames = 8;
 constexpr double frame_width = 320.0;  // [px]
-// A triangle takes about 45 bytes; half of them face the viewer: 1 MB for all pictures of a page.
-constexpr int most_faces = 48000;
+// A triangle takes about 65 bytes; half of them face the viewer: 1.2 MB for all pictures of a page.
+constexpr int most_faces = 36000;
 
 /// Frames fit for a page, and whether any had to be made coarser for it.
 struct PageFrames {
@@ -64,23 +64,42 @@ std::string interface_html(const PageFrames& page) {
   return text + fmt::format("</div>\n<div class=\"key\">{}</div>{}</div>\n", key, note);
 }
 
+std::string plot_html(const Plot& plot) {
+  return "<figure class=\"card\">" +
+         inline_svg(draw_plot(plot), plot.width, plot.height, plot.title) + "</figure>\n";
+}
+
 /// Sections of all frames in one plot, coloured by time.
-std::string section_html(const std::vector<SurfaceFrame>& frames) {
-  if (frames.empty()) return {};
-  Plot plot{.title = "Sections in the plane of flow through each drop’s centroid",
+Plot section_plot(const std::vector<SurfaceFrame>& frames, const ValueRange& times, int normal) {
+  const bool is_flow_plane = normal == 2;
+  Plot plot{.title = is_flow_plane ? "Sections in the x–y plane" : "Sections in the x–z plane",
             .x_label = "x [R₀]",
-            .y_label = "y [R₀]"};
+            .y_label = is_flow_plane ? "y [R₀]" : "z [R₀]"};
   plot.has_equal_scales = true;
-  plot.width = 760.0;
-  plot.height = 420.0;
-  const ValueRange times{frames.front().t, std::max(frames.back().t, frames.front().t + 1e-12)};
+  plot.height = 400.0;
   for (const SurfaceFrame& frame : frames) {
-    Curve curve = section_through_centroids(frame);
-    curve.stroke = hex(viridis(0.92 * times.fraction(frame.t)));  // 0.92: yellow is faint on white
+    Curve curve = section_through_centroids(frame, normal);
+    curve.stroke = hex(times.color(frame.t));
     plot.curves.push_back(std::move(curve));
   }
-  return "<div class=\"card wide\" style=\"margin-top:16px\"><figure>" +
-         inline_svg(draw_plot(plot), plot.width, plot.height, plot.title) + "</figure></div>\n";
+  return plot;
+}
+
+std::string sections_html(const std::vector<SurfaceFrame>& frames) {
+  if (frames.empty()) return {};
+  // Without the ends of the colours: the dark one is faint at night, the yellow one by day.
+  const ValueRange times{.low = frames.front().t,
+                         .high = std::max(frames.back().t, frames.front().t + 1e-12),
+                         .first = 0.25,
+                         .last = 0.9};
+  std::string text = "<div class=\"plots sections\">\n";
+  for (const int normal : {2, 1}) text += plot_html(section_plot(frames, times, normal));
+  if (frames.size() == 1) return text + "</div>\n";
+  constexpr double width = 560.0, height = 56.0;
+  const std::string bar = draw_color_bar(
+      times, "Sections through each drop’s centroid, by time t [1/G]", 10.0, 24.0, 420.0);
+  return text + "<div class=\"key\">" + inline_svg(bar, width, height, "Colours of time") +
+         "</div></div>\n";
 }
 
 std::string plots_html(const RunData& run) {
@@ -88,8 +107,7 @@ std::string plots_html(const RunData& run) {
   for (const PlotGroup& group : history_plots(run)) {
     text += fmt::format("<h2>{}</h2>\n<div class=\"plots\">\n", group.heading);
     for (const Plot& plot : group.plots) {
-      text += "<figure class=\"card\">" +
-              inline_svg(draw_plot(plot), plot.width, plot.height, plot.title) + "</figure>\n";
+      text += plot_html(plot);
     }
     text += "</div>\n";
   }
@@ -98,7 +116,7 @@ std::string plots_html(const RunData& run) {
 
 std::string page_html(RunData& run) {
   const PageFrames page = page_frames(run);
-  const std::string pictures = interface_html(page) + section_html(page.frames);
+  const std::string pictures = interface_html(page) + sections_html(page.frames);
   const std::string title = run.facts.title.empty() ? "A run of Meniscus" : run.facts.title;
   // The policy lets a browser load nothing, so that the page is the same wherever it lies.
   return fmt::format(

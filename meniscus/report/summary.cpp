@@ -54,6 +54,10 @@ std::string physics(const RunFacts& facts) {
   return fmt::format("{}", fmt::join(parts, " · "));
 }
 
+std::string degrees(double angle) {
+  return std::isfinite(angle) ? readable(angle, 3) + "°" : readable(angle);
+}
+
 struct Tile {
   std::string name, value, unit;
 };
@@ -95,11 +99,11 @@ std::string tiles_html(const RunData& run) {
                              {"Steps", readable_count(steps), ""}};
   if (last(run.history, "drops") == 1.0) {
     tiles.push_back({"Deformation D", readable(last(run.drops, "D")), ""});
-    tiles.push_back({"Inclination", readable(last(run.drops, "angle_deg"), 3), "°"});
+    tiles.push_back({"Inclination", degrees(last(run.drops, "angle_deg")), ""});
   } else {
     tiles.push_back({"Drops", readable_count(last(run.history, "drops")), ""});
   }
-  tiles.push_back({"Largest volume drift", readable(drift, 2), ""});
+  tiles.push_back({"Volume drift", readable(drift, 2), ""});
   tiles.push_back({"Surface nodes", readable_count(last(run.history, "surface_nodes")), ""});
   tiles.push_back({"Tetrahedra", readable_count(tetrahedra), ""});
   if (run.facts.wall_seconds > 0.0) {

@@ -47,8 +47,15 @@ struct Extent {
   [[nodiscard]] bool is_empty() const { return low > high; }
 };
 
+/// Beyond 10^±300 differences and quotients of values overflow; nothing that a run computes is
+/// there.
+constexpr double largest_drawable = 1e300;
+
+bool is_within(double value) { return std::abs(value) < largest_drawable; }
+
 bool is_drawable(const Curve& curve, std::size_t i, bool is_log) {
-  return std::isfinite(curve.x[i]) && std::isfinite(curve.y[i]) && (!is_log || curve.y[i] > 0.0);
+  return is_within(curve.x[i]) && is_within(curve.y[i]) &&
+         (!is_log || curve.y[i] > 1.0 / largest_drawable);
 }
 
 struct Extents {
@@ -59,12 +66,13 @@ Extents data_extents(const Plot& plot) {
   Extents extents;
   for (const Curve& curve : plot.curves) {
     for (std::size_t i = 0; i < curve.x.size(); ++i) {
-      if (!is_drawable(curve, i, plot.is_log)) continue;
-      extents.x.add(curve.x[i]);
-      extents.y.add(curve.y[i]);
+      // Where y has a gap the axis of x goes on, the same for all plots of a run.
+      if (is_within(curve.x[i])) extents.x.add(curve.x[i]);
+      if (is_drawable(curve, i, plot.is_log)) extents.y.add(curve.y[i]);
     }
   }
-  if (extents.x.is_empty()) extents = {{0.0, 1.0}, {1.0, 10.0}};
+  if (extents.x.is_empty()) extents.x = {0.0, 1.0};
+  if (extents.y.is_empty()) extents.y = {1.0, 10.0};
   if (plot.includes_zero && !plot.is_log) extents.y.add(0.0);
   return extents;
 }
@@ -182,7 +190,7 @@ std::string draw_heading(const Plot& plot, const Frame& f) {
 std::string draw_marks(const Plot& plot, const Frame& f) {
   std::string text;
   for (const Mark& mark : plot.marks) {
-    if (mark.x < f.x.min || mark.x > f.x.max) continue;
+    if (!(mark.x >= f.x.min && mark.x <= f.x.max)) continue;
     text +=
         fmt::format(R"(<path class="mk" d="M{0:.1f} {1:.1f}V{2:.1f}"><title>{3}</title></path>)",
                     f.to_x(mark.x), f.top, f.bottom, escaped(mark.label));

@@ -53,12 +53,14 @@ std::string readable(double value, int digits) {
   if (!std::isfinite(value)) return "–";
   if (value == 0.0) return "0";
   const double magnitude = std::abs(value);
-  if (magnitude >= 1e-4 && magnitude < 1e6) {
-    return with_true_minus(fmt::format("{:.{}g}", value, std::max(digits, 6 * (magnitude >= 1e4))));
+  if (magnitude >= 1e-4 && magnitude < 999999.5) {
+    const int whole_digits = static_cast<int>(std::floor(std::log10(magnitude))) + 1;
+    if (whole_digits >= digits) return with_true_minus(fmt::format("{:.0f}", value));
+    return with_true_minus(fmt::format("{:.{}g}", value, digits));
   }
-  const int exponent = static_cast<int>(std::floor(std::log10(magnitude)));
-  const double mantissa = value / std::pow(10.0, exponent);
-  return with_true_minus(fmt::format("{:.{}g}", mantissa, digits)) + "×10" + superscript(exponent);
+  const std::string text = fmt::format("{:.{}e}", value, digits - 1);
+  const std::size_t e = text.find('e');
+  return with_true_minus(text.substr(0, e)) + "×10" + superscript(std::stoi(text.substr(e + 1)));
 }
 
 std::string readable_count(double value) {

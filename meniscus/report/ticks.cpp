@@ -34,8 +34,8 @@ std::string label(double value, int decimals) {
 /// Widens a range that is a point, or so thin that neighbouring marks would be the same double.
 void widen(double& low, double& high) {
   const double largest = std::max(std::abs(low), std::abs(high));
-  if (high - low > 1e-9 * largest && high > low) return;
-  const double half = largest > 0.0 ? 0.1 * largest : 1.0;
+  if (high - low > std::max(1e-9 * largest, 1e-300)) return;
+  const double half = largest > 1e-300 ? 0.1 * largest : 1.0;  // below it reciprocals overflow
   low -= half;
   high += half;
 }
@@ -65,13 +65,25 @@ Ticks linear_ticks(double low, double high, int count, bool is_rounded) {
 Ticks log_ticks(double low, double high) {
   const double first = std::floor(std::log10(low) + 1e-9),
                last = std::ceil(std::log10(high) - 1e-9);
-  const double end = std::max(last, first + 1.0);
-  Ticks ticks{.min = std::pow(10.0, first), .max = std::pow(10.0, end)};
-  const double stride = std::ceil((end - first) / 6.0);  // more than about six labels crowd
-  for (double exponent = first; exponent <= end; exponent += stride) {
-    ticks.values.push_back(std::pow(10.0, exponent));
-    ticks.labels.push_back("10" + superscript(static_cast<int>(exponent)));
+  const bool is_short = last - first <= 2.0;
+  // More than about six labels crowd.
+  const double stride = is_short ? 1.0 : std::ceil((last - first) / 6.0);
+  Ticks ticks;
+  for (double exponent = first; exponent <= last + stride; exponent += stride) {
+    const double power = std::pow(10.0, exponent);
+    for (const double factor : {1.0, 2.0, 5.0}) {
+      if (factor > 1.0 && !is_short) break;
+      const double value = factor * power;
+      const bool is_enough = ticks.values.size() > 1 && ticks.values.back() > high * (1.0 - 1e-9);
+      if (is_enough) break;
+      if (value <= low * (1.0 + 1e-9)) ticks = {};
+      ticks.values.push_back(value);
+      ticks.labels.push_back(is_short ? readable(value, 1)
+                                      : "10" + superscript(static_cast<int>(exponent)));
+    }
   }
+  ticks.min = ticks.values.front();
+  ticks.max = ticks.values.back();
   return ticks;
 }
 

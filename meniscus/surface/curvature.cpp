@@ -18,13 +18,14 @@ enum class Form { paraboloid, osculating };
 
 /// Fits and turns the frame until the linear terms vanish.
 std::optional<HeightPatch> turned_fit(const Vec3& x, const Vec3& normal_guess,
-                                      std::span<const Vec3> points, Form form) {
+                                      std::span<const Vec3> points, PatchDegree degree,
+                                      Form form) {
   HeightPatch frame = flat_patch(x, normal_guess);
   std::vector<Vec3> unrolled;
   std::optional<HeightPatch> patch;
   for (int turn = 0; turn < kMaxTurns; ++turn) {
     if (form == Form::osculating) unroll(points, frame, unrolled);
-    patch = fit_patch(frame, form == Form::osculating ? unrolled : points, PatchDegree::quadratic);
+    patch = fit_patch(frame, form == Form::osculating ? unrolled : points, degree);
     if (!patch) return std::nullopt;
     const double slope = std::hypot(patch->c[0], patch->c[1]);
     if (slope < kSlopeAtRest) return patch;
@@ -38,16 +39,15 @@ std::optional<HeightPatch> turned_fit(const Vec3& x, const Vec3& normal_guess,
 
 VertexCurvature curvature_at(VertexId v, const SurfaceMesh& mesh, const SurfaceTopology& topology,
                              RingGatherer& rings, Form form) {
-  const Vec3& x = mesh.x[v];
-  const Vec3& n = rings.normal(v);
-  if (topology.valence(v) >= kLeastValence)
-    if (const auto patch = turned_fit(x, n, rings.gather(v, false), form))
-      return patch->curvature();
-  if (const auto patch = turned_fit(x, n, rings.gather(v, true), form))
-    return patch->curvature();
-  // Fewer than five neighbours within two rings: only solids like the tetrahedron.
-  const auto patch = fit_patch(flat_patch(x, n), rings.gather(v, true), PatchDegree::umbilic);
-  return patch ? patch->curvature() : VertexCurvature{.n = n};
+  const auto fit = [&](bool with_second_ring, PatchDegree degree) {
+    return turned_fit(mesh.x[v], rings.normal(v), rings.gather(v, with_second_ring), degree, form);
+  };
+  std::optional<HeightPatch> patch;
+  if (topology.valence(v) >= kLeastValence) patch = fit(false, PatchDegree::quadratic);
+  if (!patch) patch = fit(true, PatchDegree::quadratic);
+  // Fewer than five neighbours to be seen within two rings: solids like the tetrahedron.
+  if (!patch) patch = fit(true, PatchDegree::umbilic);
+  return patch ? patch->curvature() : VertexCurvature{.n = rings.normal(v)};
 }
 
 VertexField<VertexCurvature> curvatures(const SurfaceMesh& mesh, const SurfaceTopology& topology,

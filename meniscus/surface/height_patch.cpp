@@ -12,21 +12,27 @@ namespace {
 /// polynomial space are told apart by less than the noise of a fit (columns have unit scale).
 constexpr double kSingularPivot = 1e-3;
 
+/// The functions that the coefficients c0, c1, … multiply; three terms make a sphere.
 template <int Terms>
 Eigen::Matrix<double, Terms, 1> monomials(double u, double v) {
   Eigen::Matrix<double, Terms, 1> m;
   m[0] = u;
   m[1] = v;
-  m[2] = 0.5 * u * u;
-  m[3] = u * v;
-  m[4] = 0.5 * v * v;
-  if constexpr (Terms == 9) {
-    m[5] = u * m[2] / 3.0;
-    m[6] = m[2] * v;
-    m[7] = u * m[4];
-    m[8] = v * m[4] / 3.0;
+  if constexpr (Terms == 3) {
+    m[2] = 0.5 * (u * u + v * v);
+    return m;
+  } else {
+    m[2] = 0.5 * u * u;
+    m[3] = u * v;
+    m[4] = 0.5 * v * v;
+    if constexpr (Terms == 9) {
+      m[5] = u * m[2] / 3.0;
+      m[6] = m[2] * v;
+      m[7] = u * m[4];
+      m[8] = v * m[4] / 3.0;
+    }
+    return m;
   }
-  return m;
 }
 
 double root_mean_square_distance(const Vec3& x, std::span<const Vec3> points) {
@@ -61,21 +67,7 @@ std::optional<HeightPatch> fit_terms(const HeightPatch& frame, std::span<const V
     const double scale = j < 2 ? 1.0 : (j < 5 ? 1.0 / h : 1.0 / (h * h));
     patch.c[static_cast<std::size_t>(j)] = scale * solution[j];
   }
-  return patch;
-}
-
-/// z = −½k(u² + v²), the sphere that best fits: what a tetrahedron's vertex still determines.
-std::optional<HeightPatch> fit_umbilic(const HeightPatch& frame, std::span<const Vec3> points) {
-  if (points.empty()) return std::nullopt;
-  double k = 0.0;
-  for (const Vec3& p : points) {
-    const Vec3 d = p - frame.x;
-    k -= 2.0 * d.dot(frame.n) / d.squaredNorm();
-  }
-  k /= static_cast<double>(points.size());
-  HeightPatch patch = frame;
-  patch.c.fill(0.0);
-  patch.c[2] = patch.c[4] = -k;
+  if constexpr (Terms == 3) patch.c[4] = patch.c[2];
   return patch;
 }
 
@@ -146,7 +138,7 @@ std::optional<HeightPatch> fit_patch(const HeightPatch& frame, std::span<const V
                                      PatchDegree degree) {
   switch (degree) {
     case PatchDegree::umbilic:
-      return fit_umbilic(frame, points);
+      return fit_terms<3>(frame, points);
     case PatchDegree::quadratic:
       return fit_terms<5>(frame, points);
     case PatchDegree::cubic:

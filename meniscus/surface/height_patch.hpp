@@ -29,7 +29,7 @@ struct HeightPatch {
   [[nodiscard]] VertexCurvature curvature() const;
 };
 
-/// Which terms of a patch are fitted; the others are zero.
+/// Which terms of a patch are fitted; the others are zero. Umbilic: c2 = c4, a sphere.
 enum class PatchDegree { umbilic, quadratic, cubic };
 
 /// Orthonormal frame with third axis n; continuous but for a half-line of n.

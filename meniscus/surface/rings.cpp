@@ -21,9 +21,6 @@ bool RingGatherer::mark(VertexId v, VertexId center) {
 
 std::span<const Vec3> RingGatherer::gather(VertexId v, bool with_second_ring) {
   points_.clear();
-  const auto add = [&](VertexId w) {
-    if (mark(w, v) && normals_[w].dot(normals_[v]) > kSeenCosine) points_.push_back(mesh_.x[w]);
-  };
   // The mark of an earlier call for the same vertex would hide its rings.
   seen_from_[v] = v;
   for (const VertexId w : topology_.ring(v)) seen_from_[w] = VertexId{};
@@ -31,10 +28,13 @@ std::span<const Vec3> RingGatherer::gather(VertexId v, bool with_second_ring) {
     for (const VertexId w : topology_.ring(v))
       for (const VertexId far : topology_.ring(w))
         if (far != v) seen_from_[far] = VertexId{};
-  for (const VertexId w : topology_.ring(v)) add(w);
+  for (const VertexId w : topology_.ring(v))
+    if (mark(w, v)) points_.push_back(mesh_.x[w]);
   if (with_second_ring)
     for (const VertexId w : topology_.ring(v))
-      for (const VertexId far : topology_.ring(w)) add(far);
+      for (const VertexId far : topology_.ring(w))
+        if (mark(far, v) && normals_[far].dot(normals_[v]) > kSeenCosine)
+          points_.push_back(mesh_.x[far]);
   return points_;
 }
 

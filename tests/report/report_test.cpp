@@ -1,19 +1,216 @@
 #include "meniscus/report/report.hpp"
 
-#include <cstdlib>
-
 #include <gtest/gtest.h>
 
+#include "meniscus/core/error.hpp"
+#include "tests/io/temporary_folder.hpp"
 #include "tests/report/synthetic_run.hpp"
+#include "tests/report/xml_check.hpp"
+
 namespace meniscus {
-TEST(Report, Look) {
-  const std::filesystem::path f = "/tmp/look";
-  test::write_synthetic_run(f / "one", {});
-  test::write_synthetic_run(f / "two", {.num_drops = 2});
-  for (auto d : {"one", "two"}) {
-    write_report(f / d);
-    write_interface_svg(f / d, f / d / "i.svg");
-    write_history_svg(f / d, f / d / "h.svg");
+namespace {
+
+using test::get;
+using test::message_of;
+using test::put;
+
+/// The page of a run, checked for what holds of every page.
+std::string page_of(const std::filesystem::path& folder) {
+  write_report(folder);
+  const std::string page = get(folder / "report.html");
+  const test::Xml xml = test::parse_xml(page);
+  EXPECT_EQ(xml.fault, "");
+  EXPECT_EQ(test::bad_coordinate(xml), "");
+  EXPECT_EQ(test::outside_reference(xml), "");
+  EXPECT_EQ(page.find("http:"), std::string::npos);
+  EXPECT_EQ(page.find("https:"), std::string::npos);
+  EXPECT_TRUE(page.ends_with("</html>\n"));
+  return page;
+}
+
+bool has(const std::string& page, const std::string& part) {
+  return page.find(part) != std::string::npos;
+}
+
+long count(const std::string& page, const std::string& part) {
+  long n = 0;
+  for (std::size_t at = page.find(part); at != std::string::npos; at = page.find(part, at + 1)) ++n;
+  return n;
+}
+
+TEST(Report, ShowsARun) {
+  const test::TemporaryFolder folder;
+  test::write_synthetic_run(folder.path(), {});
+  const std::string page = page_of(folder.path());
+  EXPECT_LT(page.size(), 2'000'000U);
+  for (const char* part : {"Drop in simple shear, &lt;subcritical&gt; &amp; steady",
+                           "class=\"status done\"",
+                           "0123456789ab",
+                           "cases/shear/case.toml",
+                           "<i>Ca</i> = 0.3",
+                           "1 min 55 s",
+                           "52.4 s",
+                           "Curvature κ",
+                           "Sections in the x–y plane",
+                           "Deformation D",
+                           "Half lengths",
+                           "Inclination",
+                           "Volume drift",
+                           "Size of the meshes",
+                           "Time step",
+                           "Power",
+                           "Energy residual",
+                           "Shear stress",
+                           "N₁",
+                           "Linear iterations",
+                           "Wall time per step",
+                           "kind = &quot;simple-shear&quot;",
+                           "flow.capillary-number",
+                           "prefers-color-scheme"}) {
+    EXPECT_TRUE(has(page, part)) << part;
+  }
+  EXPECT_EQ(count(page, "class=\"mesh\""), 8);  // the first and the last frame among them
+  EXPECT_TRUE(has(page, "<i>t</i> = 0<"));
+  EXPECT_TRUE(has(page, "<i>t</i> = 6<"));
+  EXPECT_FALSE(has(page, "Smallest gap"));  // a lone drop has none
+  EXPECT_FALSE(has(page, "class=\"notice\""));
+}
+
+TEST(Report, ShowsTheLastDeformationOfTheTable) {
+  const test::TemporaryFolder folder;
+  test::write_synthetic_run(folder.path(), {});
+  put(folder / "drops.csv", "step,t,drop,D,angle_deg\n0,0,0,0,45\n1,1,0,0.123449,26\n");
+  EXPECT_TRUE(has(page_of(folder.path()), "<dd>0.1234</dd>"));
+}
+
+TEST(Report, SeveralDropsAreSeveralCurves) {
+  const test::TemporaryFolder folder;
+  test::write_synthetic_run(folder.path(), {.num_drops = 2});
+  const std::string page = page_of(folder.path());
+  EXPECT_TRUE(has(page, "<title>drop 0</title>"));
+  EXPECT_TRUE(has(page, "<title>drop 1</title>"));
+  EXPECT_TRUE(has(page, "Smallest gap"));
+  EXPECT_TRUE(has(page, "L solid, B dashed, W dotted"));
+}
+
+TEST(Report, EveryFileButOneMayBeMissing) {
+  for (const char* kept : {"run.json", "history.csv"}) {
+    const test::TemporaryFolder folder;
+    test::write_synthetic_run(folder.path(), {.num_drops = 1, .num_frames = 2});
+    for (const char* name : {"run.json", "history.csv", "drops.csv", "timing.csv", "surface.pvd"}) {
+      if (std::string(name) != kept) std::filesystem::remove(folder / name);
+    }
+    const std::string page = page_of(folder.path());
+    EXPECT_FALSE(has(page, "class=\"notice\"")) << kept;
+    EXPECT_EQ(has(page, "Size of the meshes"), std::string(kept) == "history.csv");
+    EXPECT_EQ(has(page, "Time by phase"), std::string(kept) == "run.json");
   }
 }
+
+TEST(Report, OneRowAndOneFrame) {
+  const test::TemporaryFolder folder;
+  test::write_synthetic_run(folder.path(), {.num_drops = 1, .num_frames = 1, .num_steps = 0});
+  const std::string page = page_of(folder.path());
+  EXPECT_TRUE(has(page, "<circle"));
+  EXPECT_EQ(count(page, "class=\"mesh\""), 1);
+}
+
+TEST(Report, HeaderWithoutRows) {
+  const test::TemporaryFolder folder;
+  put(folder / "history.csv", "step,t,dt,drops\n");
+  put(folder / "drops.csv", "step,t,drop,D\n");
+  EXPECT_FALSE(has(page_of(folder.path()), "<h2>Shape</h2>"));
+}
+
+TEST(Report, EmptyAndWildCells) {
+  const test::TemporaryFolder folder;
+  put(folder / "history.csv",
+      "step,t,dt,drops,surface_nodes,nodes,tetrahedra,linear_iterations,power_in,power_residual\n"
+      "0,0,0,1,110,,,5,0,0\n1,0.1,0.1,1,nan,,,6,inf,1\n2,0.2,0.1,1,112,,,nan,1e308,-1e308\n");
+  const std::string page = page_of(folder.path());
+  EXPECT_TRUE(has(page, "surface nodes"));
+  EXPECT_FALSE(has(page, ">tetrahedra<"));
+}
+
+TEST(Report, EventsAreMarked) {
+  const test::TemporaryFolder folder;
+  test::write_synthetic_run(folder.path(), {});
+  put(folder / "events.csv", "step,t,kind\n30,3,breakup\n");
+  EXPECT_TRUE(has(page_of(folder.path()), "<title>breakup at t = 3</title>"));
+}
+
+TEST(Report, NamesWhatCannotBeRead) {
+  const test::TemporaryFolder folder;
+  test::write_synthetic_run(folder.path(), {.num_drops = 1, .num_frames = 3});
+  put(folder / "run.json", "{\"title\": ");
+  put(folder / "drops.csv", "a,b\n1\n2\n");
+  put(folder / "surface/surface-0001.vtp", "torn");
+  const std::string page = page_of(folder.path());
+  EXPECT_TRUE(has(page, "run.json cannot be read"));
+  EXPECT_TRUE(has(page, "drops.csv:2: 1 cells where the header has 2"));
+  EXPECT_TRUE(has(page, "surface-0001.vtp: not a surface file"));
+  EXPECT_EQ(count(page, "class=\"mesh\""), 2);
+}
+
+TEST(Report, RunJsonOfUnexpectedTypesIsBorne) {
+  const test::TemporaryFolder folder;
+  for (const char* text :
+       {"[]", "{}", "{\"title\": 7, \"seconds\": [1, 2], \"case\": 3, \"warnings\": {\"a\": 1}}",
+        "{\"wall_seconds\": \"x\", \"case\": {\"a\": {\"b\": [[1], {}]}, \"c\": []}, \"t\": "
+        "null}"}) {
+    put(folder / "run.json", text);
+    (void)page_of(folder.path());
+  }
+}
+
+TEST(Report, FailedRunsSayWhy) {
+  const test::TemporaryFolder folder;
+  put(folder / "run.json", R"({"status": "failed: disk <full>", "warnings": ["w & w"]})");
+  const std::string page = page_of(folder.path());
+  EXPECT_TRUE(has(page, "class=\"status failed\">failed<"));
+  EXPECT_TRUE(has(page, "failed: disk &lt;full&gt;"));
+  EXPECT_TRUE(has(page, "w &amp; w"));
+}
+
+TEST(Report, LargeRunsStaySmallPages) {
+  const test::TemporaryFolder folder;
+  test::write_synthetic_run(
+      folder.path(), {.num_drops = 2, .num_frames = 9, .num_steps = 3000, .num_vertices = 4000});
+  const std::string page = page_of(folder.path());
+  EXPECT_LT(page.size(), 2'000'000U);
+  EXPECT_TRUE(has(page, "fewer triangles"));
+}
+
+TEST(Report, PicturesStandAlone) {
+  const test::TemporaryFolder folder;
+  test::write_synthetic_run(folder.path(), {});
+  const double times[] = {0.0, 3.1};
+  write_interface_svg(folder.path(), folder / "all.svg");
+  write_interface_svg(folder.path(), folder / "two.svg", times);
+  write_history_svg(folder.path(), folder / "history.svg");
+  for (const char* name : {"all.svg", "two.svg", "history.svg"}) {
+    const test::Xml xml = test::parse_xml(get(folder / name));
+    EXPECT_EQ(xml.fault, "") << name;
+    EXPECT_EQ(test::bad_coordinate(xml), "") << name;
+    EXPECT_EQ(test::outside_reference(xml), "") << name;
+  }
+  EXPECT_EQ(count(get(folder / "all.svg"), "class=\"mesh\""), 6);
+  EXPECT_EQ(count(get(folder / "two.svg"), "class=\"mesh\""), 2);
+  EXPECT_TRUE(has(get(folder / "two.svg"), "t = 3<"));
+}
+
+TEST(Report, RefusesWhatIsNoRun) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path().string();
+  EXPECT_EQ(message_of<InvalidInput>([&] { write_report(path); }),
+            path + ": not the folder of a run; it holds neither run.json nor history.csv");
+  put(folder / "run.json", "{}");
+  EXPECT_EQ(message_of<InvalidInput>([&] { write_interface_svg(path, folder / "i.svg"); }),
+            path + ": no frame of the surface can be read");
+  EXPECT_EQ(message_of<InvalidInput>([&] { write_history_svg(path, folder / "h.svg"); }),
+            path + ": no history to plot");
+  EXPECT_EQ(folder.num_entries(), 1);
+}
+
+}  // namespace
 }  // namespace meniscus

@@ -36,19 +36,29 @@ TEST(FittedCurvature, SphereErrorIsWithinTheMeasuredOnes) {
 }
 
 TEST(FittedCurvature, IsSecondOrderOnAnEllipsoid) {
+  // In the mean: at the few vertices of valence 5 and 7 a ring has odd parts, and the error is
+  // between first and second order.
   const Vec3 axes(1.5, 1.0, 0.8);
-  std::vector<double> vertices, errors, normal_errors;
-  for (const int n : {500, 1000, 2000, 4000}) {
-    const SurfaceMesh mesh = stretched_sphere(n, axes);
-    const auto fit = fitted_curvature(mesh, SurfaceTopology(mesh));
-    vertices.push_back(n);
-    errors.push_back(largest_error(mesh, fit, [&](const Vec3& x) { return ellipsoid_curvature(x, axes); }));
-    double normal_error = 0.0;
-    for (const VertexId v : mesh.x.ids())
-      normal_error = std::max(normal_error, (fit[v].n - ellipsoid_curvature(mesh.x[v], axes).n).norm());
-    normal_errors.push_back(normal_error);
+  std::vector<double> vertices, errors, independent_errors, normal_errors;
+  for (const int n : {250, 500, 1000, 2000, 4000}) {
+    const SurfaceMesh mesh = test::equilibrated_ellipsoid(n, axes);
+    const SurfaceTopology topology(mesh);
+    const auto fit = fitted_curvature(mesh, topology);
+    const auto independent = osculating_curvature(mesh, topology);
+    double error = 0.0, independent_error = 0.0, normal_error = 0.0;
+    for (const VertexId v : mesh.x.ids()) {
+      const auto exact = ellipsoid_curvature(mesh.x[v], axes);
+      error += std::pow(fit[v].sum() - exact.sum, 2);
+      independent_error += std::pow(independent[v].sum() - exact.sum, 2);
+      normal_error += (fit[v].n - exact.n).squaredNorm();
+    }
+    vertices.push_back(mesh.num_vertices());
+    errors.push_back(std::sqrt(error / mesh.num_vertices()));
+    independent_errors.push_back(std::sqrt(independent_error / mesh.num_vertices()));
+    normal_errors.push_back(std::sqrt(normal_error / mesh.num_vertices()));
   }
   EXPECT_GT(observed_order(vertices, errors), 1.8);
+  EXPECT_GT(observed_order(vertices, independent_errors), 1.8);
   EXPECT_GT(observed_order(vertices, normal_errors), 1.8);
 }
 
@@ -104,8 +114,15 @@ TEST(FittedCurvature, LowValencesAreNotSingular) {
     const auto fit = fitted_curvature(mesh, topology);
     const auto independent = osculating_curvature(mesh, topology);
     for (const VertexId v : mesh.x.ids()) {
-      EXPECT_GT(fit[v].n.dot(mesh.x[v]), 0.99);
-      EXPECT_NEAR(fit[v].sum(), 2.0, 1.0);  // edges as long as the radius
+      double farthest = 0.0;
+      for (const VertexId w : topology.ring(v))
+        farthest = std::max(farthest, (mesh.x[w] - mesh.x[v]).squaredNorm());
+      // A parabola through a point of the unit circle at distance d has the curvature 1/(1 − d²/4).
+      // Second rings, taken at valences below five, are up to √3 times as far.
+      const double reach = topology.valence(v) >= 5 || mesh.num_vertices() == 4 ? 1.0 : 3.0;
+      EXPECT_GT(fit[v].n.dot(mesh.x[v]), 0.9);  // edges as long as the radius
+      EXPECT_GT(fit[v].sum(), 2.0);
+      EXPECT_LT(fit[v].sum(), 2.0 / (1.0 - reach * farthest / 4.0) + 1e-9) << v.value;
       EXPECT_NEAR(independent[v].sum(), 2.0, 1e-9);
     }
   }
@@ -120,22 +137,6 @@ TEST(OsculatingCurvature, IsExactOnSpheres) {
       EXPECT_NEAR(fit[v].k2, 1.0 / 0.3, 1e-8);
     }
   }
-}
-
-TEST(OsculatingCurvature, AgreesWithTheParaboloidToSecondOrder) {
-  const Vec3 axes(2.0, 1.0, 1.0);
-  std::vector<double> vertices, differences;
-  for (const int n : {500, 1000, 2000, 4000}) {
-    const SurfaceMesh mesh = stretched_sphere(n, axes);
-    const SurfaceTopology topology(mesh);
-    const auto a = fitted_curvature(mesh, topology);
-    const auto b = osculating_curvature(mesh, topology);
-    double sum = 0.0;
-    for (const VertexId v : mesh.x.ids()) sum += std::pow(a[v].sum() - b[v].sum(), 2);
-    vertices.push_back(n);
-    differences.push_back(std::sqrt(sum / n));
-  }
-  EXPECT_GT(observed_order(vertices, differences), 1.8);
 }
 
 TEST(FittedCurvature, TurnsWithTheSurface) {

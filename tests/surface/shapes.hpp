@@ -5,9 +5,11 @@
 #include <random>
 
 #include <Eigen/Geometry>
+#include <gtest/gtest.h>
 
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/surface/curvature.hpp"
+#include "meniscus/surface/remesh.hpp"
 
 namespace meniscus::test {
 
@@ -27,6 +29,15 @@ inline ExactCurvature ellipsoid_curvature(const Vec3& x, const Vec3& axes) {
 inline double ellipsoid_distance(const Vec3& x, const Vec3& axes) {
   const double level = x.cwiseQuotient(axes).norm();
   return (level - 1.0) * level / x.cwiseQuotient(axes.cwiseProduct(axes)).norm();
+}
+
+/// A mesh in the equilibrium of its springs, with every vertex on the ellipsoid.
+inline SurfaceMesh equilibrated_ellipsoid(int num_vertices, const Vec3& axes) {
+  SurfaceMesh mesh = stretched_sphere(num_vertices, axes);
+  const RemeshReport report = remesh(mesh, {.C0 = num_vertices / (4.0 * std::numbers::pi)});
+  EXPECT_TRUE(report.ok) << report.failure;
+  for (Vec3& x : mesh.x) x /= x.cwiseQuotient(axes).norm();
+  return mesh;
 }
 
 /// ∮⟨κ⟩² dS of a prolate spheroid of semi-axes a along, b across, by the midpoint rule in the

@@ -55,7 +55,6 @@ class FiniteElementFlow final : public FlowSolver {
     const VolumeMeshReport report = tetrahedralize(scene, options_.volume_mesh, mesh_);
     if (!report.ok) return failure(report.failure);
     use_topology();
-    state_.reset();
     return {};
   }
 
@@ -67,7 +66,6 @@ class FiniteElementFlow final : public FlowSolver {
   void mark(const Scene& scene) override {
     follow_interfaces(scene);
     marked_ = mesh_.x;
-    preconditioner_ = linear::Preconditioner::kept;
   }
   FlowReport move_from_mark(const Scene& marked, std::span<const VertexField<Vec3>> motion,
                             double dt) override;
@@ -82,6 +80,7 @@ class FiniteElementFlow final : public FlowSolver {
   void save(Archive& archive) const override {
     fem::save(mesh_, archive, "flow/mesh");
     if (state_) fem::save(*state_, archive, "flow/guess");
+    if (!prepared_at_.empty()) save_positions(prepared_at_, archive, "flow/preconditioner/x");
   }
   void load(const Archive& archive, const Scene& scene) override;
 
@@ -90,11 +89,13 @@ class FiniteElementFlow final : public FlowSolver {
  private:
   void use_topology() {
     stokes_.emplace(mesh_, options_);
-    preconditioner_ = linear::Preconditioner::fresh;
+    state_.reset();
+    prepared_at_ = {};
   }
   void follow_interfaces(const Scene& scene);
   void take_solution(const InstantProblem& problem);
   void level_pressure();
+  void restore_preconditioner(const Archive& archive, const Scene& scene);
 
   Options options_;
   TetMesh mesh_;
@@ -102,9 +103,9 @@ class FiniteElementFlow final : public FlowSolver {
   std::optional<StokesSolver> stokes_;
   /// The last solution: the next solve's first guess while the topology stands.
   std::optional<StokesState> state_;
-  /// The first solve after `mark` keeps the preconditioner of the one before; every other makes its
-  /// own, so that a run resumed at the start of a step does the same arithmetic.
-  linear::Preconditioner preconditioner_ = linear::Preconditioner::fresh;
+  /// Where the vertices were when the preconditioner was made that the next solve will keep; empty
+  /// when it is to make its own. Every preconditioner serves two solves: the stages of a step.
+  Field<TetVertexId, Vec3> prepared_at_;
   std::vector<VertexField<Vec3>> velocity_;
   std::vector<double> corner_pressure_;
   Power power_;
@@ -138,8 +139,13 @@ FlowReport FiniteElementFlow::solve(const Scene& scene, double t) {
     state_ = stokes_->state_at_rest();
     for (const TetVertexId v : mesh_.x.ids()) state_->v[v] = scene.flow.velocity(mesh_.x[v], t);
   }
-  const StokesReport report = stokes_->solve(problem->stokes, *state_, preconditioner_, times_);
-  preconditioner_ = linear::Preconditioner::fresh;
+  const bool is_kept = !prepared_at_.empty();
+  const StokesReport report = stokes_->solve(
+      problem->stokes, *state_,
+      is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh, times_);
+  const bool was_made =
+      !is_kept && report.ok && report.solver == options_.linear && report.iterations > 0;
+  prepared_at_ = was_made ? mesh_.x : Field<TetVertexId, Vec3>();
   if (!report.ok) return {false, report.failure, report.iterations};
   take_solution(*problem);
   return {true, {}, report.iterations};
@@ -194,6 +200,18 @@ FlowReport FiniteElementFlow::move_from_mark(const Scene& marked,
   return {};
 }
 
+/// A resumed run must do the same arithmetic: it gets the preconditioner that the saved one had.
+void FiniteElementFlow::restore_preconditioner(const Archive& archive, const Scene& scene) {
+  if (!archive.reals.contains("flow/preconditioner/x")) return;
+  prepared_at_ = load_positions(archive, "flow/preconditioner/x");
+  if (prepared_at_.size() != mesh_.num_vertices())
+    reject_input("checkpoint: flow/preconditioner/x does not fit the volume mesh");
+  TetMesh then = mesh_;
+  then.x = prepared_at_;
+  // The time matters to the values of the boundary's velocities alone.
+  stokes_->prepare(instant_problem(scene, then, options_.capillary, 0.0).stokes);
+}
+
 void FiniteElementFlow::load(const Archive& archive, const Scene& scene) {
   mesh_ = load_mesh(archive, "flow/mesh");
   if (mesh_.interfaces.size() != scene.interfaces.size())
@@ -204,7 +222,7 @@ void FiniteElementFlow::load(const Archive& archive, const Scene& scene) {
       reject_input("checkpoint: interface {} has {} vertices in the volume mesh, {} in the scene",
                    i, mesh_.interfaces[i].num_vertices, scene.interfaces[i].mesh.num_vertices());
   use_topology();
-  state_.reset();
+  restore_preconditioner(archive, scene);
   if (!archive.reals.contains("flow/guess/velocity")) return;
   state_ = load_state(archive, "flow/guess");
   const StokesState rest = stokes_->state_at_rest();

@@ -97,6 +97,14 @@ TetMesh load_mesh(const Archive& archive, const std::string& prefix) {
   return mesh;
 }
 
+void save_positions(const Field<TetVertexId, Vec3>& x, Archive& archive, const std::string& name) {
+  archive.reals[name] = flat(x);
+}
+
+Field<TetVertexId, Vec3> load_positions(const Archive& archive, const std::string& name) {
+  return vectors(array(archive.reals, name, 3));
+}
+
 void save(const StokesState& state, Archive& archive, const std::string& prefix) {
   archive.reals[prefix + "/velocity"] = flat(state.v);
   archive.reals[prefix + "/pressure"] = state.p;

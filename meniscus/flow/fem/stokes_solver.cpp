@@ -103,6 +103,11 @@ linear::SaddleSolver& StokesSolver::linear_solver(LinearSolver which) {
       .first->second;
 }
 
+void StokesSolver::prepare(const StokesProblem& problem) {
+  jacobian_.assemble(problem);
+  linear_solver(options_.linear).prepare(jacobian_.system());
+}
+
 StokesReport StokesSolver::solve(const StokesProblem& problem, StokesState& state,
                                  linear::Preconditioner preconditioner, PhaseTimes& times) {
   problem.constraints.impose(state.v);

@@ -32,6 +32,9 @@ class StokesSolver {
   [[nodiscard]] const PressureSpace& pressure_space() const { return pressure_; }
   [[nodiscard]] StokesState state_at_rest() const;
 
+  /// Makes and keeps the preconditioner that a fresh solve of this problem would make.
+  void prepare(const StokesProblem& problem);
+
   /// Improves `state` until the residual is below rtol times the reference: that of the state which
   /// rests wherever it may. Where the chosen linear solver fails it is tried again with a fresh
   /// preconditioner, if it had a kept one, and then the others in the order block, minres,

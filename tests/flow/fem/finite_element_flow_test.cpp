@@ -1,0 +1,168 @@
+#include "meniscus/flow/fem/finite_element_flow.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "tests/flow/fem/sphere_scene.hpp"
+
+namespace meniscus::fem {
+namespace {
+
+Scene shear_scene() {
+  Mat3 gradient = ImposedFlow::simple_shear();
+  Scene scene = sphere_in_sphere(
+      {.num_vertices = 110,
+       .outer_radius = 4.0,
+       .viscosity_ratio = 2.0,
+       .Ca = 0.4,
+       .outer_velocity = [gradient](const Vec3& x, double) { return Vec3(gradient * x); },
+       .is_linear_flow = true});
+  scene.flow = ImposedFlow(FlowFamily::planar, gradient);
+  return scene;
+}
+
+std::vector<VertexField<Vec3>> motion_of(const FlowSolver& flow) {
+  return {flow.velocity().begin(), flow.velocity().end()};
+}
+
+void move(Scene& scene, const std::vector<VertexField<Vec3>>& motion, double dt) {
+  for (std::size_t i = 0; i < motion.size(); ++i)
+    for (const VertexId v : motion[i].ids()) scene.interfaces[i].mesh.x[v] += dt * motion[i][v];
+}
+
+TEST(FiniteElementFlow, WarmSecondStageTakesFewerIterations) {
+  Scene scene = shear_scene();
+  const auto flow = make_finite_element_flow({});
+  ASSERT_TRUE(flow->rebuild(scene).ok);
+  const FlowReport first = flow->solve(scene, 0.0);
+  ASSERT_TRUE(first.ok) << first.failure;
+  flow->mark(scene);
+  const Scene start = scene;
+  const auto motion = motion_of(*flow);
+  move(scene, motion, 0.02);
+  ASSERT_TRUE(flow->move_from_mark(start, motion, 0.02).ok);
+  const FlowReport second = flow->solve(scene, 0.02);
+  ASSERT_TRUE(second.ok) << second.failure;
+  EXPECT_GT(second.iterations, 0);
+  EXPECT_LT(second.iterations, first.iterations);
+  for (const char* phase : {"tetrahedralize", "assemble", "solve", "move mesh"})
+    EXPECT_GT(flow->times()[phase], 0.0) << phase;
+}
+
+TEST(FiniteElementFlow, EnergyInIsDissipatedOrStoredInTheSurface) {
+  const Scene scene = shear_scene();
+  Options options;
+  options.rtol = 1e-10;
+  const auto flow = make_finite_element_flow(options);
+  ASSERT_TRUE(flow->rebuild(scene).ok);
+  ASSERT_TRUE(flow->solve(scene, 0.0).ok);
+  const VertexField<Vec3> gradient = area_gradient(scene.interfaces[0].mesh);
+  double growth = 0.0;
+  for (const VertexId v : gradient.ids()) growth += gradient[v].dot(flow->velocity()[0][v]) / 0.4;
+  const Power power = flow->power();
+  EXPECT_NEAR(power.in - power.dissipation, growth, 1e-7 * power.in);
+}
+
+// A run that goes on and one that is restored from a checkpoint do the same arithmetic, whether the
+// checkpoint falls between steps that make a preconditioner or keep one.
+TEST(FiniteElementFlow, ARestoredSolverDoesTheSameArithmetic) {
+  for (const auto which : {LinearSolver::block, LinearSolver::mumps}) {
+    Options options;
+    options.linear = which;
+    Scene scene = shear_scene();
+    const auto flow = make_finite_element_flow(options);
+    ASSERT_TRUE(flow->rebuild(scene).ok);
+    ASSERT_TRUE(flow->solve(scene, 0.0).ok);
+    for (int step = 1; step <= 3; ++step) {
+      flow->mark(scene);
+      const Scene start = scene;
+      const auto motion = motion_of(*flow);
+      move(scene, motion, 0.01);
+      ASSERT_TRUE(flow->move_from_mark(start, motion, 0.01).ok);
+      Archive archive;
+      flow->save(archive);
+      const auto restored = make_finite_element_flow(options);
+      restored->load(archive, scene);
+      const FlowReport straight = flow->solve(scene, 0.01 * step);
+      const FlowReport resumed = restored->solve(scene, 0.01 * step);
+      ASSERT_TRUE(straight.ok && resumed.ok);
+      EXPECT_GT(straight.iterations, 0);
+      EXPECT_EQ(straight.iterations, resumed.iterations);
+      EXPECT_EQ(flow->velocity()[0], restored->velocity()[0]) << step;
+      Archive a, b;
+      flow->save(a);
+      restored->save(b);
+      EXPECT_EQ(a.reals, b.reals) << step;
+      EXPECT_EQ(a.integers, b.integers) << step;
+    }
+  }
+}
+
+TEST(FiniteElementFlow, ADamagedCheckpointIsRefused) {
+  const Scene scene = shear_scene();
+  const auto flow = make_finite_element_flow({});
+  ASSERT_TRUE(flow->rebuild(scene).ok);
+  Archive archive;
+  flow->save(archive);
+  const auto restored = make_finite_element_flow({});
+  Archive missing = archive;
+  missing.reals.erase("flow/mesh/x");
+  EXPECT_THROW(restored->load(missing, scene), InvalidInput);
+  Archive wild = archive;
+  wild.integers["flow/mesh/cells"][7] = 1000000;
+  EXPECT_THROW(restored->load(wild, scene), InvalidInput);
+  Archive short_preconditioner = archive;
+  short_preconditioner.reals["flow/preconditioner/x"] = {0.0, 0.0, 0.0};
+  EXPECT_THROW(restored->load(short_preconditioner, scene), InvalidInput);
+  Archive short_guess = archive;
+  short_guess.reals["flow/guess/velocity"] = {0.0, 0.0, 0.0};
+  short_guess.reals["flow/guess/pressure"] = {0.0};
+  EXPECT_THROW(restored->load(short_guess, scene), InvalidInput);
+}
+
+TEST(FiniteElementFlow, InversionIsReportedAndTheMeshIsAsMarked) {
+  const Scene scene = shear_scene();
+  const auto flow = make_finite_element_flow({});
+  ASSERT_TRUE(flow->rebuild(scene).ok);
+  ASSERT_TRUE(flow->solve(scene, 0.0).ok);
+  flow->mark(scene);
+  const auto before = flow->volume_mesh()->x;
+  std::vector<VertexField<Vec3>> motion = motion_of(*flow);
+  for (Vec3& v : motion[0]) v = Vec3(100.0, 0.0, 0.0);
+  const FlowReport report = flow->move_from_mark(scene, motion, 1.0);
+  EXPECT_FALSE(report.ok);
+  EXPECT_FALSE(report.failure.empty());
+  EXPECT_EQ(flow->volume_mesh()->x, before);
+}
+
+TEST(FiniteElementFlow, TwoDropsEachKeepTheirVolume) {
+  Scene scene = shear_scene();
+  scene.liquids.add({0.5, Vec3::Zero()});
+  scene.boundary.mesh = sphere(300, 6.0);
+  scene.boundary.patch = FaceField<PatchId>(scene.boundary.mesh.num_faces(), PatchId{0});
+  Interface other = scene.interfaces[0];
+  other.drop = 1;
+  other.inside = RegionId{2};
+  scene.interfaces.push_back(other);
+  for (Vec3& x : scene.interfaces[0].mesh.x) x += Vec3(-1.5, 0.4, 0.0);
+  for (Vec3& x : scene.interfaces[1].mesh.x) x += Vec3(1.5, -0.4, 0.0);
+  Options options;
+  options.rtol = 1e-9;
+  const auto flow = make_finite_element_flow(options);
+  ASSERT_TRUE(flow->rebuild(scene).ok);
+  const FlowReport report = flow->solve(scene, 0.0);
+  ASSERT_TRUE(report.ok) << report.failure;
+  ASSERT_EQ(flow->velocity().size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const VertexField<Vec3> area = vertex_area_vectors(scene.interfaces[i].mesh);
+    double flux = 0.0;
+    for (const VertexId v : area.ids()) flux += area[v].dot(flow->velocity()[i][v]);
+    EXPECT_NEAR(flux, 0.0, 1e-7);
+  }
+}
+
+}  // namespace
+}  // namespace meniscus::fem

@@ -1,0 +1,200 @@
+#include "meniscus/flow/fem/stokes_solver.hpp"
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "meniscus/flow/fem/boundary_conditions.hpp"
+#include "meniscus/flow/fem/capillary_force.hpp"
+#include "meniscus/flow/fem/stokes_residual.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "tests/flow/fem/box_mesh.hpp"
+#include "tests/flow/fem/sphere_scene.hpp"
+
+namespace meniscus::fem {
+namespace {
+
+/// A flattened drop of high tension and a body force, in a shear flow inside a sphere.
+struct ShearedDrop {
+  Scene scene;
+  TetMesh mesh;
+
+  ShearedDrop() {
+    Mat3 gradient = Mat3::Zero();
+    gradient(0, 1) = 1.0;
+    scene = sphere_in_sphere(
+        {.num_vertices = 110,
+         .outer_radius = 4.0,
+         .viscosity_ratio = 3.0,
+         .Ca = 0.3,
+         .outer_velocity = [gradient](const Vec3& x, double) { return Vec3(gradient * x); },
+         .is_linear_flow = true,
+         .drop_force = Vec3(0.0, 0.4, -0.7)});
+    for (Vec3& x : scene.interfaces[0].mesh.x) x = x.cwiseProduct(Vec3(1.2, 1.0, 0.8));
+    EXPECT_TRUE(tetrahedralize(scene, {}, mesh).ok);
+  }
+  StokesProblem problem() const {
+    StokesProblem problem(mesh);
+    for (const CellId c : mesh.cells.ids()) {
+      problem.viscosity[c] = scene.liquids[mesh.region[c]].viscosity;
+      problem.body_force[c] = scene.liquids[mesh.region[c]].body_force;
+    }
+    problem.constraints = boundary_conditions(scene.boundary, mesh, 0.0).constraints;
+    const auto force =
+        capillary_force(scene.interfaces[0].mesh, scene.interfaces[0].tension, CapillaryForm::weak);
+    for (const VertexId v : force.ids()) problem.load[mesh.interfaces[0].vertex(v)] += force[v];
+    return problem;
+  }
+};
+
+StokesReport solve(const StokesProblem& problem, StokesSolver& solver, StokesState& state) {
+  PhaseTimes times;
+  return solver.solve(problem, state, linear::Preconditioner::fresh, times);
+}
+
+TEST(StokesSolver, AllLinearSolversAgree) {
+  const ShearedDrop drop;
+  const StokesProblem problem = drop.problem();
+  std::vector<StokesState> states;
+  for (const LinearSolver which : {LinearSolver::mumps, LinearSolver::block, LinearSolver::minres,
+                                   LinearSolver::paper_gmres}) {
+    Options options;
+    options.linear = which;
+    options.rtol = 1e-10;
+    StokesSolver solver(drop.mesh, options);
+    StokesState state = solver.state_at_rest();
+    const StokesReport report = solve(problem, solver, state);
+    ASSERT_TRUE(report.ok) << report.failure;
+    EXPECT_EQ(report.solver, which);
+    EXPECT_LT(report.residual, 2.1e-10 * report.reference);
+    states.push_back(std::move(state));
+  }
+  for (const StokesState& state : states) {
+    // The residual's tolerance over the smallest nodal masses (1e-4: small cells), relative to
+    // velocities near 4 and pressures near 7.
+    for (const TetVertexId v : state.v.ids()) EXPECT_LT((state.v[v] - states[0].v[v]).norm(), 4e-6);
+    for (std::size_t i = 0; i < state.p.size(); ++i) EXPECT_NEAR(state.p[i], states[0].p[i], 7e-6);
+  }
+}
+
+// reaction + body force + loads = dissipation, exactly but for the solver's residual; and the
+// capillary load's power is minus the growth of the surface energy.
+TEST(StokesSolver, EnergyIsBalancedToTheSolversTolerance) {
+  const ShearedDrop drop;
+  const StokesProblem problem = drop.problem();
+  Options options;
+  options.rtol = 1e-11;
+  StokesSolver solver(drop.mesh, options);
+  StokesState state = solver.state_at_rest();
+  ASSERT_TRUE(solve(problem, solver, state).ok);
+  const StokesPower books = power(problem, solver.pressure_space(), state);
+  EXPECT_GT(books.dissipation, 1.0);
+  EXPECT_GT(std::abs(books.body_force), 1e-3);
+  EXPECT_GT(std::abs(books.load), 1e-2);
+  EXPECT_NEAR(books.reaction + books.body_force + books.load, books.dissipation,
+              1e-8 * books.dissipation);
+  const VertexField<Vec3> gradient = area_gradient(drop.scene.interfaces[0].mesh);
+  double growth = 0.0;
+  for (const VertexId v : gradient.ids())
+    growth += gradient[v].dot(state.v[drop.mesh.interfaces[0].vertex(v)]);
+  EXPECT_NEAR(books.load, -growth / 0.3, 1e-10 * std::abs(books.load));
+}
+
+// Each region's volume is kept: the discrete flux through the drop's surface is zero.
+TEST(StokesSolver, NoNetFluxThroughTheInterface) {
+  const ShearedDrop drop;
+  Options options;
+  options.rtol = 1e-11;
+  StokesSolver solver(drop.mesh, options);
+  StokesState state = solver.state_at_rest();
+  ASSERT_TRUE(solve(drop.problem(), solver, state).ok);
+  const VertexField<Vec3> area = vertex_area_vectors(drop.scene.interfaces[0].mesh);
+  double flux = 0.0;
+  for (const VertexId v : area.ids())
+    flux += area[v].dot(state.v[drop.mesh.interfaces[0].vertex(v)]);
+  EXPECT_NEAR(flux, 0.0, 1e-9);
+}
+
+// Solutions turn with the problem: rotated frames at slip walls included.
+TEST(StokesSolver, SolutionsTurnWithTheBox) {
+  const Mat3 rotation = Eigen::AngleAxisd(0.9, Vec3(0.3, 1, -2).normalized()).toRotationMatrix();
+  const Vec3 force(1.0, -2.0, 0.5);
+  const auto solution = [&](const Mat3& turn) {
+    BoxMesh box = box_mesh({.n = 4,
+                            .region = [](const Vec3& x) { return x.norm() < 0.6 ? 1 : 0; },
+                            .jitter = 0.1,
+                            .rotation = turn});
+    for (const PatchId patch : box.boundary.patches.ids())
+      box.boundary.patches[patch].condition = NoPenetration{};
+    StokesProblem problem(box.mesh);
+    for (const CellId c : box.mesh.cells.ids())
+      if (box.mesh.region[c] == RegionId{1}) {
+        problem.viscosity[c] = 4.0;
+        problem.body_force[c] = turn * force;
+      }
+    problem.constraints = boundary_conditions(box.boundary, box.mesh, 0.0).constraints;
+    Options options;
+    options.rtol = 1e-11;
+    StokesSolver solver(box.mesh, options);
+    StokesState state = solver.state_at_rest();
+    const StokesReport report = solve(problem, solver, state);
+    EXPECT_TRUE(report.ok) << report.failure;
+    EXPECT_EQ(report.solver, LinearSolver::block);
+    EXPECT_LT(report.iterations, 60);
+    return state;
+  };
+  const StokesState straight = solution(Mat3::Identity()), turned = solution(rotation);
+  double largest = 0.0;
+  for (const TetVertexId v : straight.v.ids()) {
+    EXPECT_LT((turned.v[v] - rotation * straight.v[v]).norm(), 1e-8);
+    largest = std::max(largest, straight.v[v].norm());
+  }
+  EXPECT_GT(largest, 1e-3);
+}
+
+TEST(StokesSolver, AFailedSolverIsReplaced) {
+  const ShearedDrop drop;
+  const StokesProblem problem = drop.problem();
+  Options options;
+  options.linear = LinearSolver::paper_gmres;
+  options.max_iterations = 60;  // enough for the block solvers, far too few for the paper's
+  options.rtol = 1e-6;
+  StokesSolver solver(drop.mesh, options);
+  StokesState state = solver.state_at_rest();
+  const StokesReport report = solve(problem, solver, state);
+  ASSERT_TRUE(report.ok) << report.failure;
+  EXPECT_EQ(report.solver, LinearSolver::block);
+  EXPECT_GT(report.iterations, 60);
+  EXPECT_LT(report.residual, 2.1e-6 * report.reference);
+}
+
+TEST(StokesSolver, DataThatAreNotFiniteAreReported) {
+  const ShearedDrop drop;
+  StokesProblem problem = drop.problem();
+  problem.load[TetVertexId{3}][1] = std::nan("");
+  StokesSolver solver(drop.mesh, {});
+  StokesState state = solver.state_at_rest();
+  const StokesReport report = solve(problem, solver, state);
+  EXPECT_FALSE(report.ok);
+  EXPECT_NE(report.failure.find("not finite"), std::string::npos);
+}
+
+TEST(StokesSolver, AGoodGuessSavesIterations) {
+  const ShearedDrop drop;
+  const StokesProblem problem = drop.problem();
+  StokesSolver solver(drop.mesh, {});
+  StokesState state = solver.state_at_rest();
+  const StokesReport cold = solve(problem, solver, state);
+  ASSERT_TRUE(cold.ok);
+  const StokesReport again = solve(problem, solver, state);
+  ASSERT_TRUE(again.ok);
+  EXPECT_EQ(again.iterations, 0);
+  for (Vec3& v : state.v) v *= 1.001;
+  const StokesReport warm = solve(problem, solver, state);
+  ASSERT_TRUE(warm.ok);
+  EXPECT_LT(warm.iterations, cold.iterations);
+}
+
+}  // namespace
+}  // namespace meniscus::fem
