@@ -30,3 +30,8 @@ add_test(NAME interrupted COMMAND Python3::Interpreter
   ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/interrupted.py
   $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/interrupted)
 set_tests_properties(interrupted PROPERTIES TIMEOUT 900)
+
+add_test(NAME refusals COMMAND Python3::Interpreter
+  ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/refusals.py
+  $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/refusals)
+set_tests_properties(refusals PROPERTIES TIMEOUT 300)

@@ -1,12 +1,16 @@
 #include "meniscus/linear/saddle_solver.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <sstream>
+#include <utility>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/log.hpp"
 #include "meniscus/linear/petsc_matrix.hpp"
 #include "meniscus/linear/preconditioners.hpp"
 
@@ -74,6 +78,35 @@ std::vector<double> consistent(const SaddleSystem& system, std::span<const doubl
   return values;
 }
 
+/// Whether a word is an option's name: a number may begin with a minus sign as well.
+bool is_option(const std::string& word) {
+  return word.size() > 1 && word[0] == '-' &&
+         std::isalpha(static_cast<unsigned char>(word[1])) != 0;
+}
+
+/// PETSc passes over words that belong to no option; a user should know.
+void check_words(const std::string& given) {
+  std::istringstream words(given);
+  bool may_be_value = false;
+  for (std::string word; words >> word;) {
+    if (!is_option(word) && !may_be_value)
+      reject_input("solver options \"{}\": \"{}\" belongs to no option (-name value …)", given,
+                   word);
+    may_be_value = is_option(word);
+  }
+}
+
+/// The user's options that no solver has asked for, likely misspelt, by a line in the log.
+void warn_of_unused(PetscOptions table, const std::string& given) {
+  std::istringstream words(given);
+  for (std::string word; words >> word;) {
+    if (!is_option(word)) continue;
+    PetscBool is_used = PETSC_TRUE;
+    petsc_check(PetscOptionsUsed(table, word.c_str() + 1, &is_used), "PetscOptionsUsed");
+    if (!is_used) log::warning("the solver option {} was not used", word);
+  }
+}
+
 void remove_mean(std::span<double> values) {
   const double mean = std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
   for (double& value : values) value -= mean;
@@ -103,6 +136,7 @@ class SaddleSolver::Implementation {
     petsc_check(PetscOptionsCreate(table_.out()), "PetscOptionsCreate");
     petsc_check(PetscOptionsInsertString(table_.get(), method_options(options_.method).c_str()),
                 "PetscOptionsInsertString");
+    check_words(options_.petsc_options);
     if (PetscOptionsInsertString(table_.get(), options_.petsc_options.c_str()) != 0)
       reject_input("solver options \"{}\" are not what PETSc can read", options_.petsc_options);
   }
@@ -118,6 +152,7 @@ class SaddleSolver::Implementation {
       report.setup_seconds = seconds_since(start);
       iterate(system, right_hand_side, solution, rtol, report);
       report.solve_seconds = seconds_since(start) - report.setup_seconds;
+      if (!std::exchange(is_checked_, true)) warn_of_unused(table_.get(), options_.petsc_options);
     } catch (const PetscFailure& failure) {
       report.converged = false;
       report.reason = failure.what();
@@ -225,6 +260,7 @@ class SaddleSolver::Implementation {
   Communicator communicator_;
   SaddleOptions options_;
   OptionTable table_;
+  bool is_checked_ = false;  ///< the user's options, after a first solve
   Matrix operator_;
   CsrMatrix merged_;
   Apply apply_;

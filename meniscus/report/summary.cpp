@@ -12,6 +12,7 @@
 namespace meniscus::report {
 namespace {
 
+constexpr int decimals = 4;  // of lengths in a table: beyond the accuracy of any mesh
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> column(const std::optional<io::Table>& table, const std::string& name) {
@@ -133,10 +134,8 @@ std::string drops_html(const RunData& run) {
     std::string cells;
     for (const auto& [name, symbol] : quantities) {
       const std::vector<double> values = column(run.drops, name);
-      // A coordinate that is roundoff is nought to a reader.
       if (values.empty()) continue;
-      const double value = std::abs(values[i]) < 1e-10 ? 0.0 : values[i];
-      cells += fmt::format("<td class=\"n\">{}</td>", readable(value));
+      cells += fmt::format("<td class=\"n\">{}</td>", fixed(values[i], decimals));
     }
     body += fmt::format("<tr><th>drop {}</th>{}</tr>\n", readable_count(ids[i]), cells);
   }

@@ -63,6 +63,14 @@ std::string readable(double value, int digits) {
   return with_true_minus(text.substr(0, e)) + "×10" + superscript(std::stoi(text.substr(e + 1)));
 }
 
+std::string fixed(double value, int decimals) {
+  if (!std::isfinite(value)) return "–";
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  // What rounds to nought has no sign.
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  return with_true_minus(is_zero && text.starts_with('-') ? text.substr(1) : text);
+}
+
 std::string readable_count(double value) {
   if (!std::isfinite(value)) return "–";
   std::string text = fmt::format("{:.0f}", std::abs(value));

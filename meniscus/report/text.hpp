@@ -13,6 +13,10 @@ namespace meniscus::report {
 /// 10⁻⁴…10⁶; "–" when it is not finite.
 [[nodiscard]] std::string readable(double value, int digits = 4);
 
+/// A number with a fixed count of decimals and a true minus sign, for columns of a table; "–" when
+/// it is not finite.
+[[nodiscard]] std::string fixed(double value, int decimals);
+
 /// A whole number with thin spaces between thousands.
 [[nodiscard]] std::string readable_count(double value);
 

@@ -11,15 +11,14 @@ namespace {
 
 constexpr int kLeastValence = 5;  // a paraboloid with its normal free has five unknowns
 constexpr int kMaxTurns = 30;     // each turn cuts the slope by a factor of order h; ten are usual
-constexpr double kSlopeAtRest = 1e-11;  // radians; well below any discretisation error
+constexpr double kSlopeAtRest = 1e-8;  // radians; curvatures are exact to its square
 
 /// What is fitted: heights above the tangent plane, or heights of circles.
 enum class Form { paraboloid, osculating };
 
 /// Fits and turns the frame until the linear terms vanish.
 std::optional<HeightPatch> turned_fit(const Vec3& x, const Vec3& normal_guess,
-                                      std::span<const Vec3> points, PatchDegree degree,
-                                      Form form) {
+                                      std::span<const Vec3> points, PatchDegree degree, Form form) {
   HeightPatch frame = flat_patch(x, normal_guess);
   std::vector<Vec3> unrolled;
   std::optional<HeightPatch> patch;

@@ -76,9 +76,10 @@ std::optional<HeightPatch> fit_terms(const HeightPatch& frame, std::span<const V
 HeightPatch::Height HeightPatch::height(double u, double v) const {
   const double uu = 0.5 * (c[2] + c[5] * u / 3.0 + c[6] * v);
   const double vv = 0.5 * (c[4] + c[8] * v / 3.0 + c[7] * u);
-  return {.z = u * (c[0] + uu * u + c[3] * v) + v * (c[1] + vv * v),
-          .z_u = c[0] + c[2] * u + c[3] * v + 0.5 * c[5] * u * u + c[6] * u * v + 0.5 * c[7] * v * v,
-          .z_v = c[1] + c[3] * u + c[4] * v + 0.5 * c[6] * u * u + c[7] * u * v + 0.5 * c[8] * v * v};
+  return {
+      .z = u * (c[0] + uu * u + c[3] * v) + v * (c[1] + vv * v),
+      .z_u = c[0] + c[2] * u + c[3] * v + 0.5 * c[5] * u * u + c[6] * u * v + 0.5 * c[7] * v * v,
+      .z_v = c[1] + c[3] * u + c[4] * v + 0.5 * c[6] * u * u + c[7] * u * v + 0.5 * c[8] * v * v};
 }
 
 HeightPatch::Height HeightPatch::rolled_height(double u, double v) const {

@@ -10,7 +10,8 @@
 namespace meniscus {
 
 /// A polynomial height above a plane through a vertex:
-///   f(u, v) = c0 u + c1 v + ½(c2 u² + 2 c3 u v + c4 v²) + ⅙(c5 u³ + 3 c6 u² v + 3 c7 u v² + c8 v³),
+///   f(u, v) = c0 u + c1 v + ½(c2 u² + 2 c3 u v + c4 v²) + ⅙(c5 u³ + 3 c6 u² v + 3 c7 u v² + c8
+///   v³),
 /// with u, v, z along the right-handed unit frame t1, t2, n. It passes through its vertex.
 struct HeightPatch {
   Vec3 x = Vec3::Zero();  ///< the vertex [R0]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
@@ -15,14 +16,16 @@ namespace {
 /// Spring steps between two looks at connectivity. A step that is not enough is continued by the
 /// next remesh; a remesh that changes little needs two or three.
 constexpr int kStepsPerSweep = 30;
+/// While edits are many the springs need only keep faces apart.
+constexpr int kStepsAmongManyEdits = 5;
+constexpr double kManyEdits = 0.03;  // of the vertices
 /// Smallest angle of a face that is let through when the surface had none as small before.
 constexpr double kLeastAngleDeg = 5.0;
 
 RemeshReference reference_surface(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                                   const RemeshOptions& options) {
   SmoothSurface surface(mesh, topology);
-  VertexField<double> lengths =
-      rest_lengths(mesh, topology, surface.vertex_curvature(), options);
+  VertexField<double> lengths = rest_lengths(mesh, topology, surface.vertex_curvature(), options);
   return {std::move(surface), SurfaceWalk(mesh, topology), std::move(lengths)};
 }
 
@@ -35,10 +38,12 @@ void equilibrate(RemeshState& state, const RemeshOptions& options, RemeshReport&
     const DensityEdits edits = balance_density(state);
     report.splits += edits.splits;
     report.collapses += edits.collapses;
-    const bool is_edited = edits.splits + edits.collapses > 0;
-    if (is_edited) report.flips += flip_to_delaunay(state);
-    if (report.sweeps > 1 && !is_edited && report.flips == flips_before) return;
-    relax_springs(state, options.equilibrium, kStepsPerSweep);
+    const int num_edits = edits.splits + edits.collapses;
+    if (num_edits > 0) report.flips += flip_to_delaunay(state);
+    if (report.sweeps > 1 && num_edits == 0 && report.flips == flips_before) return;
+    relax_springs(
+        state, options.equilibrium,
+        num_edits > kManyEdits * state.mesh.num_vertices() ? kStepsAmongManyEdits : kStepsPerSweep);
   }
 }
 
@@ -51,20 +56,27 @@ SurfaceMesh assembled(const RemeshState& state) {
   return mesh;
 }
 
+/// The smallest mean length of the edges at a vertex.
+double smallest_mean_edge(const SurfaceMesh& mesh) {
+  VertexField<double> length(mesh.num_vertices(), 0.0);
+  VertexField<int> count(mesh.num_vertices(), 0);
+  for (const FaceVertices& v : mesh.faces)
+    for (std::size_t k = 0; k < 3; ++k) {  // every edge leaves each of its ends in one face
+      length[v[k]] += (mesh.x[v[(k + 1) % 3]] - mesh.x[v[k]]).norm();
+      ++count[v[k]];
+    }
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const VertexId v : mesh.x.ids()) smallest = std::min(smallest, length[v] / count[v]);
+  return smallest;
+}
+
 /// Restores the volume and records by how much it had changed and how far vertices moved for it.
 void correct_volume(SurfaceMesh& mesh, double volume_before, const RemeshOptions& options,
                     RemeshReport& report) {
   report.volume_change = enclosed_volume(mesh) / volume_before - 1.0;
-  const double shift =
-      restore_volume(mesh, options.volume > 0.0 ? options.volume : volume_before);
-  report.volume_shift = std::abs(shift);
-  const SurfaceTopology topology(mesh);
-  for (const VertexId v : mesh.x.ids()) {
-    double sum = 0.0;
-    for (const VertexId w : topology.ring(v)) sum += (mesh.x[w] - mesh.x[v]).norm();
-    report.volume_shift_over_edge =
-        std::max(report.volume_shift_over_edge, std::abs(shift) * topology.valence(v) / sum);
-  }
+  report.volume_shift =
+      std::abs(restore_volume(mesh, options.volume > 0.0 ? options.volume : volume_before));
+  report.volume_shift_over_edge = report.volume_shift / smallest_mean_edge(mesh);
 }
 
 bool has_fold(const RemeshState& state) {
@@ -81,6 +93,7 @@ bool has_fold(const RemeshState& state) {
 std::string find_fault(const SurfaceMesh& mesh, double angle_before, const RemeshOptions& options,
                        const RemeshReport& report) {
   if (!is_finite(mesh)) return "a vertex is not finite";
+  static_cast<void>(SurfaceTopology(mesh));  // throws unless closed, manifold and oriented
   if (report.min_angle_deg < std::min(kLeastAngleDeg, angle_before))
     return fmt::format("a face has an angle of {:.3g} degrees", report.min_angle_deg);
   return options.find_fault ? options.find_fault(mesh) : std::string();
@@ -113,7 +126,8 @@ RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options) {
   };
   if (!is_finite(mesh)) return fail("a vertex of the given surface is not finite");
   const double volume = enclosed_volume(mesh);
-  if (!(volume > 0.0)) return fail(fmt::format("the given surface encloses a volume of {:g}", volume));
+  if (!(volume > 0.0))
+    return fail(fmt::format("the given surface encloses a volume of {:g}", volume));
 
   try {
     const SurfaceTopology topology(mesh);

@@ -22,8 +22,8 @@ RemeshVertex vertex_at(const RemeshReference& reference, const SurfaceLocation& 
 
 RemeshVertex halfway(const RemeshReference& reference, const RemeshVertex& a,
                      const RemeshVertex& b) {
-  const Vec3 half = 0.5 * (reference.surface.flat_point(b.place) -
-                           reference.surface.flat_point(a.place));
+  const Vec3 half =
+      0.5 * (reference.surface.flat_point(b.place) - reference.surface.flat_point(a.place));
   return vertex_at(reference, reference.walk.moved(a.place, half));
 }
 
@@ -35,7 +35,8 @@ bool is_upright(const RemeshVertex& a, const RemeshVertex& b, const RemeshVertex
 
 RemeshState start_state(const RemeshReference& reference, const SurfaceMesh& mesh,
                         const SurfaceTopology& topology) {
-  RemeshState state{reference, EditMesh(mesh, topology), VertexField<RemeshVertex>(mesh.num_vertices())};
+  RemeshState state{reference, EditMesh(mesh, topology),
+                    VertexField<RemeshVertex>(mesh.num_vertices())};
   for (const VertexId v : mesh.x.ids()) {
     const FaceId f = topology.faces_around(v)[0];
     const FaceVertices& corners = mesh.faces[f];

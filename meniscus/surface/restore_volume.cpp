@@ -19,7 +19,8 @@ double restore_volume(SurfaceMesh& mesh, double volume) {
   const VertexField<Vec3> start = mesh.x;
   double shift = 0.0;
   double error = enclosed_volume(mesh) - volume;
-  for (int step = 0; step < kMaxNewtonSteps && std::abs(error) > kVolumeTolerance * volume; ++step) {
+  for (int step = 0; step < kMaxNewtonSteps && std::abs(error) > kVolumeTolerance * volume;
+       ++step) {
     const VertexField<Vec3> area = vertex_area_vectors(mesh);
     double derivative = 0.0;  // dV/ds = Σ A_i·d_i
     for (const VertexId v : mesh.x.ids()) derivative += area[v].dot(direction[v]);

@@ -16,12 +16,12 @@ namespace {
 // Bands. A vertex more or less changes the mean over two rings (19 vertices) by 5 %: a band of
 // ±15 % is three of them, wide enough that an edit never calls for its own undoing.
 constexpr double kLocalBand = 0.15;
-constexpr double kLocalBandFar = 0.6;   // beyond: edits may be as close as their faces allow
-constexpr double kGlobalBand = 0.01;    // of the whole number; a fifth of the law's 5 %
-constexpr double kLongestEdge = 1.6;    // l/l0 split, whatever the density: its halves are 0.8
-constexpr double kShortestEdge = 0.55;  // l/l0 collapsed, whatever the density
+constexpr double kLocalBandFar = 0.3;    // beyond, edits may be as close as their faces allow
+constexpr double kGlobalBand = 0.01;     // of the whole number; a fifth of the law's 5 %
+constexpr double kLongestEdge = 1.6;     // l/l0 split, whatever the density: its halves are 0.8
+constexpr double kShortestEdge = 0.55;   // l/l0 collapsed, whatever the density
 constexpr double kDelaunaySlack = 0.02;  // radians of excess over 180°, against flipping for ever
-constexpr double kAllowance = 0.1;         // radians per unit of Σ(valence − 6)²
+constexpr double kAllowance = 0.1;       // radians per unit of Σ(valence − 6)²
 constexpr double kLargestAllowance = 0.8;  // radians
 constexpr int kMaxFlipRounds = 10;
 
@@ -30,8 +30,8 @@ struct EdgeScore {
   HalfedgeId h;
 };
 
-/// Area of the smooth surface over a face: that of the face times 1 + h²/8R² (equilateral, sphere of
-/// radius R, to leading order), with Σ|Δn|² over its edges for 3h²/R².
+/// Area of the smooth surface over a face: that of the face times 1 + h²/8R² (equilateral, sphere
+/// of radius R, to leading order), with Σ|Δn|² over its edges for 3h²/R².
 double curved_area(const RemeshState& state, HalfedgeId h) {
   const RemeshVertex &a = state.vertices[state.mesh.from(h)], &b = state.vertices[state.mesh.to(h)],
                      &c = state.vertices[state.mesh.opposite(h)];
@@ -72,10 +72,14 @@ VertexField<double> ring_averaged(const RemeshState& state, const VertexField<do
 /// Marks vertices near an edit so that the rest of the pass leaves them alone.
 class Locks {
  public:
-  explicit Locks(const RemeshState& state) : mesh_(state.mesh), locked_(mesh_.num_vertex_slots(), 0) {}
+  explicit Locks(const RemeshState& state)
+      : mesh_(state.mesh), locked_(mesh_.num_vertex_slots(), 0) {}
   [[nodiscard]] bool is_locked(HalfedgeId h) const {
     return is_locked(mesh_.from(h)) || is_locked(mesh_.to(h)) || is_locked(mesh_.opposite(h)) ||
            is_locked(mesh_.opposite(mesh_.twin(h)));
+  }
+  void lock(VertexId v) {
+    if (v.value < locked_.size()) locked_[v] = 1;
   }
   void lock_faces(HalfedgeId h) {
     lock(mesh_.from(h));
@@ -91,9 +95,6 @@ class Locks {
  private:
   [[nodiscard]] bool is_locked(VertexId v) const {
     return v.value >= locked_.size() || locked_[v] != 0;
-  }
-  void lock(VertexId v) {
-    if (v.value < locked_.size()) locked_[v] = 1;
   }
   const EditMesh& mesh_;
   VertexField<char> locked_;
@@ -148,8 +149,7 @@ bool try_flip(RemeshState& state, HalfedgeId h) {
   const std::int32_t valence_a = mesh.valence(a), valence_b = mesh.valence(b);
   if (valence_a <= 4 || valence_b <= 4) return false;
   // Growth of Σ(valence − 6)² by the flip.
-  const std::int32_t growth =
-      2 * (mesh.valence(c) + mesh.valence(d) - valence_a - valence_b) + 4;
+  const std::int32_t growth = 2 * (mesh.valence(c) + mesh.valence(d) - valence_a - valence_b) + 4;
   const double threshold = std::clamp(kAllowance * growth, -kLargestAllowance, kLargestAllowance);
   if (excess < threshold + kDelaunaySlack || mesh.are_joined(c, d)) return false;
   const VertexField<RemeshVertex>& v = state.vertices;
@@ -206,9 +206,14 @@ DensityEdits edit(RemeshState& state, const Candidates& candidates,
   for (const auto& [score, h] : candidates.collapses) {
     if (edits.collapses == max_collapses) break;
     if (!state.mesh.is_alive(h) || locks.is_locked(h)) continue;
-    const VertexId kept = state.mesh.to(h);
+    const VertexId kept = state.mesh.to(h), c = state.mesh.opposite(h),
+                   d = state.mesh.opposite(state.mesh.twin(h));
+    const bool is_far = mean_load[kept] < 1.0 - kLocalBandFar;
     if (!try_collapse_edge(state, h)) continue;
-    locks.lock_ring(kept);
+    if (is_far)
+      for (const VertexId v : {kept, c, d}) locks.lock(v);
+    else
+      locks.lock_ring(kept);
     ++edits.collapses;
   }
   return edits;

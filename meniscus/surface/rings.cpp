@@ -4,11 +4,14 @@
 
 namespace meniscus {
 namespace {
-constexpr double kSeenCosine = 0.25;  // a height function needs well below 90°; 75° keeps slopes < 4
+constexpr double kSeenCosine =
+    0.25;  // a height function needs well below 90°; 75° keeps slopes < 4
 }
 
 RingGatherer::RingGatherer(const SurfaceMesh& mesh, const SurfaceTopology& topology)
-    : mesh_(mesh), topology_(topology), normals_(vertex_area_vectors(mesh)),
+    : mesh_(mesh),
+      topology_(topology),
+      normals_(vertex_area_vectors(mesh)),
       seen_from_(mesh.num_vertices()) {
   for (Vec3& n : normals_) n.normalize();
 }

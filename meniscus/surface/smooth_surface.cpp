@@ -31,7 +31,8 @@ Lift lift(const HeightPatch& patch, const Vec3& flat) {
 }  // namespace
 
 SmoothSurface::SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& topology)
-    : curvature_(osculating_curvature(mesh, topology)), patches_(mesh.num_vertices()),
+    : curvature_(osculating_curvature(mesh, topology)),
+      patches_(mesh.num_vertices()),
       faces_(mesh.faces) {
   RingGatherer rings(mesh, topology);
   std::vector<Vec3> unrolled;

@@ -28,7 +28,9 @@ SurfaceWalk::SurfaceWalk(const SurfaceMesh& mesh, const SurfaceTopology& topolog
     const Vec3 &x0 = mesh.x[v[0]], e1 = mesh.x[v[1]] - x0, e2 = mesh.x[v[2]] - x0;
     const Vec3 normal = e1.cross(e2);
     const double squared = normal.squaredNorm();
-    charts_[f] = {.x0 = x0, .g1 = e2.cross(normal) / squared, .g2 = normal.cross(e1) / squared,
+    charts_[f] = {.x0 = x0,
+                  .g1 = e2.cross(normal) / squared,
+                  .g2 = normal.cross(e1) / squared,
                   .neighbour = {}};
     corners_[f] = {x0, mesh.x[v[1]], mesh.x[v[2]]};
   }

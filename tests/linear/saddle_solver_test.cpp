@@ -187,6 +187,27 @@ TEST(SaddleSolver, OptionsOverrideTheMethod) {
   EXPECT_LT(distance(u, exact), 1e-5);
 }
 
+TEST(SaddleSolver, OptionsThatPetscCannotReadAreRefused) {
+  EXPECT_THROW(SaddleSolver(Communicator::self(), {.petsc_options = "ksp_type minres"}),
+               InvalidInput);
+}
+
+TEST(SaddleSolver, PreparedIsKept) {
+  const Chain chain(20, true);
+  const std::vector<double> exact = random_solution(chain.system, 2);
+  const std::vector<double> side = product(merged(chain.system, 1.0, 0.0).view(), exact);
+  for (const SaddleMethod method : {SaddleMethod::block, SaddleMethod::mumps}) {
+    const SaddleOptions options = {.method = method, .petsc_options = {}};
+    SaddleSolver fresh(Communicator::self(), options), prepared(Communicator::self(), options);
+    std::vector<double> a(exact.size(), 0.0), b(exact.size(), 0.0);
+    const LinearReport first = fresh.solve(chain.system, side, a, 1e-8);
+    prepared.prepare(chain.system);
+    const LinearReport second = prepared.solve(chain.system, side, b, 1e-8, Preconditioner::kept);
+    EXPECT_TRUE(first.converged && second.converged);
+    EXPECT_EQ(a, b);  // bit for bit
+  }
+}
+
 TEST(SaddleSystem, MergedMatrixHasSignAndPin) {
   const Chain chain(3, true);
   const CsrMatrix plus = merged(chain.system, 1.0, 0.0), minus = merged(chain.system, -1.0, 7.0);

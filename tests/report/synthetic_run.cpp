@@ -53,13 +53,13 @@ double curvature_at(const Shape& s, const Vec3& u) {
   return h * h * h / (abc * abc) * (axes.squaredNorm() - x.squaredNorm());
 }
 
-void write_frame(const fs::path& path, const SyntheticRun& run, double t) {
+void write_frame(const fs::path& path, const SyntheticRun& run, const SurfaceMesh& ball, double t) {
   std::vector<SurfaceMesh> meshes;
   io::NamedArray curvature{"curvature", 1, {}}, speed{"normal_velocity", 1, {}},
       velocity{"velocity", 3, {}}, density{"node_density", 1, {}}, drop{"drop", 1, {}};
   for (int k = 0; k < run.num_drops; ++k) {
     const Shape shape = shape_at(t, k);
-    SurfaceMesh mesh = sphere(run.num_vertices);
+    SurfaceMesh mesh = ball;
     for (Vec3& x : mesh.x) {
       curvature.values.push_back(curvature_at(shape, x));
       speed.values.push_back(std::exp(-t));
@@ -78,10 +78,11 @@ void write_frame(const fs::path& path, const SyntheticRun& run, double t) {
 void write_frames(const fs::path& folder, const SyntheticRun& run) {
   fs::create_directories(folder / "surface");
   std::vector<io::PvdEntry> entries;
+  const SurfaceMesh ball = sphere(run.num_vertices);
   for (int i = 0; i < run.num_frames; ++i) {
     const double t = run.num_frames > 1 ? end_time * i / (run.num_frames - 1) : 0.0;
     entries.push_back({t, fmt::format("surface/surface-{:04}.vtp", i)});
-    write_frame(folder / entries.back().file, run, t);
+    write_frame(folder / entries.back().file, run, ball, t);
   }
   io::write_pvd(folder / "surface.pvd", entries);
 }

@@ -27,6 +27,13 @@ TEST(Text, NumbersForReaders) {
   EXPECT_EQ(readable(std::numeric_limits<double>::infinity()), "–");
 }
 
+TEST(Text, FixedDecimals) {
+  EXPECT_EQ(fixed(1.54, 4), "1.5400");
+  EXPECT_EQ(fixed(-0.25, 1), "−0.2");
+  EXPECT_EQ(fixed(-1e-12, 2), "0.00");
+  EXPECT_EQ(fixed(std::numeric_limits<double>::quiet_NaN(), 2), "–");
+}
+
 TEST(Text, CountsAreGroupedByThousands) {
   EXPECT_EQ(readable_count(0.0), "0");
   EXPECT_EQ(readable_count(999.0), "999");

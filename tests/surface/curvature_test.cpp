@@ -25,11 +25,13 @@ double largest_error(const SurfaceMesh& mesh, const VertexField<VertexCurvature>
 TEST(FittedCurvature, SphereErrorIsWithinTheMeasuredOnes) {
   // Largest error of κ (of 2) of one-ring paraboloids without weights on Lloyd-relaxed spheres,
   // measured with an independent program.
-  const std::array<std::pair<int, double>, 3> measured{{{500, 4.7e-2}, {1000, 2.3e-2}, {5000, 5e-3}}};
+  const std::array<std::pair<int, double>, 3> measured{
+      {{500, 4.7e-2}, {1000, 2.3e-2}, {5000, 5e-3}}};
   for (const auto& [n, bound] : measured) {
     const SurfaceMesh mesh = sphere(n);
     const auto fit = fitted_curvature(mesh, SurfaceTopology(mesh));
-    EXPECT_LT(largest_error(mesh, fit, [](const Vec3& x) { return ellipsoid_curvature(x, Vec3::Ones()); }),
+    EXPECT_LT(largest_error(mesh, fit,
+                            [](const Vec3& x) { return ellipsoid_curvature(x, Vec3::Ones()); }),
               bound)
         << n;
   }

@@ -82,8 +82,8 @@ inline ExactCurvature torus_curvature(const Vec3& x, double major, double minor)
   return {n, 1.0 / minor + (rho - major) / (minor * rho)};
 }
 
-/// A sphere with bumps: r = 1 + Σ_k a_k cos(m_k d_k·x + φ_k) over a few random directions, scaled so
-/// that no slope is steep.
+/// A sphere with bumps: r = 1 + Σ_k a_k cos(m_k d_k·x + φ_k) over a few random directions, scaled
+/// so that no slope is steep.
 inline SurfaceMesh bumpy_sphere(int num_vertices, unsigned seed, double amplitude) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;

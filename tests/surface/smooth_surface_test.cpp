@@ -62,8 +62,8 @@ TEST(SmoothSurface, ConvergesOnATorusMadeByRemeshing) {
     for (const FaceId f : mesh.faces.ids())
       for (const Vec3& weights : kPlaces) {
         const Vec3 x = surface.point(f, weights);
-        error = std::max(
-            error, std::abs(std::hypot(std::hypot(x.x(), x.y()) - major, x.z()) - minor));
+        error =
+            std::max(error, std::abs(std::hypot(std::hypot(x.x(), x.y()) - major, x.z()) - minor));
       }
     vertices.push_back(mesh.num_vertices());
     position.push_back(error);
@@ -99,8 +99,9 @@ TEST(SmoothSurface, PassesThroughVerticesAndJoinsAcrossEdges) {
 }
 
 TEST(SmoothSurface, IsASphereWhereTheMeshIs) {
-  // Heights are those of circles to the sixth order of the distance from the vertex over the radius:
-  // at 110 vertices the longest edge is 0.45, its flat points up to 0.26 away, and 0.26⁶/16 is 2e-5.
+  // Heights are those of circles to the sixth order of the distance from the vertex over the
+  // radius: at 110 vertices the longest edge is 0.45, its flat points up to 0.26 away, and 0.26⁶/16
+  // is 2e-5.
   const SurfaceMesh mesh = sphere(110);
   const SmoothSurface surface(mesh, SurfaceTopology(mesh));
   for (const FaceId f : mesh.faces.ids())

@@ -9,6 +9,7 @@
 #include "meniscus/flow/fem/mesh_archive.hpp"
 #include "meniscus/flow/fem/stokes_residual.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
 
 namespace meniscus::fem {
 namespace {
@@ -46,9 +47,24 @@ InstantProblem instant_problem(const Scene& scene, const TetMesh& mesh, Capillar
   return problem;
 }
 
+/// The pressures of its inside let no liquid through an interface, Σ A_i·v_i = 0, exactly but for
+/// the linear solver's residual: what that leaves goes along the area vectors, so that no volume is
+/// lost to a loose tolerance.
+void remove_net_flux(const SurfaceMesh& surface, VertexField<Vec3>& velocity) {
+  const VertexField<Vec3> area = vertex_area_vectors(surface);
+  double flux = 0.0, squared = 0.0;
+  for (const VertexId v : area.ids()) {
+    flux += area[v].dot(velocity[v]);
+    squared += area[v].squaredNorm();
+  }
+  for (const VertexId v : area.ids()) velocity[v] -= flux / squared * area[v];
+}
+
 class FiniteElementFlow final : public FlowSolver {
  public:
-  explicit FiniteElementFlow(const Options& options) : options_(options) {}
+  explicit FiniteElementFlow(const Options& options) : options_(options) {
+    check_linear_options(options);
+  }
 
   FlowReport rebuild(const Scene& scene) override {
     const PhaseTimer timer(times_, "tetrahedralize");
@@ -93,7 +109,7 @@ class FiniteElementFlow final : public FlowSolver {
     prepared_at_ = {};
   }
   void follow_interfaces(const Scene& scene);
-  void take_solution(const InstantProblem& problem);
+  void take_solution(const Scene& scene, const InstantProblem& problem);
   void level_pressure();
   void restore_preconditioner(const Archive& archive, const Scene& scene);
 
@@ -147,17 +163,19 @@ FlowReport FiniteElementFlow::solve(const Scene& scene, double t) {
       !is_kept && report.ok && report.solver == options_.linear && report.iterations > 0;
   prepared_at_ = was_made ? mesh_.x : Field<TetVertexId, Vec3>();
   if (!report.ok) return {false, report.failure, report.iterations};
-  take_solution(*problem);
+  take_solution(scene, *problem);
   return {true, {}, report.iterations};
 }
 
-void FiniteElementFlow::take_solution(const InstantProblem& problem) {
+void FiniteElementFlow::take_solution(const Scene& scene, const InstantProblem& problem) {
   const PhaseTimer timer(times_, "assemble");
   if (!problem.stokes.has_open_boundary) level_pressure();
   velocity_.clear();
-  for (const EmbeddedSurface& surface : mesh_.interfaces) {
+  for (std::size_t i = 0; i < mesh_.interfaces.size(); ++i) {
+    const EmbeddedSurface& surface = mesh_.interfaces[i];
     VertexField<Vec3> v(surface.num_vertices);
     for (const VertexId at : v.ids()) v[at] = state_->v[surface.vertex(at)];
+    remove_net_flux(scene.interfaces[i].mesh, v);
     velocity_.push_back(std::move(v));
   }
   const StokesPower power = fem::power(problem.stokes, stokes_->pressure_space(), *state_);

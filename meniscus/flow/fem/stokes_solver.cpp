@@ -79,7 +79,18 @@ double reference_residual(const StokesProblem& problem, const PressureSpace& pre
   return free_norm(residual(problem, pressure, rest), problem.constraints);
 }
 
+linear::SaddleSolver make_linear_solver(LinearSolver which, const Options& options) {
+  return {linear::Communicator::self(),
+          {.method = method(which),
+           .max_iterations = options.max_iterations,
+           .petsc_options = options.petsc_options}};
+}
+
 }  // namespace
+
+void check_linear_options(const Options& options) {
+  const linear::SaddleSolver unused = make_linear_solver(options.linear, options);
+}
 
 StokesSolver::StokesSolver(const TetMesh& mesh, const Options& options)
     : options_(options),
@@ -95,12 +106,7 @@ StokesState StokesSolver::state_at_rest() const {
 linear::SaddleSolver& StokesSolver::linear_solver(LinearSolver which) {
   const auto found = linear_solvers_.find(which);
   if (found != linear_solvers_.end()) return found->second;
-  return linear_solvers_
-      .emplace(which, linear::SaddleSolver(linear::Communicator::self(),
-                                           {.method = method(which),
-                                            .max_iterations = options_.max_iterations,
-                                            .petsc_options = options_.petsc_options}))
-      .first->second;
+  return linear_solvers_.emplace(which, make_linear_solver(which, options_)).first->second;
 }
 
 void StokesSolver::prepare(const StokesProblem& problem) {

@@ -11,6 +11,9 @@
 
 namespace meniscus::fem {
 
+/// Throws InvalidInput when PETSc cannot read the options given for the linear solver.
+void check_linear_options(const Options& options);
+
 struct [[nodiscard]] StokesReport {
   bool ok = true;
   std::string failure;

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "meniscus/surface/smooth_surface.hpp"
+
+namespace meniscus::bem {
+
+/// A linear function of vertex values.
+struct VertexWeight {
+  VertexId vertex;
+  double weight = 0.0;
+};
+using Stencil = std::vector<VertexWeight>;
+
+/// Values at points near a vertex from values at the vertices around it: the quadratic function of
+/// the tangent-plane coordinates that has the vertex's value and fits those of its ring best
+/// (weights 1/distance²), a second ring being added where the first leaves it near singular.
+/// Error O(h³). Where two rings do not determine it the vertex's own value is returned.
+class VertexInterpolation {
+ public:
+  VertexInterpolation(const SurfaceMesh& mesh, const SurfaceTopology& topology, VertexId v,
+                      const Vec3& n);
+  /// Adds `factor` times the function's value at x to a stencil.
+  void add(const Vec3& x, double factor, Stencil& stencil) const;
+
+ private:
+  VertexId vertex_;
+  HeightPatch frame_;
+  std::vector<VertexId> ring_;
+  Eigen::Matrix<double, 5, Eigen::Dynamic> fit_;  // (value of ring − own value) ↦ coefficients
+};
+
+/// Values at the middle of every edge (at `middles`, in the order of the topology): the mean of the
+/// interpolations from its two ends.
+[[nodiscard]] std::vector<Stencil> edge_stencils(const SurfaceMesh& mesh,
+                                                 const SurfaceTopology& topology,
+                                                 const VertexField<Vec3>& normals,
+                                                 const std::vector<Vec3>& middles);
+
+}  // namespace meniscus::bem

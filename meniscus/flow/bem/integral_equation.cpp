@@ -1,0 +1,191 @@
+#include "meniscus/flow/bem/integral_equation.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+
+#include "meniscus/flow/bem/parallel_blocks.hpp"
+
+namespace meniscus::bem {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+/// 1/4π ∮ u·T·n dS over ∮ r (r·u)(r·n)/r⁵ dS.
+constexpr double kDoubleFactor = -6.0 / (4.0 * kPi);
+
+/// The jump of traction along n, less its mean over each interface, which drives no flow.
+std::vector<double> traction_jump(const Scene& scene, const BoundaryGeometry& geometry) {
+  std::vector<double> q;
+  for (std::size_t m = 0; m < scene.interfaces.size(); ++m) {
+    const Interface& interface = scene.interfaces[m];
+    const InterfaceElements& elements = geometry.surfaces[m].elements;
+    const Vec3 buoyancy = scene.liquids[interface.inside].body_force -
+                          scene.liquids[interface.outside].body_force;
+    double total = 0.0, area = 0.0;
+    for (const VertexId v : elements.x.ids()) {
+      q.push_back(interface.tension * elements.kappa[v] - buoyancy.dot(elements.x[v]));
+      total += elements.weight[v] * q.back();
+      area += elements.weight[v];
+    }
+    const std::size_t first = q.size() - static_cast<std::size_t>(elements.x.size());
+    for (std::size_t i = first; i < q.size(); ++i) q[i] -= total / area;
+  }
+  return q;
+}
+
+std::vector<bool> nonzero(const std::vector<double>& values) {
+  std::vector<bool> result;
+  for (const double value : values) result.push_back(value != 0.0);
+  return result;
+}
+
+}  // namespace
+
+IntegralEquation::IntegralEquation(const Scene& scene, double t, int threads)
+    : threads_(threads), geometry_(make_geometry(scene)) {
+  std::vector<double> differences;
+  for (const Interface& interface : scene.interfaces) {
+    const double inner = scene.liquids[interface.inside].viscosity,
+                 outer = scene.liquids[interface.outside].viscosity;
+    contrast_.push_back({0.5 * (inner + outer), 0.5 * (outer - inner), outer});
+    differences.push_back(contrast_.back().difference);
+    rigid_.emplace_back(interface.mesh);
+  }
+  const std::vector<double> q = traction_jump(scene, geometry_);
+  rows_ = near_rows(geometry_, q, nonzero(differences), threads_);
+  set_right_hand_side(scene, t, q);
+}
+
+bool IntegralEquation::has_double_layer() const {
+  return std::ranges::any_of(contrast_, [](const Contrast& c) { return c.difference != 0.0; });
+}
+
+void IntegralEquation::set_right_hand_side(const Scene& scene, double t,
+                                           const std::vector<double>& q) {
+  const double matrix_viscosity = scene.liquids[RegionId{0}].viscosity;
+  const Mat3 gradient = scene.flow.gradient(t);
+  right_hand_side_.resize(num_unknowns());
+  for_blocks(geometry_.size(), threads_, [&](std::int32_t begin, std::int32_t end) {
+    for (std::int32_t i = begin; i < end; ++i) {
+      const auto row = static_cast<std::size_t>(i);
+      const Vec3 x = geometry_.points.point(i);
+      const Vec3 layer = single_layer_sum(geometry_.points, q, x) + rows_[row].single;
+      const Contrast& contrast = contrast_[static_cast<std::size_t>(geometry_.surface_of[row])];
+      const Vec3 value =
+          (matrix_viscosity * (gradient * x) - layer / (8.0 * kPi)) / contrast.mean;
+      for (std::size_t k = 0; k < 3; ++k)
+        right_hand_side_[k * rows_.size() + row] = value[static_cast<Eigen::Index>(k)];
+    }
+  });
+}
+
+Vec3 IntegralEquation::at(std::span<const double> w, std::int32_t i) const {
+  const auto row = static_cast<std::size_t>(i);
+  return {w[row], w[rows_.size() + row], w[2 * rows_.size() + row]};
+}
+
+double IntegralEquation::mean_normal_component(std::size_t m, std::span<const double> w) const {
+  const InterfaceElements& elements = geometry_.surfaces[m].elements;
+  double flux = 0.0, area = 0.0;
+  for (const VertexId v : elements.x.ids()) {
+    flux += elements.weight[v] * elements.n[v].dot(at(w, geometry_.index(m, v)));
+    area += elements.weight[v];
+  }
+  return flux / area;
+}
+
+std::vector<RigidMotion> IntegralEquation::rigid_parts(std::span<const double> w) const {
+  std::vector<RigidMotion> parts;
+  for (std::size_t m = 0; m < rigid_.size(); ++m)
+    parts.push_back(rigid_[m]([&](VertexId v) { return at(w, geometry_.index(m, v)); }));
+  return parts;
+}
+
+void IntegralEquation::apply(std::span<const double> w, std::span<double> result) const {
+  const std::vector<RigidMotion> rigid = rigid_parts(w);
+  std::vector<double> mean_normal;
+  for (std::size_t m = 0; m < rigid.size(); ++m) mean_normal.push_back(mean_normal_component(m, w));
+  SourceVectors density(geometry_.size());
+  for (std::int32_t j = 0; j < geometry_.size(); ++j) {
+    const auto row = static_cast<std::size_t>(j), m = static_cast<std::size_t>(
+                                                      geometry_.surface_of[row]);
+    const Vec3 value =
+        contrast_[m].difference * (at(w, j) - rigid[m].at(geometry_.points.point(j)));
+    density.x[row] = value.x();
+    density.y[row] = value.y();
+    density.z[row] = value.z();
+  }
+  for_blocks(geometry_.size(), threads_, [&](std::int32_t begin, std::int32_t end) {
+    for (std::int32_t i = begin; i < end; ++i) {
+      const auto row = static_cast<std::size_t>(i);
+      const auto m = static_cast<std::size_t>(geometry_.surface_of[row]);
+      Vec3 layer = double_layer_sum(geometry_.points, density, geometry_.points.point(i));
+      const NearRow& near = rows_[row];
+      for (std::size_t c = 0; c < near.columns.size(); ++c) {
+        const auto j = static_cast<std::size_t>(near.columns[c]);
+        layer += near.dual[c] * Vec3(density.x[j], density.y[j], density.z[j]);
+      }
+      const Vec3 n = geometry_.surfaces[m].elements.n[VertexId{
+          i - geometry_.surfaces[m].range.begin}];
+      const Vec3 value = at(w, i) + (contrast_[m].difference * mean_normal[m] * n -
+                                     kDoubleFactor * layer) /
+                                        contrast_[m].mean;
+      for (std::size_t k = 0; k < 3; ++k)
+        result[k * rows_.size() + row] = value[static_cast<Eigen::Index>(k)];
+    }
+  });
+}
+
+std::vector<std::size_t> IntegralEquation::outermost_first() const {
+  std::vector<std::size_t> order(rigid_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) {
+    return std::ranges::count(geometry_.surfaces[k].is_inside_of, true);
+  });
+  return order;
+}
+
+std::vector<VertexField<Vec3>> IntegralEquation::velocity(std::span<const double> w) const {
+  const std::vector<RigidMotion> rigid = rigid_parts(w);
+  std::vector<VertexField<Vec3>> u(rigid.size());
+  std::vector<RigidMotion> around;  // P_m w + R_m is P_m u
+  for (std::size_t m = 0; m < rigid.size(); ++m) around.push_back(rigid[m]);
+  for (const std::size_t k : outermost_first()) {
+    const InterfaceElements& elements = geometry_.surfaces[k].elements;
+    const Contrast& contrast = contrast_[k];
+    u[k].resize(elements.x.size());
+    for (const VertexId v : u[k].ids()) {
+      const Vec3& x = elements.x[v];
+      Vec3 sum = contrast.difference * rigid[k].at(x);
+      for (std::size_t m = 0; m < rigid.size(); ++m)
+        if (geometry_.surfaces[k].is_inside_of[m])
+          sum += 2.0 * contrast_[m].difference * around[m].at(x);
+      u[k][v] = at(w, geometry_.index(k, v)) - sum / contrast.outer;
+    }
+    around[k] = rigid_[k]([&](VertexId v) { return u[k][v]; });
+  }
+  return u;
+}
+
+std::vector<double> IntegralEquation::unknowns(std::span<const VertexField<Vec3>> u) const {
+  // The recovery with P w = P u − R: s R = −d P u − 2 Σ d_m P u_m, as μ_out − d = s.
+  std::vector<RigidMotion> rigid;
+  for (std::size_t m = 0; m < rigid_.size(); ++m)
+    rigid.push_back(rigid_[m]([&](VertexId v) { return u[m][v]; }));
+  std::vector<double> w(num_unknowns());
+  for (std::size_t k = 0; k < rigid.size(); ++k)
+    for (const VertexId v : u[k].ids()) {
+      const std::int32_t i = geometry_.index(k, v);
+      const Vec3 x = geometry_.points.point(i);
+      Vec3 sum = contrast_[k].difference * rigid[k].at(x);
+      for (std::size_t m = 0; m < rigid.size(); ++m)
+        if (geometry_.surfaces[k].is_inside_of[m])
+          sum += 2.0 * contrast_[m].difference * rigid[m].at(x);
+      const Vec3 value = u[k][v] + sum / contrast_[k].mean;
+      for (std::size_t a = 0; a < 3; ++a)
+        w[a * rows_.size() + static_cast<std::size_t>(i)] = value[static_cast<Eigen::Index>(a)];
+    }
+  return w;
+}
+
+}  // namespace meniscus::bem

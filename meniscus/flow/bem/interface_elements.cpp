@@ -1,0 +1,110 @@
+#include "meniscus/flow/bem/interface_elements.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "meniscus/flow/bem/edge_interpolation.hpp"
+#include "meniscus/flow/bem/face_rules.hpp"
+
+namespace meniscus::bem {
+namespace {
+
+using Face = InterfaceElements::Face;
+
+/// Geometry and interpolation of the edges, which the faces on both sides share.
+struct Edges {
+  std::vector<Vec3> middle;
+  std::vector<Stencil> stencil;
+  FaceField<std::array<std::size_t, 3>> of_face;  // by the corner opposite
+};
+
+Edges make_edges(const SurfaceMesh& mesh, const SurfaceTopology& topology,
+                 const SmoothSurface& smooth, const VertexField<Vec3>& normals) {
+  Edges edges;
+  edges.of_face.resize(mesh.num_faces());
+  for (std::size_t e = 0; e < topology.edges().size(); ++e) {
+    const SurfaceEdge& edge = topology.edges()[e];
+    edges.middle.push_back(smooth.edge_point(edge.a, edge.b, 0.5));
+    const auto note = [&](FaceId f, VertexId opposite) {
+      for (std::size_t k = 0; k < 3; ++k)
+        if (mesh.faces[f][k] == opposite) edges.of_face[f][k] = e;
+    };
+    note(edge.left, edge.left_opposite);
+    note(edge.right, edge.right_opposite);
+  }
+  edges.stencil = edge_stencils(mesh, topology, normals, edges.middle);
+  return edges;
+}
+
+/// Columns in rising order of the vertices, so that sums do not depend on how they were found.
+void set_stencil(Face& face, const FaceVertices& corners,
+                 const std::array<const Stencil*, 3>& middles) {
+  std::map<VertexId, std::array<double, kFaceNodes>> weights;
+  for (std::size_t k = 0; k < 3; ++k) {
+    weights[corners[k]][k] += 1.0;
+    for (const VertexWeight& w : *middles[k]) weights[w.vertex][3 + k] += w.weight;
+  }
+  face.to_nodes.resize(kFaceNodes, static_cast<Eigen::Index>(weights.size()));
+  for (const auto& [vertex, values] : weights) {
+    face.to_nodes.col(static_cast<Eigen::Index>(face.columns.size())) =
+        Eigen::Map<const Eigen::Matrix<double, kFaceNodes, 1>>(values.data());
+    face.columns.push_back(vertex);
+  }
+}
+
+void set_shares(Face& face) {
+  Eigen::Matrix<double, kFaceNodes, 1> moment = Eigen::Matrix<double, kFaceNodes, 1>::Zero();
+  for (const RulePoint& point : smooth_rule()) {
+    const double area = point.share * face_point(face.nodes, point.weights).area.norm();
+    const NodeValues shape = quadratic_shape(point.weights);
+    moment += area * Eigen::Map<const Eigen::Matrix<double, kFaceNodes, 1>>(shape.data());
+  }
+  const Eigen::VectorXd share = face.to_nodes.transpose() * moment;
+  face.share.assign(share.begin(), share.end());
+}
+
+}  // namespace
+
+InterfaceElements make_elements(const SurfaceMesh& mesh) {
+  const SurfaceTopology topology(mesh);
+  const SmoothSurface smooth(mesh, topology);
+  InterfaceElements result;
+  result.x = mesh.x;
+  result.corners = mesh.faces;
+  for (const VertexId v : mesh.x.ids()) {
+    const VertexCurvature c = smooth.vertex_curvature()[v];
+    result.n.add(c.n);
+    result.kappa.add(c.sum());
+  }
+  const Edges edges = make_edges(mesh, topology, smooth, result.n);
+  result.weight = VertexField<double>(mesh.num_vertices(), 0.0);
+  for (const FaceId f : mesh.faces.ids()) {
+    Face face;
+    std::array<const Stencil*, 3> middles{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      face.nodes[k] = mesh.x[mesh.faces[f][k]];
+      face.nodes[3 + k] = edges.middle[edges.of_face[f][k]];
+      middles[k] = &edges.stencil[edges.of_face[f][k]];
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      face.center += face.nodes[k] / 3.0;
+      face.size = std::max(face.size, (face.nodes[k] - face.nodes[(k + 1) % 3]).norm());
+    }
+    set_stencil(face, mesh.faces[f], middles);
+    set_shares(face);
+    for (std::size_t c = 0; c < face.columns.size(); ++c)
+      result.weight[face.columns[c]] += face.share[c];
+    result.faces.add(std::move(face));
+  }
+  return result;
+}
+
+std::vector<double> value_weights(const Face& face, const Vec3& b) {
+  const NodeValues shape = quadratic_shape(b);
+  const Eigen::VectorXd weights =
+      face.to_nodes.transpose() *
+      Eigen::Map<const Eigen::Matrix<double, kFaceNodes, 1>>(shape.data());
+  return {weights.begin(), weights.end()};
+}
+
+}  // namespace meniscus::bem

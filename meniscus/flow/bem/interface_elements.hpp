@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "meniscus/flow/bem/quadratic_face.hpp"
+#include "meniscus/mesh/surface_mesh.hpp"
+
+namespace meniscus::bem {
+
+/// An interface as its integrals see it: parabolic triangles through the vertices and through the
+/// middles of the edges of the smooth surface; functions on them quadratic too, their values at
+/// the middles interpolated from the vertices around. The unknowns remain values at vertices.
+struct InterfaceElements {
+  /// How a face reads vertex values: value at node a = Σ_c to_nodes(a, c) value[columns[c]].
+  struct Face {
+    FaceNodes nodes;
+    std::vector<VertexId> columns;
+    Eigen::Matrix<double, kFaceNodes, Eigen::Dynamic> to_nodes;
+    std::vector<double> share;  ///< ∫_face f dS ≈ Σ_c share[c] f(x of columns[c])
+    Vec3 center = Vec3::Zero();
+    double size = 0.0;  ///< longest edge
+  };
+  FaceField<Face> faces;
+  FaceField<FaceVertices> corners;
+  VertexField<Vec3> x, n;
+  VertexField<double> kappa;   ///< k1 + k2
+  VertexField<double> weight;  ///< Σ of the faces' shares: ∮ f dS ≈ Σ_j weight_j f_j
+};
+
+/// O(N): about 20 µs per vertex.
+[[nodiscard]] InterfaceElements make_elements(const SurfaceMesh& mesh);
+
+/// Weights of the vertices columns[c] in the value at barycentric b of a face.
+[[nodiscard]] std::vector<double> value_weights(const InterfaceElements::Face& face, const Vec3& b);
+
+}  // namespace meniscus::bem

@@ -1,0 +1,127 @@
+#include "meniscus/flow/bem/layer_sums.hpp"
+
+#include <cmath>
+
+// One body, compiled for plain x86-64 and for vectors of four and eight doubles; the processor
+// chooses when the program starts. The sums are reassociated (omp simd), in an order that only the
+// width decides.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define MENISCUS_VECTOR_CLONES \
+  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define MENISCUS_VECTOR_CLONES
+#endif
+
+namespace meniscus::bem {
+namespace {
+
+struct Sum3 {
+  double x = 0.0, y = 0.0, z = 0.0;
+};
+
+struct Arrays {
+  const double *__restrict__ x, *__restrict__ y, *__restrict__ z;
+  const double *__restrict__ ax, *__restrict__ ay, *__restrict__ az;
+};
+
+Arrays arrays(const SourcePoints& points, std::size_t first) {
+  return {points.x.data() + first,  points.y.data() + first,  points.z.data() + first,
+          points.ax.data() + first, points.ay.data() + first, points.az.data() + first};
+}
+
+MENISCUS_VECTOR_CLONES
+Sum3 single_layer(Arrays s, const double* __restrict__ q, std::size_t n, double px, double py,
+                  double pz) {
+  double x = 0.0, y = 0.0, z = 0.0;
+#pragma omp simd reduction(+ : x, y, z)
+  for (std::size_t j = 0; j < n; ++j) {
+    const double rx = s.x[j] - px, ry = s.y[j] - py, rz = s.z[j] - pz;
+    const double squared = rx * rx + ry * ry + rz * rz;
+    const double inverse = squared > 0.0 ? 1.0 / std::sqrt(squared) : 0.0;
+    const double along =
+        (rx * s.ax[j] + ry * s.ay[j] + rz * s.az[j]) * inverse * inverse;
+    const double factor = q[j] * inverse;
+    x += factor * (s.ax[j] + along * rx);
+    y += factor * (s.ay[j] + along * ry);
+    z += factor * (s.az[j] + along * rz);
+  }
+  return {x, y, z};
+}
+
+MENISCUS_VECTOR_CLONES
+Sum3 double_layer(Arrays s, const double* __restrict__ ux, const double* __restrict__ uy,
+                  const double* __restrict__ uz, std::size_t n, double px, double py, double pz) {
+  double x = 0.0, y = 0.0, z = 0.0;
+#pragma omp simd reduction(+ : x, y, z)
+  for (std::size_t j = 0; j < n; ++j) {
+    const double rx = s.x[j] - px, ry = s.y[j] - py, rz = s.z[j] - pz;
+    const double squared = rx * rx + ry * ry + rz * rz;
+    const double inverse = squared > 0.0 ? 1.0 / std::sqrt(squared) : 0.0;
+    const double inverse2 = inverse * inverse;
+    const double factor = (rx * s.ax[j] + ry * s.ay[j] + rz * s.az[j]) *
+                          (rx * ux[j] + ry * uy[j] + rz * uz[j]) *
+                          (inverse2 * inverse2 * inverse);
+    x += factor * rx;
+    y += factor * ry;
+    z += factor * rz;
+  }
+  return {x, y, z};
+}
+
+MENISCUS_VECTOR_CLONES
+void constant_layers(Arrays s, std::size_t n, double px, double py, double pz, double* sums) {
+  double x = 0.0, y = 0.0, z = 0.0, xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
+#pragma omp simd reduction(+ : x, y, z, xx, yy, zz, xy, xz, yz)
+  for (std::size_t j = 0; j < n; ++j) {
+    const double rx = s.x[j] - px, ry = s.y[j] - py, rz = s.z[j] - pz;
+    const double squared = rx * rx + ry * ry + rz * rz;
+    const double inverse = squared > 0.0 ? 1.0 / std::sqrt(squared) : 0.0;
+    const double inverse2 = inverse * inverse;
+    const double along = (rx * s.ax[j] + ry * s.ay[j] + rz * s.az[j]) * inverse * inverse2;
+    x += inverse * s.ax[j] + along * rx;
+    y += inverse * s.ay[j] + along * ry;
+    z += inverse * s.az[j] + along * rz;
+    const double factor = along * inverse2;
+    xx += factor * rx * rx;
+    yy += factor * ry * ry;
+    zz += factor * rz * rz;
+    xy += factor * rx * ry;
+    xz += factor * rx * rz;
+    yz += factor * ry * rz;
+  }
+  const double all[] = {x, y, z, xx, yy, zz, xy, xz, yz};
+  for (int k = 0; k < 9; ++k) sums[k] = all[k];
+}
+
+}  // namespace
+
+void SourcePoints::add(const Vec3& at, const Vec3& weighted_normal) {
+  x.push_back(at.x());
+  y.push_back(at.y());
+  z.push_back(at.z());
+  ax.push_back(weighted_normal.x());
+  ay.push_back(weighted_normal.y());
+  az.push_back(weighted_normal.z());
+}
+
+Vec3 single_layer_sum(const SourcePoints& points, const std::vector<double>& q, const Vec3& p) {
+  const Sum3 sum = single_layer(arrays(points, 0), q.data(), q.size(), p.x(), p.y(), p.z());
+  return {sum.x, sum.y, sum.z};
+}
+
+Vec3 double_layer_sum(const SourcePoints& points, const SourceVectors& u, const Vec3& p) {
+  const Sum3 sum = double_layer(arrays(points, 0), u.x.data(), u.y.data(), u.z.data(), u.x.size(),
+                                p.x(), p.y(), p.z());
+  return {sum.x, sum.y, sum.z};
+}
+
+ConstantLayers constant_layer_sums(const SourcePoints& points, SourceRange range, const Vec3& p) {
+  std::array<double, 9> sums{};
+  constant_layers(arrays(points, static_cast<std::size_t>(range.begin)),
+                  static_cast<std::size_t>(range.end - range.begin), p.x(), p.y(), p.z(),
+                  sums.data());
+  return {.single = {sums[0], sums[1], sums[2]},
+          .dual = {sums[3], sums[4], sums[5], sums[6], sums[7], sums[8]}};
+}
+
+}  // namespace meniscus::bem

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "meniscus/core/vec.hpp"
+
+namespace meniscus::bem {
+
+/// Points with vectors a_j = (weight × normal), one array per component so that sums vectorise.
+struct SourcePoints {
+  std::vector<double> x, y, z;
+  std::vector<double> ax, ay, az;
+
+  void add(const Vec3& at, const Vec3& weighted_normal);
+  [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(x.size()); }
+  [[nodiscard]] Vec3 point(std::int32_t j) const {
+    const auto k = static_cast<std::size_t>(j);
+    return {x[k], y[k], z[k]};
+  }
+  [[nodiscard]] Vec3 weighted_normal(std::int32_t j) const {
+    const auto k = static_cast<std::size_t>(j);
+    return {ax[k], ay[k], az[k]};
+  }
+};
+
+/// A vector per source point, by component.
+struct SourceVectors {
+  explicit SourceVectors(std::int32_t size)
+      : x(static_cast<std::size_t>(size)), y(x.size()), z(x.size()) {}
+  std::vector<double> x, y, z;
+};
+
+/// A part of the source points.
+struct SourceRange {
+  std::int32_t begin = 0, end = 0;
+};
+
+/// The six entries xx, yy, zz, xy, xz, yz of a symmetric matrix.
+using Symmetric = std::array<double, 6>;
+[[nodiscard]] inline Vec3 operator*(const Symmetric& m, const Vec3& v) {
+  return {m[0] * v[0] + m[3] * v[1] + m[4] * v[2], m[3] * v[0] + m[1] * v[1] + m[5] * v[2],
+          m[4] * v[0] + m[5] * v[1] + m[2] * v[2]};
+}
+
+/// Σ_j q_j [a_j/r + r (r·a_j)/r³], r = x_j − p: the single layer of q n, times 8π; a point at p
+/// itself counts nothing. About 30 flops a pair; compiled for several widths of vectors.
+[[nodiscard]] Vec3 single_layer_sum(const SourcePoints& points, const std::vector<double>& q,
+                                    const Vec3& p);
+/// Σ_j r (r·u_j)(r·a_j)/r⁵: the double layer of u, times −4π/6 when the kernel is −6 rrr/r⁵.
+[[nodiscard]] Vec3 double_layer_sum(const SourcePoints& points, const SourceVectors& u,
+                                    const Vec3& p);
+/// The same sums over a range for q = 1 and u = the unit vectors.
+struct ConstantLayers {
+  Vec3 single = Vec3::Zero();
+  Symmetric dual{};  ///< Σ rr (r·a_j)/r⁵
+};
+[[nodiscard]] ConstantLayers constant_layer_sums(const SourcePoints& points, SourceRange range,
+                                                 const Vec3& p);
+
+}  // namespace meniscus::bem

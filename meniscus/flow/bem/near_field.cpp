@@ -1,0 +1,153 @@
+#include "meniscus/flow/bem/near_field.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "meniscus/flow/bem/face_moments.hpp"
+#include "meniscus/flow/bem/parallel_blocks.hpp"
+
+namespace meniscus::bem {
+namespace {
+
+using Face = InterfaceElements::Face;
+using Surface = BoundaryGeometry::Surface;
+
+/// A face is near a point closer to its centre than this many of its longest edges. Beyond, the
+/// weights of its vertices integrate the kernels to about 1e-4 of their size.
+constexpr double kNearFaces = 2.0;
+
+/// ∮ rr (r·n)/r⁵ dS seen from the surface itself and from within: 4π/6 and 8π/6 times the identity
+/// (from outside, nothing), being −1/6 of the integral of the stress kernel.
+constexpr double kOnSurface = 2.0 * std::numbers::pi / 3.0;
+constexpr double kInside = 2.0 * kOnSurface;
+
+void add_identity(Symmetric& m, double factor) {
+  for (std::size_t k = 0; k < 3; ++k) m[k] += factor;
+}
+
+/// Builds one row after another; keeps an array over all points for the columns of the row at hand.
+class RowBuilder {
+ public:
+  RowBuilder(const BoundaryGeometry& geometry, const std::vector<double>& q,
+             const std::vector<bool>& has_dual)
+      : geometry_(geometry), q_(q), has_dual_(has_dual),
+        dense_(static_cast<std::size_t>(geometry.size())),
+        is_touched_(static_cast<std::size_t>(geometry.size()), false) {}
+
+  NearRow row(std::int32_t i) {
+    row_ = {};
+    x_ = geometry_.points.point(i);
+    for (std::size_t m = 0; m < geometry_.surfaces.size(); ++m) add_surface(m, i);
+    std::ranges::sort(row_.columns);
+    for (const std::int32_t c : row_.columns) {
+      const auto at = static_cast<std::size_t>(c);
+      row_.dual.push_back(dense_[at]);
+      dense_[at] = {};
+      is_touched_[at] = false;
+    }
+    return std::move(row_);
+  }
+
+ private:
+  void add_surface(std::size_t m, std::int32_t i) {
+    const Surface& surface = geometry_.surfaces[m];
+    const auto own = static_cast<std::size_t>(geometry_.surface_of[static_cast<std::size_t>(i)]);
+    find_near_faces(surface);
+    if (near_.empty()) return;
+    // The rule's own integrals of the constants; what they are short of the exact ones is the error
+    // that subtraction removes.
+    constant_ = constant_layer_sums(geometry_.points, surface.range, x_);
+    for (const FaceId f : near_) add_face(m, f, i);
+    if (own == m) {
+      subtract(m, i, 1.0, kOnSurface);
+      return;
+    }
+    const SurfaceTree::Hit nearest = surface.tree.closest(x_);
+    const Face& face = surface.elements.faces[nearest.face];
+    const std::vector<double> weights = value_weights(face, nearest.weights);
+    const bool is_inside = geometry_.surfaces[own].is_inside_of[m];
+    for (std::size_t c = 0; c < weights.size(); ++c)
+      subtract(m, geometry_.index(m, face.columns[c]), weights[c], is_inside ? kInside : 0.0);
+  }
+
+  void find_near_faces(const Surface& surface) {
+    near_.clear();
+    const Vec3 reach = Vec3::Constant(kNearFaces * surface.largest_face);
+    surface.tree.visit_box(x_ - reach, x_ + reach, [&](FaceId f, const Triangle&) {
+      const Face& face = surface.elements.faces[f];
+      if ((face.center - x_).norm() < kNearFaces * face.size) near_.push_back(f);
+      return true;
+    });
+    std::ranges::sort(near_);
+  }
+
+  void add_face(std::size_t m, FaceId f, std::int32_t i) {
+    const InterfaceElements& elements = geometry_.surfaces[m].elements;
+    const Face& face = elements.faces[f];
+    int corner = -1;
+    for (int k = 0; k < 3; ++k)
+      if (geometry_.index(m, elements.corners[f][static_cast<std::size_t>(k)]) == i) corner = k;
+    const FaceMoments moments = corner < 0 ? near_moments(face, x_) : corner_moments(face, corner);
+    for (std::size_t c = 0; c < face.columns.size(); ++c) {
+      const VertexId v = face.columns[c];
+      const std::int32_t j = geometry_.index(m, v);
+      LayerKernels entry{.single = Vec3::Zero(), .dual = {}};
+      for (std::size_t a = 0; a < kFaceNodes; ++a) {
+        const double to_node = face.to_nodes(static_cast<Eigen::Index>(a),
+                                             static_cast<Eigen::Index>(c));
+        if (to_node == 0.0) continue;
+        entry.single += to_node * moments.single[a];
+        add(entry.dual, to_node, moments.dual[a]);
+      }
+      if (j != i) {
+        const LayerKernels far =
+            layer_kernels(elements.x[v] - x_, face.share[c] * elements.n[v]);
+        entry.single -= far.single;
+        add(entry.dual, -1.0, far.dual);
+      }
+      row_.single += q_[static_cast<std::size_t>(j)] * entry.single;
+      constant_.single += entry.single;
+      add(constant_.dual, 1.0, entry.dual);
+      if (has_dual_[m]) add(at(j), 1.0, entry.dual);
+    }
+  }
+
+  /// Replaces the rule's integral of the constant weight × (value at point j) by the exact one.
+  void subtract(std::size_t m, std::int32_t j, double weight, double exact) {
+    row_.single -= weight * q_[static_cast<std::size_t>(j)] * constant_.single;
+    if (!has_dual_[m]) return;
+    add(at(j), -weight, constant_.dual);
+    add_identity(at(j), weight * exact);
+  }
+
+  Symmetric& at(std::int32_t j) {
+    const auto k = static_cast<std::size_t>(j);
+    if (!is_touched_[k]) row_.columns.push_back(j);
+    is_touched_[k] = true;
+    return dense_[k];
+  }
+
+  const BoundaryGeometry& geometry_;
+  const std::vector<double>& q_;
+  const std::vector<bool>& has_dual_;
+  std::vector<Symmetric> dense_;
+  std::vector<bool> is_touched_;
+  Vec3 x_ = Vec3::Zero();
+  NearRow row_;
+  ConstantLayers constant_;
+  std::vector<FaceId> near_;
+};
+
+}  // namespace
+
+std::vector<NearRow> near_rows(const BoundaryGeometry& geometry, const std::vector<double>& q,
+                               const std::vector<bool>& has_dual, int threads) {
+  std::vector<NearRow> rows(static_cast<std::size_t>(geometry.size()));
+  for_blocks(geometry.size(), threads, [&](std::int32_t begin, std::int32_t end) {
+    RowBuilder builder(geometry, q, has_dual);
+    for (std::int32_t i = begin; i < end; ++i) rows[static_cast<std::size_t>(i)] = builder.row(i);
+  });
+  return rows;
+}
+
+}  // namespace meniscus::bem

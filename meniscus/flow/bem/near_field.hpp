@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "meniscus/flow/bem/boundary_geometry.hpp"
+
+namespace meniscus::bem {
+
+/// What the plain sums over all points miss at one point: faces near it integrated over their
+/// curved triangles instead of their vertices, and the density's value at the point, or at the
+/// nearest point of another surface close by, subtracted under the integral and its known integral
+/// added. Linear in the densities.
+struct NearRow {
+  std::vector<std::int32_t> columns;  ///< points
+  std::vector<Symmetric> dual;        ///< to be multiplied by the points' u, in double_layer_sum
+  Vec3 single = Vec3::Zero();         ///< to be added to single_layer_sum
+};
+
+/// Rows of all points. `q` is the density of the single layer by point; the double layer is left
+/// out of surfaces where `has_dual` is false.
+[[nodiscard]] std::vector<NearRow> near_rows(const BoundaryGeometry& geometry,
+                                             const std::vector<double>& q,
+                                             const std::vector<bool>& has_dual, int threads);
+
+}  // namespace meniscus::bem

@@ -1,0 +1,11 @@
+#pragma once
+
+namespace meniscus::bem {
+
+struct Options {
+  double rtol = 1e-8;        ///< relative residual of the double layer's equation
+  int max_iterations = 200;  ///< of GMRES
+  int threads = 1;           ///< results do not depend on it, to the last bit
+};
+
+}  // namespace meniscus::bem

@@ -1,0 +1,88 @@
+#include "meniscus/linear/matrix_free_solver.hpp"
+
+#include <chrono>
+#include <exception>
+
+#include "meniscus/linear/petsc_matrix.hpp"
+#include "meniscus/linear/petsc_objects.hpp"
+
+namespace meniscus::linear {
+namespace {
+
+PetscErrorCode apply_operator(Mat matrix, Vec x, Vec y) {
+  void* context = nullptr;
+  petsc_check(MatShellGetContext(matrix, &context), "MatShellGetContext");
+  PetscInt size = 0;
+  const PetscScalar* in = nullptr;
+  PetscScalar* out = nullptr;
+  PetscErrorCode code = VecGetLocalSize(x, &size);
+  if (code == 0) code = VecGetArrayRead(x, &in);
+  if (code == 0) code = VecGetArray(y, &out);
+  if (code != 0) return code;
+  const auto count = static_cast<std::size_t>(size);
+  try {  // no exception may pass through PETSc's frames
+    (*static_cast<const LinearOperator*>(context))({in, count}, {out, count});
+  } catch (const std::exception&) {
+    code = PETSC_ERR_LIB;
+  }
+  const PetscErrorCode given_x = VecRestoreArrayRead(x, &in), given_y = VecRestoreArray(y, &out);
+  return code != 0 ? code : (given_x != 0 ? given_x : given_y);
+}
+
+Matrix shell(const LinearOperator& matrix, std::size_t size) {
+  Matrix result;
+  const auto n = static_cast<PetscInt>(size);
+  // PETSc takes the context as it comes and hands it back; it is only read.
+  petsc_check(MatCreateShell(PETSC_COMM_SELF, n, n, n, n, const_cast<LinearOperator*>(&matrix),
+                             result.out()),
+              "MatCreateShell");
+  petsc_check(MatShellSetOperation(result.get(), MATOP_MULT,
+                                   reinterpret_cast<void (*)()>(apply_operator)),
+              "MatShellSetOperation");
+  return result;
+}
+
+KrylovSolver gmres(const Matrix& matrix, const MatrixFreeOptions& options) {
+  KrylovSolver solver;
+  petsc_check(KSPCreate(PETSC_COMM_SELF, solver.out()), "KSPCreate");
+  petsc_check(KSPSetOperators(solver.get(), matrix.get(), matrix.get()), "KSPSetOperators");
+  petsc_check(KSPSetType(solver.get(), KSPGMRES), "KSPSetType");
+  petsc_check(KSPGMRESSetRestart(solver.get(), options.restart), "KSPGMRESSetRestart");
+  petsc_check(KSPSetInitialGuessNonzero(solver.get(), PETSC_TRUE), "KSPSetInitialGuessNonzero");
+  petsc_check(
+      KSPSetTolerances(solver.get(), options.rtol, 1e-300, PETSC_DEFAULT, options.max_iterations),
+      "KSPSetTolerances");
+  PC pc = nullptr;
+  petsc_check(KSPGetPC(solver.get(), &pc), "KSPGetPC");
+  petsc_check(PCSetType(pc, PCNONE), "PCSetType");
+  return solver;
+}
+
+}  // namespace
+
+LinearReport solve_matrix_free(const LinearOperator& matrix, std::span<const double> right_hand_side,
+                               std::span<double> solution, const MatrixFreeOptions& options) {
+  LinearReport report;
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    start_petsc();
+    const Matrix operator_matrix = shell(matrix, solution.size());
+    const Vector b = borrowed_vector(right_hand_side), x = borrowed_vector(solution);
+    const KrylovSolver solver = gmres(operator_matrix, options);
+    petsc_check(KSPSolve(solver.get(), b.get(), x.get()), "KSPSolve");
+    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+    PetscInt iterations = 0;
+    petsc_check(KSPGetConvergedReason(solver.get(), &reason), "KSPGetConvergedReason");
+    petsc_check(KSPGetIterationNumber(solver.get(), &iterations), "KSPGetIterationNumber");
+    report.converged = reason > 0;
+    report.reason = KSPConvergedReasons[reason];
+    report.iterations = iterations;
+  } catch (const PetscFailure& failure) {
+    report.reason = failure.what();
+  }
+  report.solve_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+}  // namespace meniscus::linear

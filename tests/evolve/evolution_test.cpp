@@ -1,0 +1,179 @@
+#include "meniscus/evolve/evolution.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "meniscus/core/log.hpp"
+#include "meniscus/mesh/shapes.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "prescribed_flow.hpp"
+
+namespace meniscus {
+namespace {
+
+Scene one_drop(int num_vertices, double tension = 0.0) {
+  Scene scene;
+  scene.is_unbounded = true;
+  scene.flow = ImposedFlow(FlowFamily::axial, ImposedFlow::uniaxial_extension());
+  scene.liquids.add(Liquid{});
+  scene.liquids.add(Liquid{});
+  Interface interface;
+  interface.mesh = sphere(num_vertices);
+  interface.inside = RegionId{1};
+  interface.outside = RegionId{0};
+  interface.tension = tension;
+  interface.C0 = num_vertices / (4.0 * std::numbers::pi);
+  interface.volume = interface.initial_volume = enclosed_volume(interface.mesh);
+  scene.interfaces.push_back(interface);
+  return scene;
+}
+
+struct Run {
+  PrescribedFlow* flow;
+  Evolution evolution;
+};
+
+Run make_run(Scene scene, const EvolutionOptions& options, PrescribedFlow::Velocity velocity) {
+  auto flow = std::make_unique<PrescribedFlow>(std::move(velocity));
+  PrescribedFlow* seen = flow.get();
+  return {seen, Evolution(std::move(scene), options, std::move(flow))};
+}
+
+Vec3 stretching(const Vec3& x, double) { return ImposedFlow::uniaxial_extension() * x; }
+
+void run_to_end(Evolution& evolution) {
+  ASSERT_TRUE(evolution.prepare().ok);
+  while (true) {
+    ASSERT_TRUE(evolution.solve().ok);
+    if (evolution.is_finished()) return;
+    const EvolutionReport advanced = evolution.advance();
+    ASSERT_TRUE(advanced.ok) << advanced.failure;
+  }
+}
+
+/// Vertices at t = 0.4 of a drop that turns and stretches, stepped with dt and never remeshed.
+VertexField<Vec3> vertices_after(TimeScheme scheme, double dt) {
+  EvolutionOptions options;
+  options.scheme = scheme;
+  options.end = 0.4 - 1e-9;
+  options.max_step = dt;
+  options.step_factor = 1e3;  // max_step decides
+  options.remesh_every = 1000000;
+  auto run = make_run(one_drop(162), options, [](const Vec3& x, double t) {
+    return Vec3(std::cos(3.0 * t) * (ImposedFlow::uniaxial_extension() * x) +
+                Vec3(0.0, x.z(), 0.0));
+  });
+  run_to_end(run.evolution);
+  return run.evolution.scene().interfaces[0].mesh.x;
+}
+
+double largest_difference(const VertexField<Vec3>& a, const VertexField<Vec3>& b) {
+  double largest = 0.0;
+  for (const VertexId v : a.ids()) largest = std::max(largest, (a[v] - b[v]).norm());
+  return largest;
+}
+
+TEST(Evolution, MidpointRuleIsSecondAndEulerFirstOrderInTime) {
+  for (const auto& [scheme, order] :
+       {std::pair(TimeScheme::rk2, 2.0), std::pair(TimeScheme::euler, 1.0)}) {
+    const auto coarse = vertices_after(scheme, 0.05), middle = vertices_after(scheme, 0.025),
+               fine = vertices_after(scheme, 0.0125);
+    const double observed =
+        std::log2(largest_difference(coarse, middle) / largest_difference(middle, fine));
+    EXPECT_NEAR(observed, order, 0.2);
+  }
+}
+
+TEST(Evolution, DropFollowsTheExactMapWithItsVolumeKept) {
+  EvolutionOptions options;
+  options.end = 0.5;
+  auto run = make_run(one_drop(600), options, stretching);
+  run_to_end(run.evolution);
+  const DropRow row = run.evolution.drop_rows().at(0);
+  // Under v = E·x a sphere becomes the ellipsoid of semi-axes exp(t), exp(−t/2); h² ~ 0.025 here.
+  EXPECT_NEAR(row.shape.L / std::exp(run.evolution.t()), 1.0, 5e-3);
+  EXPECT_NEAR(row.shape.B / std::exp(-0.5 * run.evolution.t()), 1.0, 5e-3);
+  EXPECT_LT(std::abs(row.volume_drift), 1e-12);
+}
+
+TEST(Evolution, StepLengthObeysTheEdgeTensionAndBounds) {
+  for (const double tension : {0.0, 0.5, 4.0}) {
+    EvolutionOptions options;
+    options.max_step = 10.0;
+    options.remesh_every = 1000000;
+    auto run = make_run(one_drop(110, tension), options,
+                        [](const Vec3&, double) { return Vec3(Vec3::Zero()); });
+    ASSERT_TRUE(run.evolution.prepare().ok);
+    const double edge = shortest_edge(run.evolution.scene().interfaces[0].mesh);
+    ASSERT_TRUE(run.evolution.solve().ok);
+    ASSERT_TRUE(run.evolution.advance().ok);
+    EXPECT_NEAR(run.evolution.t(), 0.5 * std::min(1.0, 1.0 / std::max(tension, 1e-300)) * edge,
+                1e-12);
+  }
+}
+
+TEST(Evolution, FailedStepIsUndoneAndHalved) {
+  log::set_level(log::Level::off);
+  EvolutionOptions options;
+  options.max_step = 0.08;
+  options.step_factor = 1e3;
+  options.remesh_every = 1000000;
+  auto run = make_run(one_drop(110), options, stretching);
+  ASSERT_TRUE(run.evolution.prepare().ok);
+  ASSERT_TRUE(run.evolution.solve().ok);
+  run.flow->longest_move = 0.03;
+  ASSERT_TRUE(run.evolution.advance().ok);
+  EXPECT_NEAR(run.evolution.t(), 0.02, 1e-15);
+  EXPECT_EQ(run.evolution.warnings().size(), 2u);
+  log::set_level(log::Level::warning);
+}
+
+TEST(Evolution, GivesUpBelowTheSmallestStepWithTheStateAsItWas) {
+  log::set_level(log::Level::off);
+  EvolutionOptions options;
+  options.min_step = 1e-3;
+  auto run = make_run(one_drop(110), options, stretching);
+  ASSERT_TRUE(run.evolution.prepare().ok);
+  ASSERT_TRUE(run.evolution.solve().ok);
+  const SurfaceMesh before = run.evolution.scene().interfaces[0].mesh;
+  run.flow->longest_move = 0.0;
+  const EvolutionReport report = run.evolution.advance();
+  EXPECT_FALSE(report.ok);
+  EXPECT_NE(report.failure.find("moved too far"), std::string::npos) << report.failure;
+  EXPECT_EQ(run.evolution.scene().interfaces[0].mesh, before);
+  EXPECT_EQ(run.evolution.step(), 0);
+  run.flow->is_broken = true;
+  EXPECT_FALSE(run.evolution.solve().ok);
+  log::set_level(log::Level::warning);
+}
+
+TEST(Evolution, SavedStateGoesOnToTheSameBits) {
+  EvolutionOptions options;
+  options.end = 0.3;
+  auto whole = make_run(one_drop(110, 1.0), options, stretching);
+  run_to_end(whole.evolution);
+
+  auto first = make_run(one_drop(110, 1.0), options, stretching);
+  ASSERT_TRUE(first.evolution.prepare().ok);
+  for (int k = 0; k < 2; ++k) {
+    ASSERT_TRUE(first.evolution.solve().ok);
+    ASSERT_TRUE(first.evolution.advance().ok);
+  }
+  Archive archive;
+  first.evolution.save(archive);
+  auto second = make_run(one_drop(42, 3.0), options, stretching);
+  second.evolution.load(archive);
+  while (!second.evolution.is_finished()) {
+    ASSERT_TRUE(second.evolution.solve().ok);
+    ASSERT_TRUE(second.evolution.advance().ok);
+  }
+  EXPECT_EQ(second.evolution.step(), whole.evolution.step());
+  EXPECT_EQ(second.evolution.t(), whole.evolution.t());
+  EXPECT_EQ(second.evolution.scene().interfaces[0].mesh,
+            whole.evolution.scene().interfaces[0].mesh);
+}
+
+}  // namespace
+}  // namespace meniscus

@@ -1,0 +1,68 @@
+#include "meniscus/surface/sizing.hpp"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "meniscus/mesh/surface_measures.hpp"
+#include "tests/surface/shapes.hpp"
+
+namespace meniscus {
+namespace {
+
+VertexField<double> lengths(const SurfaceMesh& mesh, const RemeshOptions& options) {
+  const SurfaceTopology topology(mesh);
+  return rest_lengths(mesh, topology, osculating_curvature(mesh, topology), options);
+}
+
+TEST(RestLengths, SphereAsksForItsNodes) {
+  // N0 equilateral triangles' worth of area: l0² = 2/(√3 C0⟨κ⟩²), C0 = N0/4π.
+  const double C0 = 200 / (4.0 * std::numbers::pi);
+  const double exact = std::sqrt(2.0 / (std::numbers::sqrt3 * C0));
+  for (const double radius : {1.0, 0.25})
+    for (const double l : lengths(sphere(300, radius), {.C0 = C0}))
+      EXPECT_NEAR(l, radius * exact, 1e-9 * radius);
+  EXPECT_DOUBLE_EQ(density_of_length(length_of_density(3.7)), 3.7);
+}
+
+TEST(RestLengths, ObeyFloorCeilingAndBound) {
+  const SurfaceMesh mesh = stretched_sphere(500, Vec3(3, 1, 1));
+  const auto plain = lengths(mesh, {.C0 = 40.0});
+  const auto limited = lengths(mesh, {.C0 = 40.0, .edge_floor = 0.07, .edge_ceiling = 0.15});
+  for (const VertexId v : mesh.x.ids()) {
+    EXPECT_GE(limited[v], 0.07);
+    EXPECT_LE(limited[v], 0.15);
+    if (plain[v] > 0.08 && plain[v] < 0.14) {
+      EXPECT_DOUBLE_EQ(limited[v], plain[v]);
+    }
+  }
+  const auto bound = [](const Vec3& x) { return 0.05 + 0.1 * std::abs(x.x()); };
+  const auto bounded = lengths(mesh, {.C0 = 40.0, .size_bound = bound});
+  for (const VertexId v : mesh.x.ids()) EXPECT_LE(bounded[v], bound(mesh.x[v]));
+}
+
+TEST(RestLengths, GradationIsLimitedAlongEveryEdge) {
+  const SurfaceMesh mesh = sphere(2000);
+  const auto bound = [](const Vec3& x) { return (x - Vec3(1, 0, 0)).norm() < 0.2 ? 0.01 : 1.0; };
+  const SurfaceTopology topology(mesh);
+  for (const double gradation : {0.1, 0.3}) {
+    const auto l = lengths(mesh, {.C0 = 10.0, .gradation = gradation, .size_bound = bound});
+    for (const SurfaceEdge& e : topology.edges())
+      EXPECT_LE(std::abs(l[e.a] - l[e.b]),
+                gradation * (mesh.x[e.a] - mesh.x[e.b]).norm() * (1.0 + 1e-9));
+    // Far from the spot the length is untouched.
+    EXPECT_GT(*std::ranges::max_element(l), 0.2);
+  }
+}
+
+TEST(RestLengths, FewVerticesAreMadeEnough) {
+  const SurfaceMesh mesh = stretched_sphere(400, Vec3(1.5, 1, 1));
+  const auto l = lengths(mesh, {.C0 = 0.1, .min_vertices = 70});
+  const auto area = vertex_areas(mesh);
+  double expected = 0.0;
+  for (const VertexId v : mesh.x.ids()) expected += area[v] * density_of_length(l[v]);
+  EXPECT_NEAR(expected, 70.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace meniscus
