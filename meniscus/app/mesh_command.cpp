@@ -7,7 +7,6 @@
 #include "meniscus/case/case.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/evolve/evolution.hpp"
-#include "meniscus/flow/fem/finite_element_flow.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/volume/quality.hpp"
 
@@ -20,12 +19,15 @@ void print_surface(const std::string& name, const SurfaceMesh& mesh) {
              smallest_angle_deg(mesh), enclosed_volume(mesh));
 }
 
-void print_table(const Scene& scene, const TetMesh& mesh) {
+void print_surfaces(const Scene& scene) {
   fmt::print("{:<10} {:>8} {:>8} {:>10} {:>10} {:>9} {:>12}\n", "surface", "vertices", "faces",
              "min edge", "mean edge", "min angle", "volume");
   for (const Interface& interface : scene.interfaces)
     print_surface(fmt::format("drop {}", interface.drop), interface.mesh);
-  print_surface("boundary", scene.boundary.mesh);
+  if (!scene.is_unbounded) print_surface("boundary", scene.boundary.mesh);
+}
+
+void print_quality(const TetMesh& mesh) {
   const MeshQuality q = quality(mesh);
   fmt::print("\nvolume mesh: {} vertices, {} tetrahedra\n", mesh.num_vertices(), mesh.num_cells());
   fmt::print("dihedral angles {:.1f} to {:.1f} degrees, {:.3f} % of the tetrahedra below 10\n",
@@ -38,10 +40,13 @@ void print_table(const Scene& scene, const TetMesh& mesh) {
 
 int mesh_command(const MeshArguments& arguments) {
   const Case c = read_case(arguments.case_file, arguments.overrides);
-  Evolution evolution(build_scene(c), c.evolution, fem::make_finite_element_flow(c.flow_solver));
+  if (c.method == FlowMethod::boundary_integral && !arguments.output.empty())
+    reject_input("--output {}: boundary integrals need no volume mesh", arguments.output);
+  Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c));
   if (const EvolutionReport prepared = evolution.prepare(); !prepared.ok)
     throw RunFailure(fmt::format("the mesh could not be made: {}", prepared.failure));
-  print_table(evolution.scene(), *evolution.flow().volume_mesh());
+  print_surfaces(evolution.scene());
+  if (const TetMesh* mesh = evolution.flow().volume_mesh()) print_quality(*mesh);
   if (!arguments.output.empty()) write_volume_frame(arguments.output, evolution);
   return 0;
 }

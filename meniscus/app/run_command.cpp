@@ -9,7 +9,6 @@
 #include "meniscus/case/case.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
-#include "meniscus/flow/fem/finite_element_flow.hpp"
 #include "meniscus/io/archive_file.hpp"
 #include "meniscus/io/atomic_file.hpp"
 #include "meniscus/report/report.hpp"
@@ -24,7 +23,7 @@ OutputSchedule output_schedule(const OutputOptions& output) {
 }
 
 Evolution make_evolution(const Case& c, Scene scene) {
-  return {std::move(scene), c.evolution, fem::make_finite_element_flow(c.flow_solver)};
+  return {std::move(scene), c.evolution, make_flow_solver(c)};
 }
 
 /// What a checkpoint must say for `resume` to build the evolution again.

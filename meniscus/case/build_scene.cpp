@@ -40,6 +40,7 @@ void require_within_domain(const Case& c, const SurfaceMesh& drop, int index) {
       require("domain.half-length", c.domain.half_length, reach.x());
       return require("domain.radius", c.domain.radius, from_axis);
     case DomainCase::Shape::file:
+    case DomainCase::Shape::unbounded:
       return;
   }
 }
@@ -124,7 +125,8 @@ Scene build_surroundings(const Case& c) {
   Scene scene;
   scene.Ca = c.Ca;
   scene.flow = c.flow;
-  scene.boundary = build_boundary(c);
+  scene.is_unbounded = c.domain.shape == DomainCase::Shape::unbounded;
+  if (!scene.is_unbounded) scene.boundary = build_boundary(c);
   scene.liquids.add({.viscosity = 1.0, .body_force = c.matrix_body_force});
   for (const DropCase& drop : c.drops)
     scene.liquids.add({.viscosity = drop.viscosity_ratio, .body_force = drop.body_force});

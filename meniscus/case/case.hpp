@@ -10,7 +10,9 @@
 
 #include "meniscus/case/settings.hpp"
 #include "meniscus/evolve/options.hpp"
+#include "meniscus/flow/bem/options.hpp"
 #include "meniscus/flow/fem/options.hpp"
+#include "meniscus/flow/flow_solver.hpp"
 #include "meniscus/scene/scene.hpp"
 
 namespace meniscus {
@@ -54,7 +56,7 @@ struct PatchCase {
 };
 
 struct DomainCase {
-  enum class Shape { box, sphere, cylinder, file } shape = Shape::box;
+  enum class Shape { box, sphere, cylinder, file, unbounded } shape = Shape::box;
   Vec3 half_widths = Vec3::Constant(10.0);
   double radius = 10.0, half_length = 10.0;
   std::filesystem::path file;
@@ -71,6 +73,8 @@ struct OutputOptions {
   int checkpoint_every = 10;     ///< steps
 };
 
+enum class FlowMethod { finite_element, boundary_integral };
+
 /// A case file, read, checked and dimensionless.
 struct Case {
   Settings settings;  ///< every key with its value and place
@@ -81,7 +85,9 @@ struct Case {
   std::vector<DropCase> drops;
   DomainCase domain;
   EvolutionOptions evolution;
-  fem::Options flow_solver;
+  FlowMethod method = FlowMethod::finite_element;
+  fem::Options flow_solver;         ///< of the finite elements
+  bem::Options boundary_integral;
   OutputOptions output;
 };
 
@@ -108,5 +114,7 @@ struct Case {
 /// All of that scene but its interfaces: what a run taken up from a checkpoint needs, though the
 /// files its drops began with be gone.
 [[nodiscard]] Scene build_surroundings(const Case& c);
+/// The solver a case asks for.
+[[nodiscard]] std::unique_ptr<FlowSolver> make_flow_solver(const Case& c);
 
 }  // namespace meniscus

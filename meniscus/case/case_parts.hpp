@@ -13,9 +13,11 @@ namespace meniscus {
 /// The flow decides the default conditions on a box.
 [[nodiscard]] DomainCase read_domain(Settings& settings, const ImposedFlow& flow);
 [[nodiscard]] EvolutionOptions read_evolution(Settings& settings);
-[[nodiscard]] fem::Options read_flow_solver(Settings& settings);
-[[nodiscard]] OutputOptions read_output(Settings& settings);
+[[nodiscard]] FlowMethod read_method(Settings& settings, const DomainCase& domain);
+[[nodiscard]] fem::Options read_finite_elements(Settings& settings);
+[[nodiscard]] bem::Options read_boundary_integrals(Settings& settings);
+[[nodiscard]] OutputOptions read_output(Settings& settings, FlowMethod method);
 /// Asks for the keys whose features are yet to come: they have one value so far.
-void read_fixed_keys(Settings& settings);
+void read_fixed_keys(Settings& settings, FlowMethod method);
 
 }  // namespace meniscus

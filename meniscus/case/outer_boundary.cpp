@@ -29,7 +29,8 @@ std::vector<std::string_view> names_by_tag(Shape shape) {
     case Shape::sphere:
       return {kWholeSphere};
     case Shape::file:
-      return {};
+    case Shape::unbounded:
+      break;
   }
   return {};
 }
@@ -44,6 +45,7 @@ TaggedSurface boundary_surface(const Case& c) {
     case Shape::file:
       return read_case_surface(c, "domain.surface", domain.file);
     case Shape::sphere:
+    case Shape::unbounded:
       break;
   }
   SurfaceMesh mesh = sphere(domain.nodes, domain.radius);

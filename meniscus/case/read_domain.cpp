@@ -26,6 +26,8 @@ void read_size(Settings& settings, DomainCase& domain) {
     case Shape::sphere:
       domain.radius = settings.number("domain.radius");
       break;
+    case Shape::unbounded:
+      return;
   }
   domain.nodes = settings.whole("domain.nodes");
 }
@@ -96,11 +98,17 @@ DomainCase read_domain(Settings& settings, const ImposedFlow& flow) {
   else
     domain.shape = settings.choice<Shape>(
         "domain.shape",
-        {{"box", Shape::box}, {"sphere", Shape::sphere}, {"cylinder", Shape::cylinder}});
+        {{"box", Shape::box},
+                         {"sphere", Shape::sphere},
+                         {"cylinder", Shape::cylinder},
+                         {"unbounded", Shape::unbounded}});
   read_size(settings, domain);
   const bool is_shear =
       settings.is_given("flow.kind") && settings.text("flow.kind") == "simple-shear";
   domain.is_symmetric_in_z = is_shear && is_in_xy_plane(flow);
+  if (domain.shape == Shape::unbounded && settings.count("domain.patch") > 0)
+    reject_input("{}: [[domain.patch]] has no effect here: an unbounded domain has no patches",
+                 settings.place("domain.patch[0]"));
   for (int i = 0; i < settings.count("domain.patch"); ++i)
     domain.patches.push_back(read_patch(settings, domain, fmt::format("domain.patch[{}]", i)));
   return domain;

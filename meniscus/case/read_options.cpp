@@ -25,7 +25,25 @@ EvolutionOptions read_evolution(Settings& settings) {
   return options;
 }
 
-fem::Options read_flow_solver(Settings& settings) {
+FlowMethod read_method(Settings& settings, const DomainCase& domain) {
+  const auto method = settings.choice<FlowMethod>(
+      "solver.method", {{"finite-element", FlowMethod::finite_element},
+                        {"boundary-integral", FlowMethod::boundary_integral}});
+  const bool is_unbounded = domain.shape == DomainCase::Shape::unbounded;
+  if (is_unbounded && method == FlowMethod::finite_element)
+    settings.reject("domain.shape", "needs solver.method = \"boundary-integral\"");
+  if (!is_unbounded && method == FlowMethod::boundary_integral)
+    settings.reject("solver.method", "needs domain.shape = \"unbounded\"");
+  return method;
+}
+
+bem::Options read_boundary_integrals(Settings& settings) {
+  return {.rtol = settings.number("solver.rtol"),
+          .max_iterations = settings.whole("solver.max-iterations"),
+          .threads = settings.whole("solver.threads")};
+}
+
+fem::Options read_finite_elements(Settings& settings) {
   using fem::CapillaryForm, fem::LinearSolver;
   fem::Options options;
   options.capillary = settings.choice<CapillaryForm>("interface.surface-tension",
@@ -51,10 +69,10 @@ fem::Options read_flow_solver(Settings& settings) {
   return options;
 }
 
-OutputOptions read_output(Settings& settings) {
+OutputOptions read_output(Settings& settings, FlowMethod method) {
   OutputOptions options;
   options.interval = settings.number("output.interval");
-  options.volume = settings.flag("output.volume");
+  options.volume = settings.flag("output.volume") && method == FlowMethod::finite_element;
   options.volume_interval = options.interval;
   if (options.volume)
     options.volume_interval = settings.number_or("output.volume-interval", options.interval);
@@ -62,8 +80,9 @@ OutputOptions read_output(Settings& settings) {
   return options;
 }
 
-void read_fixed_keys(Settings& settings) {
+void read_fixed_keys(Settings& settings, FlowMethod method) {
   for (const schema::Key& key : schema::keys()) {
+    if (key.path == "solver.elements" && method != FlowMethod::finite_element) continue;
     const bool has_one_word = key.type == schema::Type::word && key.words.size() == 1;
     if (key.only_default || has_one_word) settings.note(std::string(key.path));
   }

@@ -16,6 +16,8 @@ constexpr Range kFinite{};
 constexpr Range kDropNodes{.min = 42, .max = 1e6};
 constexpr Range kBoundaryNodes{.min = 50, .max = 1e6};
 constexpr Range kCount{.min = 1, .max = 1e9};
+constexpr std::string_view kWithElements = "with method = \"finite-element\"";
+constexpr std::string_view kWithIntegrals = "with method = \"boundary-integral\"";
 
 const std::vector<std::string_view> kFlowKinds{"simple-shear", "uniaxial-extension",
                                                "planar-extension", "quiescent"};
@@ -174,12 +176,11 @@ const std::vector<Key> kKeys{
 
     {.path = "domain.shape",
      .type = word,
-     .words = {"box", "sphere", "cylinder"},
-     .later = {"unbounded"},
+     .words = {"box", "sphere", "cylinder", "unbounded"},
      .value = "box"s,
      .applies = "without surface",
-     .sentence = "Shape of the outer boundary; a cylinder lies along x. \"unbounded\" is for "
-                 "boundary integrals."},
+     .sentence = "Shape of the outer boundary; a cylinder lies along x. \"unbounded\", with "
+                 "method = \"boundary-integral\" and only there: no boundary."},
     {.path = "domain.half-width",
      .dimension = Dimension::length,
      .range = kPositive,
@@ -221,6 +222,7 @@ const std::vector<Key> kKeys{
      .type = word,
      .words = {"linear", "exponential", "gaussian"},
      .value = "linear"s,
+     .applies = kWithElements,
      .sentence = "How element size passes from one surface's resolution to another's."},
 
     {.path = "domain.patch[].name",
@@ -284,6 +286,7 @@ const std::vector<Key> kKeys{
      .type = word,
      .words = {"weak", "nodal", "balanced"},
      .value = "weak"s,
+     .applies = kWithElements,
      .sentence = "Form of the capillary force: weak (integrated by parts, the paper's eq. 15), "
                  "nodal (curvature of a paraboloid fit, eqs 16-17), balanced (no flow for constant "
                  "curvature)."},
@@ -297,6 +300,7 @@ const std::vector<Key> kKeys{
      .type = word,
      .words = {"spines", "lagrangian", "harmonic"},
      .value = "spines"s,
+     .applies = kWithElements,
      .sentence = "How the vertices between the surfaces follow: along rays from the drop's centre "
                  "(harmonic where a drop is not star-shaped or there are several), with the "
                  "liquid, or by harmonic extension."},
@@ -338,20 +342,28 @@ const std::vector<Key> kKeys{
 
     {.path = "solver.method",
      .type = word,
-     .words = {"finite-element"},
-     .later = {"boundary-integral"},
+     .words = {"finite-element", "boundary-integral"},
      .value = "finite-element"s,
-     .sentence = "How the Stokes flow is found."},
+     .sentence = "How the Stokes flow is found: by elements that fill the domain, or by integrals "
+                 "over the interfaces alone, in an unbounded domain."},
+    {.path = "solver.threads",
+     .type = whole,
+     .range = kCount,
+     .value = std::int64_t{1},
+     .applies = kWithIntegrals,
+     .sentence = "Threads that share the sums; the results do not depend on it."},
     {.path = "solver.elements",
      .type = word,
      .words = {"P1-P1"},
      .later = {"P2-P1"},
      .value = "P1-P1"s,
+     .applies = kWithElements,
      .sentence = "P1-P1: linear velocity and pressure, pressure-stabilised, as in the paper."},
     {.path = "solver.linear",
      .type = word,
      .words = {"block", "paper-gmres", "minres", "mumps"},
      .value = "block"s,
+     .applies = kWithElements,
      .sentence = "Linear solver: block-preconditioned FGMRES, the paper's scaled GMRES, "
                  "block-diagonal MINRES, or direct."},
     {.path = "solver.rtol",
@@ -367,6 +379,7 @@ const std::vector<Key> kKeys{
     {.path = "solver.petsc-options",
      .type = text,
      .value = ""s,
+     .applies = kWithElements,
      .sentence = "Further options for PETSc, as on its command line."},
 
     {.path = "time.scheme",
@@ -408,12 +421,13 @@ const std::vector<Key> kKeys{
     {.path = "output.volume",
      .type = flag,
      .value = true,
-     .sentence = "Whether volume meshes with velocity and pressure are written too."},
+     .sentence = "Whether volume meshes with velocity and pressure are written too, where there "
+                 "are any."},
     {.path = "output.volume-interval",
      .dimension = Dimension::time,
      .range = kPositive,
      .default_note = "output.interval",
-     .applies = "with volume = true",
+     .applies = "with volume = true, where there are volume meshes",
      .sentence = "Time between two volume meshes."},
     {.path = "output.checkpoint-every",
      .type = whole,

@@ -185,8 +185,10 @@ HistoryRow Evolution::history_row() const {
   }
   row.min_gap = smallest_gap(scene_);
   row.linear_iterations = iterations_;
-  row.power_in = flow_->power().in;
-  row.dissipation = flow_->power().dissipation;
+  if (const std::optional<Power> power = flow_->power()) {
+    row.power_in = power->in;
+    row.dissipation = power->dissipation;
+  }
   row.surface_rate = surface_energy_rate(scene_, motion_);
   row.stress = drop_stress(scene_, flow_->velocity());
   return row;

@@ -19,10 +19,14 @@ struct HistoryRow {
   std::optional<std::int64_t> nodes, tetrahedra;
   std::optional<double> min_gap, min_dihedral_deg;
   int linear_iterations = 0;  ///< all solves since the row before
-  double power_in = 0.0, dissipation = 0.0, surface_rate = 0.0;
+  std::optional<double> power_in, dissipation;  ///< empty in an unbounded liquid
+  double surface_rate = 0.0;
   Mat3 stress = Mat3::Zero();
 
-  [[nodiscard]] double power_residual() const { return power_in - dissipation - surface_rate; }
+  [[nodiscard]] std::optional<double> power_residual() const {
+    if (!power_in || !dissipation) return std::nullopt;
+    return *power_in - *dissipation - surface_rate;
+  }
 };
 
 struct DropRow {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,7 +40,8 @@ class FlowSolver {
   virtual FlowReport solve(const Scene& scene, double t) = 0;
   /// Fluid velocity at the vertices of each interface, from the last solve [G R0].
   [[nodiscard]] virtual std::span<const VertexField<Vec3>> velocity() const = 0;
-  [[nodiscard]] virtual Power power() const = 0;
+  /// Empty where the flow fills an unbounded space: its power and dissipation are infinite.
+  [[nodiscard]] virtual std::optional<Power> power() const = 0;
 
   /// Remembers the derived mesh as it is at the start of a step (Ω_t of the paper's Table 1).
   virtual void mark(const Scene& scene) = 0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
+
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/restructure.hpp"
@@ -79,13 +81,16 @@ void correct_volume(SurfaceMesh& mesh, double volume_before, const RemeshOptions
   report.volume_shift_over_edge = report.volume_shift / smallest_mean_edge(mesh);
 }
 
+/// Whether a face looks inward. Edits and springs keep faces within 60° of the surface; a surface
+/// that came with sharper places than that may keep them.
 bool has_fold(const RemeshState& state) {
   for (std::int32_t i = 0; i < state.mesh.num_halfedge_slots(); i += 3) {
     const HalfedgeId h{i};
     if (!state.mesh.is_alive(h)) continue;
-    if (!is_upright(state.vertices[state.mesh.from(h)], state.vertices[state.mesh.to(h)],
-                    state.vertices[state.mesh.opposite(h)]))
-      return true;
+    const RemeshVertex &a = state.vertices[state.mesh.from(h)],
+                       &b = state.vertices[state.mesh.to(h)],
+                       &c = state.vertices[state.mesh.opposite(h)];
+    if ((b.x - a.x).cross(c.x - a.x).dot(a.n + b.n + c.n) <= 0.0) return true;
   }
   return false;
 }

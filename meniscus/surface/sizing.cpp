@@ -21,12 +21,6 @@ VertexField<double> averaged_over_rings(const VertexField<double>& values,
   return result;
 }
 
-double limited(double length, const Vec3& x, const RemeshOptions& options) {
-  double l = std::min(length, options.edge_ceiling);
-  if (options.size_bound) l = std::min(l, options.size_bound(x));
-  return std::max(l, options.edge_floor);
-}
-
 /// Lowers lengths until none exceeds a neighbour's by more than gradation × distance. Sweeps along
 /// the edges; the last finds nothing to do, and a sweep carries a bound over many edges.
 void limit_gradation(VertexField<double>& length, const SurfaceMesh& mesh,
@@ -36,7 +30,6 @@ void limit_gradation(VertexField<double>& length, const SurfaceMesh& mesh,
     changed = false;
     for (const SurfaceEdge& e : topology.edges()) {
       double &a = length[e.a], &b = length[e.b];
-      if (std::abs(a - b) <= gradation * std::min(a, b) * 0.1) continue;  // common case, no root
       const double reach = gradation * (mesh.x[e.a] - mesh.x[e.b]).norm();
       const double bound_a = b + reach, bound_b = a + reach;
       if (a > bound_a * (1.0 + 1e-12)) {
@@ -50,22 +43,21 @@ void limit_gradation(VertexField<double>& length, const SurfaceMesh& mesh,
   }
 }
 
-VertexField<double> lengths_for(double C0, const VertexField<double>& squared_curvature,
-                                const SurfaceMesh& mesh, const SurfaceTopology& topology,
-                                const RemeshOptions& options) {
-  VertexField<double> length(mesh.num_vertices());
-  for (const VertexId v : mesh.x.ids())
-    length[v] = limited(length_of_density(C0 * squared_curvature[v]), mesh.x[v], options);
-  limit_gradation(length, mesh, topology, options.gradation);
-  return length;
-}
-
-/// ∮ρ dS on the flat faces.
-double expected_vertices(const SurfaceMesh& mesh, const VertexField<double>& length) {
-  const VertexField<double> area = vertex_areas(mesh);
-  double sum = 0.0;
-  for (const VertexId v : mesh.x.ids()) sum += area[v] * density_of_length(length[v]);
-  return sum;
+/// C0 and the floor, raised and lowered so far that they leave a small or round drop its fewest
+/// vertices.
+struct Allowance {
+  double C0, edge_floor;
+};
+Allowance allowance(const VertexField<double>& squared_curvature, const SurfaceMesh& mesh,
+                    const RemeshOptions& options) {
+  const VertexField<double> areas = vertex_areas(mesh);
+  double area = 0.0, integral = 0.0;
+  for (const VertexId v : mesh.x.ids()) {
+    area += areas[v];
+    integral += areas[v] * squared_curvature[v];
+  }
+  return {std::max(options.C0, options.min_vertices / integral),
+          std::min(options.edge_floor, 0.5 * length_of_density(options.min_vertices / area))};
 }
 
 }  // namespace
@@ -85,12 +77,15 @@ VertexField<double> rest_lengths(const SurfaceMesh& mesh, const SurfaceTopology&
   for (const VertexId v : mesh.x.ids()) squared[v] = std::pow(curvature[v].rms(), 2);
   squared = averaged_over_rings(squared, topology);
 
-  VertexField<double> length = lengths_for(options.C0, squared, mesh, topology, options);
-  const double expected = expected_vertices(mesh, length);
-  if (expected >= options.min_vertices) return length;
-  // Below the ceiling and the bounds ∮ρ dS is linear in C0; above, it was larger already.
-  return lengths_for(options.C0 * options.min_vertices / expected, squared, mesh, topology,
-                     options);
+  const auto [C0, edge_floor] = allowance(squared, mesh, options);
+  VertexField<double> length(mesh.num_vertices());
+  for (const VertexId v : mesh.x.ids()) {
+    double l = std::min(length_of_density(C0 * squared[v]), options.edge_ceiling);
+    if (options.size_bound) l = std::min(l, options.size_bound(mesh.x[v]));
+    length[v] = std::max(l, edge_floor);
+  }
+  limit_gradation(length, mesh, topology, options.gradation);
+  return length;
 }
 
 }  // namespace meniscus

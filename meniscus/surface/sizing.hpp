@@ -15,7 +15,8 @@ namespace meniscus {
 ///   ρ = C0⟨κ⟩² (eq. 1), averaged once with the first ring: ½(own + mean of ring);
 ///   l0 = (2/(√3 ρ))^½, at most edge_ceiling and size_bound(x), at least edge_floor;
 ///   then lowered until l0(a) ≤ l0(b) + gradation |x_a − x_b| along every edge.
-/// C0 is raised where ∮ρ dS would be less than min_vertices.
+/// Before, C0 is raised to min_vertices/∮⟨κ⟩² dS where it is less, and the floor lowered to half
+/// the edge that min_vertices spread evenly would have where it is more.
 [[nodiscard]] VertexField<double> rest_lengths(const SurfaceMesh& mesh,
                                                const SurfaceTopology& topology,
                                                const VertexField<VertexCurvature>& curvature,

@@ -63,12 +63,27 @@ const std::vector<BadCase> kValues{
     {"word of a coming version", shear_with("[solver]\nelements = \"P2-P1\"\n"),
      "case.toml:7: solver.elements = \"P2-P1\" is not available in this version; available: "
      "\"P1-P1\""},
-    {"solver of a coming version", shear_with("[solver]\nmethod = \"boundary-integral\"\n"),
-     "case.toml:7: solver.method = \"boundary-integral\" is not available in this version; "
-     "available: \"finite-element\""},
+    {"boundary integrals in a box", shear_with("[solver]\nmethod = \"boundary-integral\"\n"),
+     "case.toml:7: solver.method = \"boundary-integral\" needs domain.shape = \"unbounded\""},
     {"unbounded domain", shear_with("[domain]\nshape = \"unbounded\"\n"),
-     "case.toml:7: domain.shape = \"unbounded\" is not available in this version; available: "
-     "\"box\", \"sphere\", \"cylinder\""},
+     "case.toml:7: domain.shape = \"unbounded\" needs solver.method = \"boundary-integral\""},
+    {"patch of an unbounded domain",
+     shear_with("[domain]\nshape = \"unbounded\"\n[[domain.patch]]\nname = \"x-\"\n"
+                "[solver]\nmethod = \"boundary-integral\"\n"),
+     "case.toml:8: [[domain.patch]] has no effect here: an unbounded domain has no patches"},
+    {"size of an unbounded domain",
+     shear_with("[domain]\nshape = \"unbounded\"\nradius = 10\n"
+                "[solver]\nmethod = \"boundary-integral\"\n"),
+     "case.toml:8: domain.radius has no effect here: it applies with shape = \"sphere\" or "
+     "\"cylinder\""},
+    {"capillary form of boundary integrals",
+     shear_with("[domain]\nshape = \"unbounded\"\n[interface]\nsurface-tension = \"nodal\"\n"
+                "[solver]\nmethod = \"boundary-integral\"\n"),
+     "case.toml:9: interface.surface-tension has no effect here: it applies with method = "
+     "\"finite-element\""},
+    {"threads of finite elements", shear_with("[solver]\nthreads = 2\n"),
+     "case.toml:7: solver.threads has no effect here: it applies with method = "
+     "\"boundary-integral\""},
     {"coalescence", shear_with("[topology]\ncoalescence = \"on\"\n"),
      "case.toml:7: topology.coalescence = \"on\" is not available in this version; available: "
      "\"off\""},

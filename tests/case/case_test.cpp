@@ -55,6 +55,28 @@ TEST(Case, DefaultOptionsAreThoseOfTheRooms) {
   EXPECT_EQ(c.flow_solver.petsc_options, solver.petsc_options);
 }
 
+TEST(Case, BoundaryIntegralsTakeTheirOptionsAndAnUnboundedScene) {
+  const std::string solver =
+      "[domain]\nshape = \"unbounded\"\n[solver]\nmethod = \"boundary-integral\"\n";
+  const Case plain = shear_case(solver);
+  const bem::Options options;
+  EXPECT_EQ(plain.method, FlowMethod::boundary_integral);
+  EXPECT_EQ(plain.boundary_integral.rtol, options.rtol);
+  EXPECT_EQ(plain.boundary_integral.max_iterations, options.max_iterations);
+  EXPECT_EQ(plain.boundary_integral.threads, options.threads);
+  EXPECT_FALSE(plain.output.volume);
+  const Case c = shear_case(solver + "rtol = 1e-9\nmax-iterations = 50\nthreads = 3\n");
+  EXPECT_EQ(c.boundary_integral.rtol, 1e-9);
+  EXPECT_EQ(c.boundary_integral.max_iterations, 50);
+  EXPECT_EQ(c.boundary_integral.threads, 3);
+  const Scene scene = build_scene(c);
+  EXPECT_TRUE(scene.is_unbounded);
+  EXPECT_EQ(scene.boundary.mesh.num_faces(), 0);
+  const std::unique_ptr<FlowSolver> flow = make_flow_solver(c);
+  EXPECT_TRUE(flow->rebuild(scene).ok);
+  EXPECT_EQ(flow->volume_mesh(), nullptr);
+}
+
 TEST(Case, WordsBecomeOptions) {
   const Case c = shear_case(
       "[interface]\nsurface-tension = \"balanced\"\nmotion-normal = \"fit\"\n"

@@ -34,8 +34,9 @@ def main():
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
     shutil.copy(root / "examples/shear-subcritical.toml", work / "case.toml")
-    (work / "typo.toml").write_text((work / "case.toml").read_text().replace("viscosity-ratio",
-                                                                             "viscocity-ratio"))
+    text = (work / "case.toml").read_text()
+    (work / "typo.toml").write_text(text.replace("viscosity-ratio", "viscocity-ratio"))
+    line = 1 + text[:text.index("viscosity-ratio")].count("\n")
     (work / "file").write_text("not a folder\n")
     subprocess.run([program, "run", "case.toml", "-o", "run", "-q", "--set", "time.end=0.05"],
                    cwd=work, check=True)
@@ -49,7 +50,7 @@ def main():
         refuse(program, work, arguments, *words)
 
     check(["run", "none.toml"], "none.toml")
-    check(["run", "typo.toml", "-o", "new"], "typo.toml:14", "viscocity-ratio", 'did you mean')
+    check(["run", "typo.toml", "-o", "new"], f"typo.toml:{line}", "viscocity-ratio", "did you mean")
     check(["run", "case.toml", "-o", "file"], "file")
     check(["run", "case.toml", "-o", "file/below"], "file/below", "is a file")
     check(["run", "case.toml", "-o", "run"], "run", "--overwrite")

@@ -27,7 +27,7 @@ class PrescribedFlow final : public FlowSolver {
     return answer();
   }
   std::span<const VertexField<Vec3>> velocity() const override { return velocity_; }
-  Power power() const override { return {}; }
+  std::optional<Power> power() const override { return Power{}; }
   void mark(const Scene&) override {}
   FlowReport move_from_mark(const Scene&, std::span<const VertexField<Vec3>>, double dt) override {
     return dt > longest_move ? FlowReport{false, "moved too far", 0} : FlowReport{};

@@ -38,7 +38,7 @@ class BoundaryIntegralFlow final : public FlowSolver {
   FlowReport solve(const Scene& scene, double t) override;
 
   std::span<const VertexField<Vec3>> velocity() const override { return velocity_; }
-  Power power() const override { return {}; }
+  std::optional<Power> power() const override { return std::nullopt; }
 
   void mark(const Scene&) override {}
   FlowReport move_from_mark(const Scene&, std::span<const VertexField<Vec3>>, double) override {

@@ -10,7 +10,7 @@ using Part = std::array<Vec3, 3>;  // barycentric corners of a part of a face
 
 /// Largest size of a part over its distance. The seven-point rule then integrates both kernels to
 /// about 1e-4 of their size.
-constexpr double kSizePerDistance = 0.8;
+constexpr double kSizePerDistance = 1.0;
 constexpr int kMostQuarterings = 14;  // parts of 6e-5 of the face: surfaces that all but touch
 
 void add_point(const Face& face, const RulePoint& point, const Vec3& x, FaceMoments& moments) {

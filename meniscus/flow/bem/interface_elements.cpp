@@ -5,6 +5,7 @@
 
 #include "meniscus/flow/bem/edge_interpolation.hpp"
 #include "meniscus/flow/bem/face_rules.hpp"
+#include "meniscus/flow/bem/quartic_curvature.hpp"
 
 namespace meniscus::bem {
 namespace {
@@ -71,8 +72,7 @@ InterfaceElements make_elements(const SurfaceMesh& mesh) {
   InterfaceElements result;
   result.x = mesh.x;
   result.corners = mesh.faces;
-  for (const VertexId v : mesh.x.ids()) {
-    const VertexCurvature c = smooth.vertex_curvature()[v];
+  for (const VertexCurvature& c : quartic_curvature(mesh, topology, smooth.vertex_curvature())) {
     result.n.add(c.n);
     result.kappa.add(c.sum());
   }

@@ -77,7 +77,7 @@ class FiniteElementFlow final : public FlowSolver {
   FlowReport solve(const Scene& scene, double t) override;
 
   std::span<const VertexField<Vec3>> velocity() const override { return velocity_; }
-  Power power() const override { return power_; }
+  std::optional<Power> power() const override { return power_; }
 
   void mark(const Scene& scene) override {
     follow_interfaces(scene);

@@ -62,7 +62,7 @@ TEST(FiniteElementFlow, EnergyInIsDissipatedOrStoredInTheSurface) {
   const VertexField<Vec3> gradient = area_gradient(scene.interfaces[0].mesh);
   double growth = 0.0;
   for (const VertexId v : gradient.ids()) growth += gradient[v].dot(flow->velocity()[0][v]) / 0.4;
-  const Power power = flow->power();
+  const Power power = flow->power().value();
   EXPECT_NEAR(power.in - power.dissipation, growth, 1e-7 * power.in);
 }
 

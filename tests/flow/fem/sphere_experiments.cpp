@@ -20,6 +20,8 @@ std::unique_ptr<FlowSolver> solved(const Scene& scene, CapillaryForm form, doubl
   Options options;
   options.capillary = form;
   options.rtol = rtol;
+  options.volume_mesh.interior_growth =
+      0.5;  // of size per distance inside the drop; does not scale with N0
   auto flow = make_finite_element_flow(options);
   if (const FlowReport made = flow->rebuild(scene); !made.ok)
     throw std::runtime_error(made.failure);

@@ -1,0 +1,13 @@
+#include "meniscus/case/case.hpp"
+#include "meniscus/flow/bem/boundary_integral_flow.hpp"
+#include "meniscus/flow/fem/finite_element_flow.hpp"
+
+namespace meniscus {
+
+std::unique_ptr<FlowSolver> make_flow_solver(const Case& c) {
+  return c.method == FlowMethod::boundary_integral
+             ? bem::make_boundary_integral_flow(c.boundary_integral)
+             : fem::make_finite_element_flow(c.flow_solver);
+}
+
+}  // namespace meniscus
