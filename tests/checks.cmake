@@ -35,3 +35,10 @@ add_test(NAME refusals COMMAND Python3::Interpreter
   ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/refusals.py
   $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/refusals)
 set_tests_properties(refusals PROPERTIES TIMEOUT 300)
+
+# Dynamics against independent references: most of an hour on two cores.
+if(MENISCUS_LONG_TESTS)
+  add_test(NAME cases COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cases/check_cases.py
+    $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/cases)
+  set_tests_properties(cases PROPERTIES TIMEOUT 14400 LABELS long)
+endif()

@@ -62,11 +62,12 @@ void add_mesh(CLI::App& app, Action& action) {
 }
 
 void add_report(CLI::App& app, Action& action) {
-  auto directory = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("report", "Make a run's page of plots again");
-  command->add_option("directory", *directory, "Folder of the run")->required();
+  auto arguments = std::make_shared<ReportArguments>();
+  CLI::App* command = app.add_subcommand("report", "Make a run's page of plots again, or stills");
+  command->add_option("directory", arguments->directory, "Folder of the run")->required();
+  command->add_flag("--svg", arguments->is_svg, "Write interface.svg and history.svg instead");
   command->callback(
-      [&action, directory] { action = [directory] { return report_command(*directory); }; });
+      [&action, arguments] { action = [arguments] { return report_command(*arguments); }; });
 }
 
 void add_explain(CLI::App& app, Action& action) {

@@ -32,7 +32,11 @@ struct MeshArguments {
 };
 int mesh_command(const MeshArguments& arguments);
 
-int report_command(const std::string& directory);
+struct ReportArguments {
+  std::string directory;
+  bool is_svg = false;  ///< stills instead of the page: interface.svg and history.svg
+};
+int report_command(const ReportArguments& arguments);
 int explain_command(const std::string& key);
 /// Lists the examples, or writes the named one into the working directory.
 int examples_command(const std::string& name, bool is_overwrite);

@@ -132,9 +132,15 @@ int resume_command(const ResumeArguments& arguments) {
   return simulate(simulation, record, progress);
 }
 
-int report_command(const std::string& directory) {
-  if (!holds_run(directory)) reject_input("{} does not hold a run", directory);
-  write_report(directory);
+int report_command(const ReportArguments& arguments) {
+  const fs::path folder(arguments.directory);
+  if (!holds_run(folder)) reject_input("{} does not hold a run", arguments.directory);
+  if (!arguments.is_svg) {
+    write_report(folder);
+    return 0;
+  }
+  write_interface_svg(folder, folder / "interface.svg");
+  write_history_svg(folder, folder / "history.svg");
   return 0;
 }
 

@@ -86,7 +86,7 @@ struct Case {
   DomainCase domain;
   EvolutionOptions evolution;
   FlowMethod method = FlowMethod::finite_element;
-  fem::Options flow_solver;         ///< of the finite elements
+  fem::Options flow_solver;  ///< of the finite elements
   bem::Options boundary_integral;
   OutputOptions output;
 };

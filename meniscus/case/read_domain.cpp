@@ -96,12 +96,10 @@ DomainCase read_domain(Settings& settings, const ImposedFlow& flow) {
   if (settings.is_given("domain.surface"))
     domain.shape = Shape::file;
   else
-    domain.shape = settings.choice<Shape>(
-        "domain.shape",
-        {{"box", Shape::box},
-                         {"sphere", Shape::sphere},
-                         {"cylinder", Shape::cylinder},
-                         {"unbounded", Shape::unbounded}});
+    domain.shape = settings.choice<Shape>("domain.shape", {{"box", Shape::box},
+                                                           {"sphere", Shape::sphere},
+                                                           {"cylinder", Shape::cylinder},
+                                                           {"unbounded", Shape::unbounded}});
   read_size(settings, domain);
   const bool is_shear =
       settings.is_given("flow.kind") && settings.text("flow.kind") == "simple-shear";

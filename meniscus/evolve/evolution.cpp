@@ -147,6 +147,7 @@ void Evolution::remesh_interfaces() {
     options.C0 = interface.C0;
     options.volume = interface.volume;
     options.edge_floor = options_.edge_floor;
+    options.find_fault = find_self_intersection;
     const RemeshReport report = remesh(interface.mesh, options);
     correction_[i] = report.volume_shift;
     if (report.ok) continue;

@@ -68,7 +68,7 @@ class Evolution {
   InterfaceMotion motion_;          // n n·v at t_k
   std::vector<double> correction_;  // per interface: largest shift that restored its volume
   int iterations_ = 0;              // linear iterations since the last row
-  mutable PhaseTimes times_;             // the clock is no part of the state
+  mutable PhaseTimes times_;        // the clock is no part of the state
   std::vector<std::string> warnings_;
 };
 

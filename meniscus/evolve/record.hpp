@@ -18,7 +18,7 @@ struct HistoryRow {
   std::int64_t surface_nodes = 0;
   std::optional<std::int64_t> nodes, tetrahedra;
   std::optional<double> min_gap, min_dihedral_deg;
-  int linear_iterations = 0;  ///< all solves since the row before
+  int linear_iterations = 0;                    ///< all solves since the row before
   std::optional<double> power_in, dissipation;  ///< empty in an unbounded liquid
   double surface_rate = 0.0;
   Mat3 stress = Mat3::Zero();

@@ -11,11 +11,11 @@ namespace {
 
 PetscErrorCode apply_operator(Mat matrix, Vec x, Vec y) {
   void* context = nullptr;
-  petsc_check(MatShellGetContext(matrix, &context), "MatShellGetContext");
   PetscInt size = 0;
   const PetscScalar* in = nullptr;
   PetscScalar* out = nullptr;
-  PetscErrorCode code = VecGetLocalSize(x, &size);
+  PetscErrorCode code = MatShellGetContext(matrix, &context);
+  if (code == 0) code = VecGetLocalSize(x, &size);
   if (code == 0) code = VecGetArrayRead(x, &in);
   if (code == 0) code = VecGetArray(y, &out);
   if (code != 0) return code;
@@ -36,9 +36,9 @@ Matrix shell(const LinearOperator& matrix, std::size_t size) {
   petsc_check(MatCreateShell(PETSC_COMM_SELF, n, n, n, n, const_cast<LinearOperator*>(&matrix),
                              result.out()),
               "MatCreateShell");
-  petsc_check(MatShellSetOperation(result.get(), MATOP_MULT,
-                                   reinterpret_cast<void (*)()>(apply_operator)),
-              "MatShellSetOperation");
+  petsc_check(
+      MatShellSetOperation(result.get(), MATOP_MULT, reinterpret_cast<void (*)()>(apply_operator)),
+      "MatShellSetOperation");
   return result;
 }
 
@@ -60,8 +60,9 @@ KrylovSolver gmres(const Matrix& matrix, const MatrixFreeOptions& options) {
 
 }  // namespace
 
-LinearReport solve_matrix_free(const LinearOperator& matrix, std::span<const double> right_hand_side,
-                               std::span<double> solution, const MatrixFreeOptions& options) {
+LinearReport solve_matrix_free(const LinearOperator& matrix,
+                               std::span<const double> right_hand_side, std::span<double> solution,
+                               const MatrixFreeOptions& options) {
   LinearReport report;
   const auto start = std::chrono::steady_clock::now();
   try {

@@ -17,7 +17,8 @@ struct MatrixFreeOptions {
 };
 
 /// Solves A x = b by GMRES, `solution` being the first guess and where the result goes.
-LinearReport solve_matrix_free(const LinearOperator& matrix, std::span<const double> right_hand_side,
-                               std::span<double> solution, const MatrixFreeOptions& options);
+LinearReport solve_matrix_free(const LinearOperator& matrix,
+                               std::span<const double> right_hand_side, std::span<double> solution,
+                               const MatrixFreeOptions& options);
 
 }  // namespace meniscus::linear

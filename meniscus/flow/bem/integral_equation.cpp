@@ -19,8 +19,8 @@ std::vector<double> traction_jump(const Scene& scene, const BoundaryGeometry& ge
   for (std::size_t m = 0; m < scene.interfaces.size(); ++m) {
     const Interface& interface = scene.interfaces[m];
     const InterfaceElements& elements = geometry.surfaces[m].elements;
-    const Vec3 buoyancy = scene.liquids[interface.inside].body_force -
-                          scene.liquids[interface.outside].body_force;
+    const Vec3 buoyancy =
+        scene.liquids[interface.inside].body_force - scene.liquids[interface.outside].body_force;
     double total = 0.0, area = 0.0;
     for (const VertexId v : elements.x.ids()) {
       q.push_back(interface.tension * elements.kappa[v] - buoyancy.dot(elements.x[v]));
@@ -67,31 +67,28 @@ void IntegralEquation::set_right_hand_side(const Scene& scene, double t,
   right_hand_side_.resize(num_unknowns());
   for_blocks(geometry_.size(), threads_, [&](std::int32_t begin, std::int32_t end) {
     for (std::int32_t i = begin; i < end; ++i) {
-      const auto row = static_cast<std::size_t>(i);
       const Vec3 x = geometry_.points.point(i);
-      const Vec3 layer = single_layer_sum(geometry_.points, q, x) + rows_[row].single;
-      const Contrast& contrast = contrast_[static_cast<std::size_t>(geometry_.surface_of[row])];
-      const Vec3 value =
-          (matrix_viscosity * (gradient * x) - layer / (8.0 * kPi)) / contrast.mean;
-      for (std::size_t k = 0; k < 3; ++k)
-        right_hand_side_[k * rows_.size() + row] = value[static_cast<Eigen::Index>(k)];
+      const Vec3 layer =
+          single_layer_sum(geometry_.points, q, x) + rows_[static_cast<std::size_t>(i)].single;
+      set(right_hand_side_, i,
+          (matrix_viscosity * (gradient * x) - layer / (8.0 * kPi)) /
+              contrast_[surface_of(i)].mean);
     }
   });
+}
+
+std::size_t IntegralEquation::surface_of(std::int32_t i) const {
+  return static_cast<std::size_t>(geometry_.surface_of[static_cast<std::size_t>(i)]);
+}
+
+void IntegralEquation::set(std::span<double> w, std::int32_t i, const Vec3& value) const {
+  for (std::size_t k = 0; k < 3; ++k)
+    w[k * rows_.size() + static_cast<std::size_t>(i)] = value[static_cast<Eigen::Index>(k)];
 }
 
 Vec3 IntegralEquation::at(std::span<const double> w, std::int32_t i) const {
   const auto row = static_cast<std::size_t>(i);
   return {w[row], w[rows_.size() + row], w[2 * rows_.size() + row]};
-}
-
-double IntegralEquation::mean_normal_component(std::size_t m, std::span<const double> w) const {
-  const InterfaceElements& elements = geometry_.surfaces[m].elements;
-  double flux = 0.0, area = 0.0;
-  for (const VertexId v : elements.x.ids()) {
-    flux += elements.weight[v] * elements.n[v].dot(at(w, geometry_.index(m, v)));
-    area += elements.weight[v];
-  }
-  return flux / area;
 }
 
 std::vector<RigidMotion> IntegralEquation::rigid_parts(std::span<const double> w) const {
@@ -101,37 +98,50 @@ std::vector<RigidMotion> IntegralEquation::rigid_parts(std::span<const double> w
   return parts;
 }
 
-void IntegralEquation::apply(std::span<const double> w, std::span<double> result) const {
+SourceVectors IntegralEquation::without_rigid_parts(std::span<const double> w) const {
   const std::vector<RigidMotion> rigid = rigid_parts(w);
-  std::vector<double> mean_normal;
-  for (std::size_t m = 0; m < rigid.size(); ++m) mean_normal.push_back(mean_normal_component(m, w));
-  SourceVectors density(geometry_.size());
-  for (std::int32_t j = 0; j < geometry_.size(); ++j) {
-    const auto row = static_cast<std::size_t>(j), m = static_cast<std::size_t>(
-                                                      geometry_.surface_of[row]);
-    const Vec3 value =
-        contrast_[m].difference * (at(w, j) - rigid[m].at(geometry_.points.point(j)));
-    density.x[row] = value.x();
-    density.y[row] = value.y();
-    density.z[row] = value.z();
+  SourceVectors rest(geometry_.size());
+  for (std::int32_t j = 0; j < geometry_.size(); ++j)
+    rest.set(j, at(w, j) - rigid[surface_of(j)].at(geometry_.points.point(j)));
+  return rest;
+}
+
+double IntegralEquation::mean_normal_component(std::size_t m, const SourceVectors& v) const {
+  const InterfaceElements& elements = geometry_.surfaces[m].elements;
+  double flux = 0.0, area = 0.0;
+  for (const VertexId i : elements.x.ids()) {
+    flux += elements.weight[i] * elements.n[i].dot(v.at(geometry_.index(m, i)));
+    area += elements.weight[i];
   }
+  return flux / area;
+}
+
+/// Σ_m d_m K_m of a velocity without rigid parts, `density` being d times it, at point i.
+Vec3 IntegralEquation::double_layer(const SourceVectors& density, std::int32_t i) const {
+  Vec3 sum = double_layer_sum(geometry_.points, density, geometry_.points.point(i));
+  const NearRow& near = rows_[static_cast<std::size_t>(i)];
+  for (std::size_t c = 0; c < near.columns.size(); ++c)
+    sum += near.dual[c] * density.at(near.columns[c]);
+  return kDoubleFactor * sum;
+}
+
+void IntegralEquation::apply(std::span<const double> w, std::span<double> result) const {
+  SourceVectors density = without_rigid_parts(w);
+  // Rigid motions carry no flux, but the quadrature would see some.
+  std::vector<double> mean_normal;
+  for (std::size_t m = 0; m < contrast_.size(); ++m)
+    mean_normal.push_back(mean_normal_component(m, density));
+  for (std::int32_t j = 0; j < geometry_.size(); ++j)
+    density.set(j, contrast_[surface_of(j)].difference * density.at(j));
   for_blocks(geometry_.size(), threads_, [&](std::int32_t begin, std::int32_t end) {
     for (std::int32_t i = begin; i < end; ++i) {
-      const auto row = static_cast<std::size_t>(i);
-      const auto m = static_cast<std::size_t>(geometry_.surface_of[row]);
-      Vec3 layer = double_layer_sum(geometry_.points, density, geometry_.points.point(i));
-      const NearRow& near = rows_[row];
-      for (std::size_t c = 0; c < near.columns.size(); ++c) {
-        const auto j = static_cast<std::size_t>(near.columns[c]);
-        layer += near.dual[c] * Vec3(density.x[j], density.y[j], density.z[j]);
-      }
-      const Vec3 n = geometry_.surfaces[m].elements.n[VertexId{
-          i - geometry_.surfaces[m].range.begin}];
-      const Vec3 value = at(w, i) + (contrast_[m].difference * mean_normal[m] * n -
-                                     kDoubleFactor * layer) /
-                                        contrast_[m].mean;
-      for (std::size_t k = 0; k < 3; ++k)
-        result[k * rows_.size() + row] = value[static_cast<Eigen::Index>(k)];
+      const std::size_t m = surface_of(i);
+      const Contrast& contrast = contrast_[m];
+      const BoundaryGeometry::Surface& surface = geometry_.surfaces[m];
+      const Vec3& n = surface.elements.n[VertexId{i - surface.range.begin}];
+      set(result, i,
+          at(w, i) + (contrast.difference * mean_normal[m] * n - double_layer(density, i)) /
+                         contrast.mean);
     }
   });
 }
@@ -181,9 +191,7 @@ std::vector<double> IntegralEquation::unknowns(std::span<const VertexField<Vec3>
       for (std::size_t m = 0; m < rigid.size(); ++m)
         if (geometry_.surfaces[k].is_inside_of[m])
           sum += 2.0 * contrast_[m].difference * rigid[m].at(x);
-      const Vec3 value = u[k][v] + sum / contrast_[k].mean;
-      for (std::size_t a = 0; a < 3; ++a)
-        w[a * rows_.size() + static_cast<std::size_t>(i)] = value[static_cast<Eigen::Index>(a)];
+      set(w, i, u[k][v] + sum / contrast_[k].mean);
     }
   return w;
 }

@@ -9,25 +9,25 @@
 namespace meniscus::bem {
 
 /// The boundary-integral equation of Stokes flow with any number of interfaces in an unbounded
-/// liquid (rallison1978; pozrikidis1992, eq. 5.3.9, here for any nesting). At x on interface k
+/// liquid (rallison1978; pozrikidis1992, chapter 5; here for any nesting). At x on interface k
 ///
 ///   s_k u(x) = μ_0 G·x − Σ_m 1/8π ∮_m q n·J dS + Σ_m d_m (K_m u)(x),     r = y − x,
 ///   J = I/r + rr/r³,   (K_m u)(x) = 1/4π PV∮_m u·T·n dS,   T = −6 rrr/r⁵,
 ///
-/// with s_k = (μ_in + μ_out)/2 and d_k = (μ_out − μ_in)/2 of interface k, n out of the drop, and the
-/// jump of traction q n, q = tension κ − (b_in − b_out)·x, b the body forces (the pressure being
-/// taken without its hydrostatic part). A closed surface has ∮ n·J dS = 0, and K_m times a rigid
-/// motion is that motion times −1 on m, −2 inside it, 0 outside.
+/// with s_k = (μ_in + μ_out)/2 and d_k = (μ_out − μ_in)/2 of interface k, n out of the drop, and
+/// the jump of traction q n, q = tension κ − (b_in − b_out)·x, b the body forces (the pressure
+/// being taken without its hydrostatic part). A closed surface has ∮ n·J dS = 0, and K_m times a
+/// rigid motion is that motion times −1 on m, −2 inside it, 0 outside.
 ///
-/// K has the eigenvalue 1 for every drop (left eigenvector n), which makes the equation singular for
-/// μ_in → 0, and −1 for each drop's six rigid motions, for μ_in → ∞. Both are moved to 0
-/// (pozrikidis1992, sec. 4.5; kim1991): with P_m the projection onto the rigid motions of m, what is
-/// solved is
+/// K has the eigenvalue 1 for every drop (left eigenvector n), which makes the equation singular
+/// for μ_in → 0, and −1 for each drop's six rigid motions, for μ_in → ∞. Both are moved to 0
+/// (pozrikidis1992, chapter 4; kim1991): with P_m the projection onto the rigid motions of m, what
+/// is solved is
 ///
-///   s_k w − Σ_m d_m K_m (w − P_m w) + d_k n <w·n>_k = right-hand side of u,
+///   s_k w − Σ_m d_m K_m (w − P_m w) + d_k n <n·(w − P_k w)>_k = right-hand side of u,
 ///
-/// <w·n> the mean over the interface, which vanishes for the solution; then u = w + R with rigid R,
-/// from the outermost interface in,
+/// <…> being the mean over the interface, which vanishes for the solution; then u = w + R with
+/// rigid R, from the outermost interface in,
 ///
 ///   μ_out,k R_k = −d_k P_k w − 2 Σ_{m around k} d_m (P_m w + R_m).
 ///
@@ -49,13 +49,17 @@ class IntegralEquation {
 
  private:
   struct Contrast {
-    double mean = 1.0;       ///< s
-    double difference = 0.0; ///< d
-    double outer = 1.0;      ///< μ_out
+    double mean = 1.0;        ///< s
+    double difference = 0.0;  ///< d
+    double outer = 1.0;       ///< μ_out
   };
   void set_right_hand_side(const Scene& scene, double t, const std::vector<double>& q);
+  [[nodiscard]] std::size_t surface_of(std::int32_t i) const;
   [[nodiscard]] Vec3 at(std::span<const double> w, std::int32_t i) const;
-  [[nodiscard]] double mean_normal_component(std::size_t m, std::span<const double> w) const;
+  void set(std::span<double> w, std::int32_t i, const Vec3& value) const;
+  [[nodiscard]] SourceVectors without_rigid_parts(std::span<const double> w) const;
+  [[nodiscard]] double mean_normal_component(std::size_t m, const SourceVectors& v) const;
+  [[nodiscard]] Vec3 double_layer(const SourceVectors& density, std::int32_t i) const;
   [[nodiscard]] std::vector<RigidMotion> rigid_parts(std::span<const double> w) const;
   [[nodiscard]] std::vector<std::size_t> outermost_first() const;
 

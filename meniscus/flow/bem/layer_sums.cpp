@@ -5,7 +5,8 @@
 // One body, compiled for plain x86-64 and for vectors of four and eight doubles; the processor
 // chooses when the program starts. The sums are reassociated (omp simd), in an order that only the
 // width decides.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
 #define MENISCUS_VECTOR_CLONES \
   __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
@@ -20,8 +21,8 @@ struct Sum3 {
 };
 
 struct Arrays {
-  const double *__restrict__ x, *__restrict__ y, *__restrict__ z;
-  const double *__restrict__ ax, *__restrict__ ay, *__restrict__ az;
+  const double* __restrict__ x, * __restrict__ y, * __restrict__ z;
+  const double* __restrict__ ax, * __restrict__ ay, * __restrict__ az;
 };
 
 Arrays arrays(const SourcePoints& points, std::size_t first) {
@@ -38,8 +39,7 @@ Sum3 single_layer(Arrays s, const double* __restrict__ q, std::size_t n, double 
     const double rx = s.x[j] - px, ry = s.y[j] - py, rz = s.z[j] - pz;
     const double squared = rx * rx + ry * ry + rz * rz;
     const double inverse = squared > 0.0 ? 1.0 / std::sqrt(squared) : 0.0;
-    const double along =
-        (rx * s.ax[j] + ry * s.ay[j] + rz * s.az[j]) * inverse * inverse;
+    const double along = (rx * s.ax[j] + ry * s.ay[j] + rz * s.az[j]) * inverse * inverse;
     const double factor = q[j] * inverse;
     x += factor * (s.ax[j] + along * rx);
     y += factor * (s.ay[j] + along * ry);
@@ -59,8 +59,7 @@ Sum3 double_layer(Arrays s, const double* __restrict__ ux, const double* __restr
     const double inverse = squared > 0.0 ? 1.0 / std::sqrt(squared) : 0.0;
     const double inverse2 = inverse * inverse;
     const double factor = (rx * s.ax[j] + ry * s.ay[j] + rz * s.az[j]) *
-                          (rx * ux[j] + ry * uy[j] + rz * uz[j]) *
-                          (inverse2 * inverse2 * inverse);
+                          (rx * ux[j] + ry * uy[j] + rz * uz[j]) * (inverse2 * inverse2 * inverse);
     x += factor * rx;
     y += factor * ry;
     z += factor * rz;

@@ -29,6 +29,16 @@ struct SourcePoints {
 struct SourceVectors {
   explicit SourceVectors(std::int32_t size)
       : x(static_cast<std::size_t>(size)), y(x.size()), z(x.size()) {}
+  [[nodiscard]] Vec3 at(std::int32_t j) const {
+    const auto k = static_cast<std::size_t>(j);
+    return {x[k], y[k], z[k]};
+  }
+  void set(std::int32_t j, const Vec3& value) {
+    const auto k = static_cast<std::size_t>(j);
+    x[k] = value.x();
+    y[k] = value.y();
+    z[k] = value.z();
+  }
   std::vector<double> x, y, z;
 };
 

@@ -13,9 +13,9 @@ using Face = InterfaceElements::Face;
 using Surface = BoundaryGeometry::Surface;
 
 /// A face is near a point closer to its centre than this many of its longest edges; beyond, the
-/// weights of its vertices take over. On the point's own surface errors of neighbours nearly cancel;
-/// on another one they do not, and at 2, 3, 4 edges from the unit sphere of 1000 vertices the double
-/// layer is wrong by 2e-3, 8e-4, 4e-4 of its size.
+/// weights of its vertices take over. On the point's own surface errors of neighbours nearly
+/// cancel; on another one they do not, and at 2, 3, 4 edges from the unit sphere of 1000 vertices
+/// the double layer is wrong by 2e-3, 8e-4, 4e-4 of its size.
 constexpr double kNearOnOwn = 2.0, kNearOnOther = 4.0;
 
 /// ∮ rr (r·n)/r⁵ dS seen from the surface itself and from within: 4π/6 and 8π/6 times the identity
@@ -32,7 +32,9 @@ class RowBuilder {
  public:
   RowBuilder(const BoundaryGeometry& geometry, const std::vector<double>& q,
              const std::vector<bool>& has_dual)
-      : geometry_(geometry), q_(q), has_dual_(has_dual),
+      : geometry_(geometry),
+        q_(q),
+        has_dual_(has_dual),
         dense_(static_cast<std::size_t>(geometry.size())),
         is_touched_(static_cast<std::size_t>(geometry.size()), false) {}
 
@@ -95,15 +97,14 @@ class RowBuilder {
       const std::int32_t j = geometry_.index(m, v);
       LayerKernels entry{.single = Vec3::Zero(), .dual = {}};
       for (std::size_t a = 0; a < kFaceNodes; ++a) {
-        const double to_node = face.to_nodes(static_cast<Eigen::Index>(a),
-                                             static_cast<Eigen::Index>(c));
+        const double to_node =
+            face.to_nodes(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(c));
         if (to_node == 0.0) continue;
         entry.single += to_node * moments.single[a];
         add(entry.dual, to_node, moments.dual[a]);
       }
       if (j != i) {
-        const LayerKernels far =
-            layer_kernels(elements.x[v] - x_, face.share[c] * elements.n[v]);
+        const LayerKernels far = layer_kernels(elements.x[v] - x_, face.share[c] * elements.n[v]);
         entry.single -= far.single;
         add(entry.dual, -1.0, far.dual);
       }

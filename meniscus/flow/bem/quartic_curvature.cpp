@@ -13,8 +13,8 @@ namespace {
 constexpr int kTerms = 14;
 using Coefficients = Eigen::Matrix<double, kTerms, 1>;
 
-/// Smallest pivot of the scaled normal equations' Cholesky factor over the largest: below it the fit
-/// amplifies the vertices' noise more than the lower degree's truncation is worth.
+/// Smallest pivot of the scaled normal equations' Cholesky factor over the largest: below it the
+/// fit amplifies the vertices' noise more than the lower degree's truncation is worth.
 constexpr double kSingularPivot = 3e-3;
 
 /// Scaled so that the first five coefficients are the gradient and second derivatives.

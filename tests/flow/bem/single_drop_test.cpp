@@ -59,8 +59,8 @@ double stretching_error(int count, double lambda, int* iterations = nullptr) {
   double error = 0.0;
   for (const VertexId v : mesh.x.ids()) {
     const Vec3& x = mesh.x[v];
-    error = std::max(error,
-                     std::abs(found.u[0][v].dot(x) - 5.0 / (2.0 * lambda + 3.0) * x.dot(e * x)));
+    error =
+        std::max(error, std::abs(found.u[0][v].dot(x) - 5.0 / (2.0 * lambda + 3.0) * x.dot(e * x)));
   }
   return error;
 }
