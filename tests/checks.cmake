@@ -36,6 +36,11 @@ add_test(NAME refusals COMMAND Python3::Interpreter
   $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/refusals)
 set_tests_properties(refusals PROPERTIES TIMEOUT 300)
 
+add_test(NAME variants COMMAND Python3::Interpreter
+  ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/variants.py
+  $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/variants)
+set_tests_properties(variants PROPERTIES TIMEOUT 900)
+
 # Dynamics against independent references: most of an hour on two cores.
 if(MENISCUS_LONG_TESTS)
   add_test(NAME cases COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cases/check_cases.py

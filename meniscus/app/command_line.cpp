@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "meniscus/app/commands.hpp"
+#include "meniscus/app/interrupt.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
 #include "meniscus/core/version.hpp"
@@ -101,13 +102,15 @@ int run_command_line(int argc, char** argv) {
   CLI::App app("Deforming liquid drops with a sharp, conforming interface", "meniscus");
   app.set_version_flag("--version", fmt::format("meniscus {} ({})", version_string, commit_string));
   app.require_subcommand(1);
+  ignore_write_signals();
   Action action;
   for (const auto add : {add_run, add_resume, add_mesh, add_report, add_explain, add_examples})
     add(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    return print_error(fmt::format("{}; see meniscus --help", error.what()), 2);
   }
   try {
     return action();

@@ -35,7 +35,11 @@ int examples_command(const std::string& name, bool is_overwrite) {
   const std::filesystem::path file = name + ".toml";
   if (std::filesystem::exists(file) && !is_overwrite)
     reject_input("{} exists already; give --overwrite to replace it", file.string());
-  io::write_file(file, text);
+  try {
+    io::write_file(file, text);
+  } catch (const RunFailure& failure) {
+    throw InvalidInput(failure.what());  // the folder was the user's choice, and nothing is lost
+  }
   fmt::print("wrote {}; run it with: meniscus run {}\n", file.string(), file.string());
   return 0;
 }

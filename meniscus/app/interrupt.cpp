@@ -12,10 +12,12 @@ extern "C" void note_interrupt(int) { interrupted = 1; }
 
 }  // namespace
 
+void ignore_write_signals() {
+  for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
+}
+
 void watch_for_interrupts() {
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) std::signal(signal, note_interrupt);
-  // A file that would pass RLIMIT_FSIZE is an ordinary write error, like a full disk.
-  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool is_interrupted() { return interrupted != 0; }

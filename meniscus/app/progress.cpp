@@ -53,14 +53,21 @@ void Progress::show(const HistoryRow& history, const std::vector<DropRow>& drops
       "[{}] t {:.3f}/{:g}  step {}  nodes {}+{}  D {:.4f}  drift {:.0e}  {} left", bar(fraction),
       history.t, end_, history.step, history.surface_nodes, history.nodes.value_or(0), D, drift,
       duration(fraction > 0.0 ? elapsed * (1.0 - fraction) / fraction : INFINITY));
-  fmt::print("{}{}{}", is_terminal_ ? "\r" : "", line, is_terminal_ ? "\033[K" : "\n");
+  std::fputs(((is_terminal_ ? "\r" : "") + line + (is_terminal_ ? "\033[K" : "\n")).c_str(),
+             stdout);
   std::fflush(stdout);
   is_line_open_ = is_terminal_;
 }
 
 void Progress::close() {
-  if (is_line_open_) fmt::print("\n");
+  if (is_line_open_) std::fputs("\n", stdout);
   is_line_open_ = false;
+}
+
+void Progress::say(const std::string& line) const {
+  if (is_quiet_) return;
+  std::fputs((line + "\n").c_str(), stdout);
+  std::fflush(stdout);
 }
 
 }  // namespace meniscus

@@ -15,7 +15,8 @@ class Progress {
   void show(const HistoryRow& history, const std::vector<DropRow>& drops);
   /// Ends the line, so that what follows starts on its own.
   void close();
-  [[nodiscard]] bool is_quiet() const { return is_quiet_; }
+  /// A line of its own, unless quiet. A closed pipe is no reason to end a run.
+  void say(const std::string& line) const;
 
  private:
   using Clock = std::chrono::steady_clock;

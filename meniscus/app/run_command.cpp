@@ -49,6 +49,7 @@ void finish(const Simulation& simulation, const RunRecord& record, const std::st
 
 /// Runs to the end, keeping run.json and the report true however it ends.
 int simulate(Simulation& simulation, const RunRecord& record, Progress& progress) {
+  watch_for_interrupts();
   record.write(simulation, "running");
   const std::string folder = simulation.directory().path().string();
   try {
@@ -56,12 +57,11 @@ int simulate(Simulation& simulation, const RunRecord& record, Progress& progress
     progress.close();
     finish(simulation, record, outcome == Outcome::done ? "done" : "stopped");
     if (outcome == Outcome::stopped) {
-      if (!progress.is_quiet())
-        fmt::print("stopped at t = {:g}; go on with: meniscus resume {}\n",
-                   simulation.evolution().t(), folder);
+      progress.say(fmt::format("stopped at t = {:g}; go on with: meniscus resume {}",
+                               simulation.evolution().t(), folder));
       return 1;
     }
-  } catch (const RunFailure& failure) {
+  } catch (const std::exception& failure) {
     progress.close();
     try {
       finish(simulation, record, fmt::format("failed: {}", failure.what()));
@@ -70,26 +70,50 @@ int simulate(Simulation& simulation, const RunRecord& record, Progress& progress
     }
     throw;
   }
-  if (!progress.is_quiet())
-    fmt::print("done: {} steps to t = {:g}; see {}/report.html\n", simulation.evolution().step(),
-               simulation.evolution().t(), folder);
+  progress.say(fmt::format("done: {} steps to t = {:g}; see {}/report.html",
+                           simulation.evolution().step(), simulation.evolution().t(), folder));
   return 0;
 }
 
-/// A checkpoint under a new folder brings its rows and frames along.
-void copy_run(const fs::path& from, const fs::path& to, bool is_overwrite) {
-  (void)RunDirectory::create(to, is_overwrite);
-  for (const char* name : {"history.csv", "drops.csv", "events.csv", "timing.csv", "run.json",
-                           "surface.pvd", "volume.pvd", "surface", "volume"})
-    if (fs::exists(from / name))
-      fs::copy(from / name, to / name,
-               fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+/// Rows and frames of a run, for another folder to go on with. All or nothing.
+void copy_run(const fs::path& from, const fs::path& to) {
+  (void)RunDirectory::create(to, false);
+  try {
+    for (const char* name : {"history.csv", "drops.csv", "events.csv", "timing.csv", "run.json",
+                             "surface.pvd", "volume.pvd", "surface", "volume"})
+      if (fs::exists(from / name))
+        fs::copy(from / name, to / name,
+                 fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  } catch (const fs::filesystem_error& error) {
+    remove_run(to);
+    throw RunFailure(error.what());
+  }
+}
+
+/// A checkpoint goes on only with the rows of the run it was taken in.
+void require_same_run(const Archive& archive, const fs::path& checkpoint, const fs::path& run) {
+  const fs::path own = newest_checkpoint(run);
+  const auto case_of = [](const Archive& a) {
+    const auto text = a.texts.find("case/toml");
+    return text == a.texts.end() ? std::string() : text->second;
+  };
+  if (case_of(archive) != case_of(io::read_archive(own)))
+    reject_input("{}: not a checkpoint of the run in {}: its case differs", checkpoint.string(),
+                 run.string());
+}
+
+/// The smallest step the case allows must not already be too long for its first shapes.
+void require_first_step(const Evolution& evolution, const Case& c) {
+  if (evolution.step_length() >= c.evolution.min_step || evolution.is_finished()) return;
+  reject_input(
+      "{}: time.min-step = {:g}: the first step would be {:.3g}, for the shortest edge and the "
+      "tension",
+      c.settings.place("time.min-step"), c.evolution.min_step, evolution.step_length());
 }
 
 }  // namespace
 
 int run_command(const RunArguments& arguments) {
-  watch_for_interrupts();
   if (arguments.is_quiet) log::set_level(log::Level::error);
   const fs::path file(arguments.case_file);
   const Case c = read_case(file, arguments.overrides);
@@ -100,6 +124,7 @@ int run_command(const RunArguments& arguments) {
   Evolution evolution = make_evolution(c, std::move(scene));
   if (const EvolutionReport prepared = evolution.prepare(); !prepared.ok)
     throw RunFailure(fmt::format("the initial mesh could not be made: {}", prepared.failure));
+  require_first_step(evolution, c);
   // Only now that the run can begin is anything written.
   RunDirectory directory = RunDirectory::create(folder, arguments.is_overwrite);
   Simulation simulation(std::move(evolution), std::move(directory), output_schedule(c.output),
@@ -109,7 +134,6 @@ int run_command(const RunArguments& arguments) {
 }
 
 int resume_command(const ResumeArguments& arguments) {
-  watch_for_interrupts();
   if (arguments.is_quiet) log::set_level(log::Level::error);
   const fs::path source(arguments.directory);
   const fs::path checkpoint =
@@ -120,8 +144,15 @@ int resume_command(const ResumeArguments& arguments) {
   const Case c = described_case(archive, checkpoint, overrides);
   Evolution evolution = make_evolution(c, build_surroundings(c));
   evolution.load(archive);
+  if (arguments.until && *arguments.until < evolution.t())
+    reject_input("--until {:g} lies before the checkpoint's t = {:g}", *arguments.until,
+                 evolution.t());
   const fs::path folder = arguments.output.empty() ? source : fs::path(arguments.output);
-  if (!arguments.output.empty()) copy_run(source, folder, false);
+  if (!arguments.output.empty()) {
+    require_usable(folder, false);
+    require_same_run(archive, checkpoint, source);
+    copy_run(source, folder);
+  }
   RunRecord record(c, "", "");
   record.go_on_from(folder / "run.json");
   Progress progress(evolution.t(), c.evolution.end, arguments.is_quiet);

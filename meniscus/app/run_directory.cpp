@@ -109,13 +109,6 @@ std::vector<std::pair<std::int64_t, fs::path>> checkpoints(const fs::path& path)
   return found;
 }
 
-void remove_run(const fs::path& path) {
-  for (const char* name : {"history.csv", "drops.csv", "events.csv", "timing.csv", "run.json",
-                           "report.html", "surface.pvd", "volume.pvd", "surface", "volume"})
-    fs::remove_all(path / name);
-  for (const auto& [step, file] : checkpoints(path)) fs::remove(file);
-}
-
 std::vector<io::PvdEntry> frames_before(const fs::path& pvd, double t) {
   if (!fs::exists(pvd)) return {};
   std::vector<io::PvdEntry> entries = io::read_pvd(pvd);
@@ -243,6 +236,13 @@ void require_usable(const fs::path& path, bool overwrite) {
   if (holds_run(path) && !overwrite)
     reject_input("output folder {} holds a run already; give --overwrite or another -o",
                  path.string());
+}
+
+void remove_run(const fs::path& path) {
+  for (const char* name : {"history.csv", "drops.csv", "events.csv", "timing.csv", "run.json",
+                           "report.html", "surface.pvd", "volume.pvd", "surface", "volume"})
+    fs::remove_all(path / name);
+  for (const auto& [step, file] : checkpoints(path)) fs::remove(file);
 }
 
 bool holds_run(const fs::path& path) {

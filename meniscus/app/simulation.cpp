@@ -34,32 +34,37 @@ void Simulation::load_schedule(const Archive& archive) {
 }
 
 Outcome Simulation::run(Progress& progress) {
-  for (;;) {
+  for (bool is_first = true;; is_first = false) {
     const bool is_last = evolution_.is_finished(), is_stopped = !is_last && is_interrupted();
-    if (is_last || is_stopped || evolution_.step() % schedule_.checkpoint_every == 0)
-      write_checkpoint();
+    const Archive state = state_before_solve();
+    if (is_first || is_last || is_stopped || evolution_.step() % schedule_.checkpoint_every == 0)
+      write_checkpoint(state);
     if (is_stopped) return Outcome::stopped;
     if (const EvolutionReport solved = evolution_.solve(); !solved.ok) {
-      write_checkpoint();
+      write_checkpoint(state);
       throw RunFailure(fmt::format("the flow at t = {:.6g} could not be solved: {}", evolution_.t(),
                                    solved.failure));
     }
     record(progress, is_last);
     if (is_last) return Outcome::done;
     if (const EvolutionReport advanced = evolution_.advance(); !advanced.ok) {
-      write_checkpoint();
+      write_checkpoint(state);
       throw RunFailure(advanced.failure);
     }
   }
 }
 
-void Simulation::write_checkpoint() {
-  const PhaseTimer timer(output_times_, "output");
+Archive Simulation::state_before_solve() const {
   Archive archive;
   evolution_.save(archive);
   archive.reals["output/next"] = {next_surface_frame_, next_volume_frame_};
   describe_(archive);
-  directory_.write_checkpoint(archive, evolution_.step());
+  return archive;
+}
+
+void Simulation::write_checkpoint(const Archive& state) {
+  const PhaseTimer timer(output_times_, "output");
+  directory_.write_checkpoint(state, state.integers.at("evolution/step").front());
 }
 
 void Simulation::record(Progress& progress, bool is_last) {

@@ -38,7 +38,8 @@ class Simulation {
   [[nodiscard]] std::vector<std::pair<std::string, double>> seconds() const;
 
  private:
-  void write_checkpoint();
+  [[nodiscard]] Archive state_before_solve() const;
+  void write_checkpoint(const Archive& state);
   void record(Progress& progress, bool is_last);
   [[nodiscard]] double seconds_in(const std::string& phase) const;
 

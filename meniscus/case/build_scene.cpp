@@ -24,6 +24,9 @@ void require_within_domain(const Case& c, const SurfaceMesh& drop, int index) {
   }
   const auto require = [&](const std::string& path, double size, double needed) {
     if (needed < size) return;
+    if (!c.settings.is_given(path))  // a default stands on no line, but the drop does
+      reject_input("{}: drop {} reaches {:.6g} from the origin, and {} is {} by default (unit: R0)",
+                   c.settings.place(fmt::format("drop[{}]", index)), index, needed, path, size);
     c.settings.reject(path, "must exceed the reach of drop {}, {:.6g} (unit: R0)", index, needed);
   };
   switch (c.domain.shape) {
@@ -80,9 +83,31 @@ void add_drops(const Case& c, Scene& scene) {
   nest(scene.interfaces);
 }
 
+/// The drop to blame for a conflict: the later of the first two that touch, in the order in which
+/// find_conflict looks, else the first one that is not within the boundary.
+std::size_t drop_in_conflict(const Scene& scene) {
+  const auto& interfaces = scene.interfaces;
+  for (std::size_t i = 0; i < interfaces.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (!find_intersection(interfaces[j].mesh, interfaces[i].mesh).empty()) return i;
+  const auto is_first_to = [&](const auto& is_in_fault) {
+    return static_cast<std::size_t>(std::ranges::find_if(interfaces, is_in_fault) -
+                                    interfaces.begin());
+  };
+  const std::size_t touching = is_first_to([&](const Interface& interface) {
+    return !find_intersection(interface.mesh, scene.boundary.mesh).empty();
+  });
+  if (touching < interfaces.size()) return touching;
+  return is_first_to([&](const Interface& interface) {
+    return !encloses(scene.boundary.mesh, interface.mesh.x[VertexId{0}]);
+  });
+}
+
 void require_no_conflict(const Case& c, const Scene& scene) {
   const std::string conflict = find_conflict(scene);
-  if (!conflict.empty()) reject_input("{}: {}", c.settings.place("drop"), conflict);
+  if (conflict.empty()) return;
+  reject_input("{}: {}", c.settings.place(fmt::format("drop[{}]", drop_in_conflict(scene))),
+               conflict);
 }
 
 /// ∮|v·n| dS of the imposed velocities, the yardstick of their net flux [G R0³].

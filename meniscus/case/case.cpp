@@ -1,6 +1,8 @@
 #include "meniscus/case/case.hpp"
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -41,6 +43,27 @@ double read_scale(Settings& settings) {
              : scale.viscosity * scale.rate * scale.length / scale.surface_tension;
 }
 
+/// Whether nothing sets a rate G: no flow at any time, and no patch that drives one.
+bool is_without_rate(const Case& c) {
+  const bool is_at_rest =
+      c.flow.initial_gradient().isZero(0.0) &&
+      std::ranges::all_of(c.flow.schedule(), [](const ImposedFlow::Entry& entry) {
+        return entry.gradient.isZero(0.0);
+      });
+  return is_at_rest && std::ranges::all_of(c.domain.patches, [](const PatchCase& patch) {
+           return patch.velocity.isZero(0.0) && patch.traction.isZero(0.0);
+         });
+}
+
+/// Without a rate times are in mu_out R0/sigma, in which Ca is 1.
+void require_capillary_time(const Case& c) {
+  const bool is_one = c.Ca == 1.0 || std::isinf(c.Ca);
+  if (!c.settings.scale() && !is_one && is_without_rate(c))
+    c.settings.reject("flow.capillary-number",
+                      "must be 1 or inf where neither the flow nor a patch sets a rate: times are "
+                      "in mu_out R0/sigma");
+}
+
 }  // namespace
 
 Case parse_case(std::string_view text, const std::string& name, const std::filesystem::path& folder,
@@ -53,6 +76,7 @@ Case parse_case(std::string_view text, const std::string& name, const std::files
   c.matrix_body_force = c.settings.vector("matrix.body-force");
   c.drops = read_drops(c.settings);
   c.domain = read_domain(c.settings, c.flow);
+  require_capillary_time(c);
   c.evolution = read_evolution(c.settings);
   c.method = read_method(c.settings, c.domain);
   if (c.method == FlowMethod::boundary_integral)

@@ -181,7 +181,52 @@ void require_tables(Document& document, const std::string& path, const std::stri
       reject_input("{}: {} does not exist; the next to add is {}[{}]", place, element, array,
                    count);
     document.tables[element] = place;
+    document.added_tables.insert(element);
   }
+}
+
+/// The array of tables that a path without its index goes through, "drop" for "drop.nodes"; empty
+/// for any other path. No array lies in another.
+std::string unindexed_array(std::string_view path) {
+  if (path.find('[') != std::string_view::npos) return {};
+  const std::string parent(parent_path(path));
+  return find_table(parent + "[]") != nullptr ? parent : std::string();
+}
+
+/// The path with the index that may be left out: "drop[0].nodes" for "drop.nodes".
+std::string indexed_path(const Document& document, const std::string& path,
+                         const std::string& place) {
+  const std::string array = unindexed_array(path), key(leaf(path));
+  if (array.empty() || find_key(fmt::format("{}[].{}", array, key)) == nullptr) return path;
+  const int count = document.count(array);
+  if (count != 1)
+    reject_input("{}: {}: there are {} [[{}]]; say which by an index, as in {}[0].{}", place, path,
+                 count, array, array, key);
+  return fmt::format("{}[0].{}", array, key);
+}
+
+/// Throws InvalidInput with a key that can be set instead of one that is not in the schema.
+[[noreturn]] void reject_unknown_override(const Document& document, const std::string& path,
+                                          const std::string& place) {
+  const auto is_table = [](const std::string& name) {
+    return find_table(name) != nullptr || find_table(name + "[]") != nullptr;
+  };
+  if (is_table(without_indices(path)))
+    reject_input("{}: {} is a table; set its keys one by one, as in --set flow.kind=quiescent",
+                 place, path);
+  std::string near = nearest_name(path);
+  if (near.empty()) reject_input("{}: {}: unknown key", place, path);
+  if (is_table(near))
+    reject_input("{}: {}: unknown key; did you mean a key of \"{}\"?", place, path, near);
+  if (const std::string array = unindexed_array(near); !array.empty()) {
+    const std::size_t close = path.find(']');
+    const bool has_index = path.starts_with(array + "[") && close != std::string::npos;
+    const std::string element = has_index                    ? path.substr(0, close + 1)
+                                : document.count(array) == 1 ? array
+                                                             : array + "[0]";
+    near = fmt::format("{}.{}", element, leaf(near));
+  }
+  reject_input("{}: {}: unknown key; did you mean \"{}\"?", place, path, near);
 }
 
 void apply_override(Document& document, const std::string& option) {
@@ -189,14 +234,9 @@ void apply_override(Document& document, const std::string& option) {
   const std::size_t equals = option.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == option.size())
     reject_input("{}: expected key=value, as in --set drop[0].nodes=200", place);
-  const std::string path = option.substr(0, equals);
+  const std::string path = indexed_path(document, option.substr(0, equals), place);
   const Key* key = find_key(generic_path(path));
-  if (key == nullptr) {
-    const std::string indexed = nearest_name(path);
-    if (indexed == without_indices(path) && path.find('[') == std::string::npos)
-      reject_input("{}: {}: the key needs an index, as in drop[0].nodes", place, path);
-    reject_unknown_key(path, place);
-  }
+  if (key == nullptr) reject_unknown_override(document, path, place);
   require_tables(document, path, place);
   const toml::table parsed = parse_override_value(option.substr(equals + 1));
   document.values[path] =
@@ -214,7 +254,7 @@ int Document::count(const std::string& array) const {
 Document parse_document(std::string_view text, const std::string& name,
                         const std::filesystem::path& folder,
                         std::span<const std::string> overrides) {
-  Document document{.name = name, .folder = folder, .values = {}, .tables = {}};
+  Document document{.name = name, .folder = folder, .values = {}, .tables = {}, .added_tables = {}};
   Flattener(document).table(parse_toml(text, name), "");
   for (const std::string& option : overrides) apply_override(document, option);
   return document;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,13 +26,16 @@ struct Document {
   std::map<std::string, Given> values;        ///< by path with indices: "drop[0].radius"
   std::map<std::string, std::string> tables;  ///< place of every table: "drop[0]" → "case.toml:5"
 
+  std::set<std::string> added_tables;  ///< those that only overrides speak of: "drop[1]"
+
   /// Number of tables in an array: count("drop"), count("flow.schedule").
   [[nodiscard]] int count(const std::string& array) const;
 };
 
 /// Throws InvalidInput with file and line at the first fault. An override is "key=value" with the
 /// value in TOML, quotes around words being optional; it replaces what the file says, or begins the
-/// next table of an array ("drop[1].radius=1" when there is one drop).
+/// next table of an array ("drop[1].radius=1" when there is one drop). The index of an array with
+/// one table may be left out: "drop.nodes=80".
 [[nodiscard]] Document parse_document(std::string_view text, const std::string& name,
                                       const std::filesystem::path& folder,
                                       std::span<const std::string> overrides);

@@ -12,6 +12,16 @@ using schema::Key;
 using schema::Table;
 using schema::Type;
 
+constexpr std::string_view kOverrides =
+    "Any key can be set on the command line, as in `--set time.end=5`. A key of an array of tables "
+    "takes the number of its table, counted from 0: `--set 'drop[1].nodes=200'`; it may be left "
+    "out where there is one: `--set drop.nodes=200`. The number after the last adds a table, "
+    "provided that all it requires is set. Values are as in the file, but words and texts need "
+    "no quotes of their own unless they could be read as a number, true, false or a list. What "
+    "holds blanks, brackets or quotes is quoted as a whole for the shell: "
+    "`--set 'title=Two drops'`, `--set 'title=\"7\"'`, `--set 'drop[0].center=[0, 0, 1]'`. Tables "
+    "are set key by key.";
+
 std::string allowed(const Key& key) {
   if (key.only_default) return "only the default in this version";
   if (key.type == Type::word)
@@ -82,8 +92,9 @@ std::string explain(std::string_view name) {
     if (schema::leaf(key.path) == wanted) text += explanation(key);
   if (!text.empty()) return text;
   const std::string near = schema::nearest_name(name);
-  reject_input("explain: {}: unknown key{}", name,
-               near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near));
+  reject_input("explain: {}: unknown key; {}", name,
+               near.empty() ? "`meniscus explain` lists all keys"
+                            : fmt::format("did you mean \"{}\"?", near));
 }
 
 std::string explain() {
@@ -93,7 +104,7 @@ std::string explain() {
     for (const Key* key : keys_of(table))
       text += fmt::format("  {:<18} {}\n", schema::leaf(key->path), key->sentence);
   }
-  return text;
+  return text + std::string(kOverrides) + "\n";
 }
 
 std::string reference_page() {
@@ -103,8 +114,9 @@ std::string reference_page() {
       "A case is a TOML file. Every key has a default except the flow's kind and each drop's "
       "shape. "
       "Values are dimensionless unless the case has a `[scale]` table. A key that would have no "
-      "effect is refused, and so is one that is not listed here. Any key can be set on the command "
-      "line, as in `--set drop[0].nodes=200`.\n";
+      "effect is refused, and so is one that is not listed here. With `[scale]`, ranges of keys "
+      "with a unit hold for the dimensionless value.\n\n";
+  page += fmt::format("{}\n", kOverrides);
   for (const Table& table : schema::tables()) {
     const std::string heading =
         table.path.empty() ? "Top level" : fmt::format("`{}`", header(table));

@@ -5,6 +5,16 @@
 namespace meniscus {
 namespace {
 
+Vec3 read_axes(Settings& settings, const std::string& path) {
+  const Vec3 axes = settings.vector(path);
+  // The vertices go as N0 times this ratio; threads in experiments are up to some 300 times longer
+  // than wide.
+  constexpr double kLargestRatio = 1000.0;
+  if (axes.maxCoeff() > kLargestRatio * axes.minCoeff())
+    settings.reject(path, "must not differ by more than a factor {}", kLargestRatio);
+  return axes;
+}
+
 DropShapeCase read_shape(Settings& settings, const std::string& table) {
   std::string found;
   for (const char* name : {"radius", "axes", "surface", "from-run"}) {
@@ -14,12 +24,17 @@ DropShapeCase read_shape(Settings& settings, const std::string& table) {
       settings.reject(path, "conflicts with {}: a drop has one shape", schema::leaf(found));
     found = path;
   }
+  if (found.empty() && settings.is_added(table))
+    reject_input(
+        "{0}: there is no {1}; to add it, set one of {1}.radius, {1}.axes, {1}.surface, "
+        "{1}.from-run too",
+        settings.place(table), table);
   if (found.empty())
     reject_input("{}: {} needs one of radius, axes, surface, from-run", settings.place(table),
                  schema::without_indices(table));
   const std::string_view kind = schema::leaf(found);
   if (kind == "radius") return BallShape{settings.number(found)};
-  if (kind == "axes") return EllipsoidShape{settings.vector(found)};
+  if (kind == "axes") return EllipsoidShape{read_axes(settings, found)};
   if (kind == "surface") return FileShape{settings.file(found)};
   RunShape shape{settings.file(found), std::nullopt};
   if (settings.is_given(table + ".from-drop")) shape.drop = settings.whole(table + ".from-drop");

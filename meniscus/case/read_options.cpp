@@ -1,8 +1,32 @@
+#include <cctype>
+#include <sstream>
 #include <string>
 
 #include "meniscus/case/case_parts.hpp"
 
 namespace meniscus {
+namespace {
+
+/// Words that follow no option name are ones that PETSc would pass over in silence.
+std::string read_petsc_options(Settings& settings) {
+  constexpr const char* kPath = "solver.petsc-options";
+  std::string options = settings.text(kPath);
+  std::istringstream words(options);
+  bool may_be_value = false;
+  for (std::string word; words >> word;) {
+    // A number may begin with a minus sign as well.
+    const bool is_option =
+        word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0;
+    if (!is_option && !may_be_value)
+      settings.reject(kPath, "has the word \"{}\", which belongs to no option (-name value …)",
+                      word);
+    may_be_value = is_option;
+  }
+  return options;
+}
+
+}  // namespace
+
 EvolutionOptions read_evolution(Settings& settings) {
   EvolutionOptions options;
   options.scheme = settings.choice<TimeScheme>(
@@ -57,7 +81,7 @@ fem::Options read_finite_elements(Settings& settings) {
                                                       {"mumps", LinearSolver::mumps}});
   options.rtol = settings.number("solver.rtol");
   options.max_iterations = settings.whole("solver.max-iterations");
-  options.petsc_options = settings.text("solver.petsc-options");
+  options.petsc_options = read_petsc_options(settings);
   options.volume_mesh.grading =
       settings.choice<Grading>("domain.grading", {{"linear", Grading::linear},
                                                   {"exponential", Grading::exponential},

@@ -130,19 +130,22 @@ void check_word(const Key& key, const Value& value, std::string_view place, std:
                near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near));
 }
 
-void check_numbers(const Key& key, const Value& value, std::string_view place,
-                   std::string_view name) {
+bool is_finite(const Value& value) {
+  return std::ranges::all_of(numbers_in(value), [](double x) { return std::isfinite(x); });
+}
+
+}  // namespace
+
+std::string range_complaint(const Key& key, const Value& value) {
   for (const double number : numbers_in(value)) {
     if (is_within(key.range, number)) continue;
     const std::string allowed = range_text(key.range);
     const bool must_be_finite = !std::isfinite(number) && !key.range.infinity;
-    reject_input("{}: {} = {} must be {}{}{}", place, name, to_toml(value),
-                 must_be_finite ? "finite" : "", must_be_finite && !allowed.empty() ? " and " : "",
-                 allowed);
+    return fmt::format("must be {}{}{}", must_be_finite ? "finite" : "",
+                       must_be_finite && !allowed.empty() ? " and " : "", allowed);
   }
+  return {};
 }
-
-}  // namespace
 
 void check_value(const Key& key, const Value& value, std::string_view place,
                  std::string_view name) {
@@ -152,7 +155,9 @@ void check_value(const Key& key, const Value& value, std::string_view place,
   const bool is_word = std::holds_alternative<std::string>(value);
   if (is_word && (key.type == Type::word || key.type == Type::velocity))
     check_word(key, value, place, name);
-  check_numbers(key, value, place, name);
+  if (key.dimension != Dimension::none && is_finite(value)) return;
+  if (const std::string complaint = range_complaint(key, value); !complaint.empty())
+    reject_input("{}: {} = {} {}", place, name, to_toml(value), complaint);
 }
 
 std::string nearest_name(std::string_view path) {

@@ -14,7 +14,7 @@ namespace meniscus::schema {
 /// The dimension of a key; with [scale] its value is in SI units and converted by this.
 enum class Dimension { none, length, time, rate, velocity, stress, force_density };
 
-/// Allowed numbers (each component of a vector). NaN is never allowed.
+/// Allowed numbers (each component of a vector), dimensionless. NaN is never allowed.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
@@ -69,7 +69,12 @@ struct Table {
 /// "a", "b", "c" in quotes.
 [[nodiscard]] std::string quoted_list(std::span<const std::string_view> words);
 
-/// Throws InvalidInput unless the value is in the key's range or words. `place` ("case.toml:7" or
+/// "must be > 0", "must be finite and at least 0": why a value is not in the key's range; empty
+/// when it is.
+[[nodiscard]] std::string range_complaint(const Key& key, const Value& value);
+/// Throws InvalidInput unless the value is in the key's range or words. The range of a key with a
+/// dimension holds once [scale] is known (`Settings`); here its value has to be finite. `place`
+/// ("case.toml:7" or
 /// "--set …") and `name` (the key as the user wrote it) begin the message.
 void check_value(const Key& key, const Value& value, std::string_view place, std::string_view name);
 /// Throws InvalidInput: unknown key, with the nearest valid one.

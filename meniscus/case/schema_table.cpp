@@ -10,11 +10,17 @@ using enum Type;
 constexpr Range kPositive{.min = 0.0, .open_min = true};
 constexpr Range kNotNegative{.min = 0.0};
 constexpr Range kFinite{};
+// A drop a million times smaller or larger than R0, or as far away, is a slip of the pen, and more
+// than meshing in double precision can bridge.
+constexpr Range kLength{.min = 1e-6, .max = 1e6};
+constexpr Range kPlace{.min = -1e6, .max = 1e6};
 // 42: fewer vertices cannot hold the shape of a drop through a remesh
-// (RemeshOptions::min_vertices). A million: 12 GB of tetrahedra; a larger number is a slip of the
-// pen.
-constexpr Range kDropNodes{.min = 42, .max = 1e6};
-constexpr Range kBoundaryNodes{.min = 50, .max = 1e6};
+// (RemeshOptions::min_vertices). 200 000 and 20 000: the meshes measured in docs/volume-mesh.md
+// have up to 10 nodes for each vertex of a drop, and 20 for each of 2007 on the boundary, growing
+// as its power 3/2. Either bound then means one to two million nodes, which at an estimated 10 kB
+// (tetrahedra, matrix, multigrid) fill a machine of 24 GiB.
+constexpr Range kDropNodes{.min = 42, .max = 200000};
+constexpr Range kBoundaryNodes{.min = 50, .max = 20000};
 constexpr Range kCount{.min = 1, .max = 1e9};
 constexpr std::string_view kWithElements = "with method = \"finite-element\"";
 constexpr std::string_view kWithIntegrals = "with method = \"boundary-integral\"";
@@ -48,7 +54,7 @@ const std::vector<Table> kTables{
      "z-, "
      "z+; of a cylinder side, x-, x+, and ends for both; of a sphere all. Those of a surface from "
      "a "
-     "file are its tags."},
+     "file are its tags, which are numbers."},
     {"interface", false, "How interfaces are represented, moved and remeshed."},
     {"topology", false, "Breakup and coalescence."},
     {"solver", false, "How the flow is solved."},
@@ -65,7 +71,8 @@ const std::vector<Key> kKeys{
     {.path = "title",
      .type = text,
      .value = ""s,
-     .sentence = "What the case is, for the report and the progress display."},
+     .sentence = "What the case is, for the report and the progress display. On the command line: "
+                 "--set 'title=Two drops'."},
 
     {.path = "flow.kind",
      .type = word,
@@ -84,7 +91,9 @@ const std::vector<Key> kKeys{
      .range = {.min = 0.0, .open_min = true, .infinity = true},
      .value = 1.0,
      .applies = "without [scale]",
-     .sentence = "Ca = mu_out G R0/sigma; inf: no surface tension."},
+     .sentence =
+         "Ca = mu_out G R0/sigma; inf: no surface tension. 1 or inf where neither the flow nor "
+         "a patch sets a rate: then times are in mu_out R0/sigma."},
 
     {.path = "flow.schedule[].time",
      .dimension = Dimension::time,
@@ -123,25 +132,27 @@ const std::vector<Key> kKeys{
     {.path = "drop[].center",
      .type = vector,
      .dimension = Dimension::length,
-     .range = kFinite,
+     .range = kPlace,
      .value = Vec3(Vec3::Zero()),
      .sentence = "Centre of the sphere or ellipsoid; a surface from a file or a run is shifted by "
                  "it."},
     {.path = "drop[].radius",
      .dimension = Dimension::length,
-     .range = kPositive,
+     .range = kLength,
      .default_note = kShapeRequired,
      .sentence = "Radius of a sphere."},
     {.path = "drop[].axes",
      .type = vector,
      .dimension = Dimension::length,
-     .range = kPositive,
+     .range = kLength,
      .default_note = kShapeRequired,
-     .sentence = "Half-axes of an ellipsoid, along x, y and z."},
+     .sentence = "Half-axes of an ellipsoid, along x, y and z; the longest at most 1000 times the "
+                 "shortest."},
     {.path = "drop[].surface",
      .type = path,
      .default_note = kShapeRequired,
-     .sentence = "A closed triangulated surface, faces outward (stl, ply, obj, off, vtp); from the "
+     .sentence = "A closed triangulated surface in one piece, faces outward (stl, ply, obj, off, "
+                 "vtp); from the "
                  "case file's folder if relative."},
     {.path = "drop[].from-run",
      .type = path,
@@ -183,35 +194,37 @@ const std::vector<Key> kKeys{
                  "method = \"boundary-integral\" and only there: no boundary."},
     {.path = "domain.half-width",
      .dimension = Dimension::length,
-     .range = kPositive,
+     .range = kLength,
      .value = 10.0,
      .applies = "with shape = \"box\", without half-widths",
      .sentence = "Distance of the box's faces from the origin."},
     {.path = "domain.half-widths",
      .type = vector,
      .dimension = Dimension::length,
-     .range = kPositive,
+     .range = kLength,
      .default_note = "half-width in every direction",
      .applies = "with shape = \"box\"",
      .sentence = "The same for the x-, y- and z-faces."},
     {.path = "domain.radius",
      .dimension = Dimension::length,
-     .range = kPositive,
+     .range = kLength,
      .value = 10.0,
      .applies = "with shape = \"sphere\" or \"cylinder\"",
      .sentence = "Radius of the sphere or cylinder."},
     {.path = "domain.half-length",
      .dimension = Dimension::length,
-     .range = kPositive,
+     .range = kLength,
      .value = 10.0,
      .applies = "with shape = \"cylinder\"",
      .sentence = "Half the length of the cylinder."},
     {.path = "domain.surface",
      .type = path,
      .default_note = "none: the boundary is a shape",
-     .sentence = "A closed triangulated surface, faces outward, as the outer boundary; its tags "
-                 "are the patches (cell array `patch` of vtp, groups of obj, solids of ascii "
-                 "stl)."},
+     .sentence = "A closed triangulated surface in one piece, faces outward, as the outer boundary "
+                 "(stl, ply, obj, off, vtp). Its faces have tags: in vtp the whole numbers of the "
+                 "cell array `patch`; in obj the groups (g), numbered 0, 1, 2, … in the order in "
+                 "which they first get a face, whatever their names; in ascii stl the solids, "
+                 "numbered 0, 1, 2, … as they stand in the file; in any other file all are 0."},
     {.path = "domain.nodes",
      .type = whole,
      .range = kBoundaryNodes,
@@ -234,7 +247,8 @@ const std::vector<Key> kKeys{
      .range = {.min = 0, .max = 1e9},
      .default_note = "required for a surface",
      .applies = "with domain.surface",
-     .sentence = "The tag in the surface file."},
+     .sentence =
+         "The tag of the patch's faces in the surface file: a number, as said at domain.surface."},
     {.path = "domain.patch[].condition",
      .type = word,
      .words = {"velocity", "symmetry", "open"},
@@ -264,13 +278,13 @@ const std::vector<Key> kKeys{
     {.path = "domain.patch[].profile-center",
      .type = vector,
      .dimension = Dimension::length,
-     .range = kFinite,
+     .range = kPlace,
      .default_note = "the patch's centroid",
      .applies = "with profile = \"parabolic\"",
      .sentence = "Centre of the parabola."},
     {.path = "domain.patch[].profile-radius",
      .dimension = Dimension::length,
-     .range = kPositive,
+     .range = kLength,
      .default_note = "the patch's largest distance from there",
      .applies = "with profile = \"parabolic\"",
      .sentence = "Distance from its centre at which the parabola is zero."},
@@ -308,12 +322,17 @@ const std::vector<Key> kKeys{
      .type = whole,
      .range = kCount,
      .value = std::int64_t{1},
-     .sentence = "Steps from one remeshing to the next."},
+     .sentence =
+         "Steps from one remeshing of the interfaces to the next: 3 remeshes at the end of steps "
+         "3, 6, 9; in between vertices only move, and volumes are restored."},
     {.path = "interface.edge-floor",
      .dimension = Dimension::length,
-     .range = kNotNegative,
+     .range = {.min = 0.0, .max = 1e6},
      .default_note = "half of topology.breakup-radius",
-     .sentence = "No interface edge is asked to be shorter."},
+     .sentence =
+         "No interface edge is asked to be shorter, however curved the interface. A floor above "
+         "half the edge length with which a drop has 42 vertices is lowered to that, for "
+         "this drop."},
     {.path = "interface.gap-layers",
      .type = whole,
      .range = {.min = 0, .max = 100},
@@ -380,7 +399,7 @@ const std::vector<Key> kKeys{
      .type = text,
      .value = ""s,
      .applies = kWithElements,
-     .sentence = "Further options for PETSc, as on its command line."},
+     .sentence = "Further options for PETSc, as on its command line: \"-name value -name …\"."},
 
     {.path = "time.scheme",
      .type = word,

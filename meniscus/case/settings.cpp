@@ -49,11 +49,17 @@ const Value& Settings::own_value(const std::string& path) {
 
 Value Settings::dimensionless_value(const std::string& path) {
   const Value& own = own_value(path);
+  const schema::Key* key = schema::find_key(schema::generic_path(path));
   const double unit = unit_of(path);
-  if (const auto* real = std::get_if<double>(&own)) return *real / unit;
-  if (const auto* v = std::get_if<Vec3>(&own)) return Vec3(*v / unit);
-  if (const auto* m = std::get_if<Mat3>(&own)) return Mat3(*m / unit);
-  return own;
+  Value value = own;
+  if (const auto* real = std::get_if<double>(&own)) value = *real / unit;
+  if (const auto* v = std::get_if<Vec3>(&own)) value = Vec3(*v / unit);
+  if (const auto* m = std::get_if<Mat3>(&own)) value = Mat3(*m / unit);
+  if (const std::string complaint = schema::range_complaint(*key, value); !complaint.empty())
+    reject(
+        path, "{}{}", complaint,
+        scale_ && unit != 1.0 ? fmt::format(" in units of {}", schema::unit(key->dimension)) : "");
+  return value;
 }
 
 double Settings::number(const std::string& path) {

@@ -64,6 +64,10 @@ class Settings {
 
   /// "case.toml:7", of the key, else of the nearest table around it, else "case.toml".
   [[nodiscard]] std::string place(const std::string& path) const;
+  /// Whether an array's table, "drop[1]", was begun by --set.
+  [[nodiscard]] bool is_added(const std::string& table) const {
+    return document_.added_tables.contains(table);
+  }
   /// The key as it should appear after its place.
   [[nodiscard]] std::string name(const std::string& path) const;
   /// Throws InvalidInput: "case.toml:7: drop.radius = 2.0 <complaint>".
@@ -82,6 +86,7 @@ class Settings {
   [[noreturn]] void reject_value(const std::string& path, const std::string& complaint) const;
   /// Given or default, in the case's own units.
   const schema::Value& own_value(const std::string& path);
+  /// Throws InvalidInput when it is not in the key's range.
   schema::Value dimensionless_value(const std::string& path);
   [[nodiscard]] double unit_of(const std::string& path) const;
 

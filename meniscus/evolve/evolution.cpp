@@ -167,6 +167,8 @@ void Evolution::restore_volumes() {
 FlowReport Evolution::solve_flow(double t) {
   FlowReport report = flow_->solve(scene_, t);
   iterations_ += report.iterations;
+  for (const std::string& warning : report.warnings)
+    warnings_.push_back(fmt::format("t = {:.6g}: {}", t, warning));
   return report;
 }
 

@@ -42,6 +42,9 @@ class Evolution {
   [[nodiscard]] const PhaseTimes& times() const { return times_; }
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
+  /// Δt = step_factor · min(1, 1/tension) · l_min within its bounds, for the shapes as they are.
+  [[nodiscard]] double step_length() const;
+
   /// The rows of the last solve.
   [[nodiscard]] HistoryRow history_row() const;
   [[nodiscard]] std::vector<DropRow> drop_rows() const;
@@ -51,7 +54,6 @@ class Evolution {
   void load(const Archive& archive);
 
  private:
-  [[nodiscard]] double step_length() const;
   EvolutionReport try_step(double dt);
   EvolutionReport finish_step(const Scene& start, const InterfaceMotion& motion, double dt);
   [[nodiscard]] bool is_remesh_due() const { return (step_ + 1) % options_.remesh_every == 0; }

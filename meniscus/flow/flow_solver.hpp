@@ -16,7 +16,8 @@ namespace meniscus {
 struct [[nodiscard]] FlowReport {
   bool ok = true;
   std::string failure;
-  int iterations = 0;  ///< linear iterations, all Newton steps together
+  int iterations = 0;                      ///< linear iterations, all Newton steps together
+  std::vector<std::string> warnings = {};  ///< what was done in another way than asked for
 };
 
 /// The energy books of one solution, all in [μ_out G² R0³]; power_in − dissipation is what the

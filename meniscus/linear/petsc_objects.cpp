@@ -33,6 +33,8 @@ void start_petsc() {
   PetscBool is_running = PETSC_FALSE;
   petsc_check(PetscInitialized(&is_running), "PetscInitialized");
   if (is_running) return;
+  // Open MPI's own choice maps a file of megabytes, which a small limit on file sizes forbids.
+  setenv("PMIX_MCA_gds", "hash", 0);
   petsc_check(PetscOptionsSetValue(nullptr, "-no_signal_handler", "true"), "PetscOptionsSetValue");
   petsc_check(PetscOptionsSetValue(nullptr, "-skip_petscrc", "true"), "PetscOptionsSetValue");
   petsc_check(PetscInitializeNoArguments(), "PetscInitializeNoArguments");

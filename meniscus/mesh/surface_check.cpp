@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -96,16 +97,38 @@ bool has_vertices_out_of_range(const SurfaceMesh& mesh) {
   });
 }
 
+/// The first vertex that no path of edges joins to vertex 0.
+std::string find_second_piece(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
+  VertexField<char> is_reached(mesh.num_vertices(), false);
+  std::vector<VertexId> front{VertexId{0}};
+  is_reached[VertexId{0}] = true;
+  while (!front.empty()) {
+    const VertexId v = front.back();
+    front.pop_back();
+    for (const VertexId w : topology.ring(v)) {
+      if (is_reached[w]) continue;
+      is_reached[w] = true;
+      front.push_back(w);
+    }
+  }
+  for (const VertexId v : mesh.x.ids())
+    if (!is_reached[v])
+      return fmt::format(
+          "surface is in more than one piece: vertex {} at {} is not joined to vertex 0 at {}",
+          v.value, place(mesh.x[v]), place(mesh.x[VertexId{0}]));
+  return {};
+}
+
 std::string find_broken_topology(const SurfaceMesh& mesh) {
   try {
     const SurfaceTopology topology(mesh);
     for (const VertexId v : mesh.x.ids())
       if (topology.valence(v) == 0)
         return fmt::format("vertex {} at {} belongs to no face", v.value, place(mesh.x[v]));
+    return find_second_piece(mesh, topology);
   } catch (const InvalidInput& fault) {
     return fault.what();
   }
-  return {};
 }
 
 }  // namespace

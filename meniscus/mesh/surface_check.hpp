@@ -8,8 +8,8 @@
 namespace meniscus {
 
 /// What makes a surface unfit as an interface, in one line with the place; empty when it is a
-/// finite, closed, oriented manifold that encloses positive volume, without degenerate faces and
-/// (exact predicates, CGAL) without self-intersection.
+/// finite, closed, oriented manifold in one piece that encloses positive volume, without degenerate
+/// faces and (exact predicates, CGAL) without self-intersection.
 [[nodiscard]] std::string find_defect(const SurfaceMesh& mesh);
 /// The first place where faces of one surface cross or touch others that they are not joined to.
 [[nodiscard]] std::string find_self_intersection(const SurfaceMesh& mesh);

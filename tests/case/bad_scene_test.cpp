@@ -26,36 +26,37 @@ void expect_parts(const std::string& message, const std::vector<std::string>& pa
 TEST(BadScene, DropReachingBeyondItsDomainIsNamed) {
   const std::string drop = std::string(kQuiescent) + "[[drop]]\nradius = 1\n";
   expect_parts(message_of(drop + "[domain]\nhalf-width = 0.5\n"),
-               {"case.toml:6: domain.half-width = 0.5 must exceed the reach of drop 0, 0.99",
+               {"case.toml:6: domain.half-width = 0.5 must exceed the reach of drop 0, 1.01",
                 " (unit: R0)"});
   expect_parts(message_of(drop + "[domain]\nhalf-widths = [2, 2, 0.9]\n"),
                {"case.toml:6: domain.half-widths = [2.0, 2.0, 0.9] must exceed the reach of drop "
-                "0, 0.98"});
+                "0, 1.0"});
 }
 
 TEST(BadScene, DropOutsideOrTouchingTheWallIsNamed) {
   const std::string drop = std::string(kQuiescent) + "[[drop]]\nradius = 1\n";
   expect_parts(message_of(drop + "[domain]\nshape = \"sphere\"\nradius = 0.9\n"),
-               {"case.toml:7: domain.radius = 0.9 must exceed the reach of drop 0, 1 (unit: R0)"});
+               {"case.toml:7: domain.radius = 0.9 must exceed the reach of drop 0, 1.0"});
   expect_parts(message_of(drop + "center = [30, 0, 0]\n"),
-               {"case.toml: domain.half-width = 10.0 must exceed the reach of drop 0, 3"});
+               {"case.toml:3: drop 0 reaches 3",
+                " from the origin, and domain.half-width is 10 by default (unit: R0)"});
   expect_parts(
       message_of(drop + "[domain]\nshape = \"cylinder\"\nradius = 3.0\nhalf-length = 0.9\n"),
-      {"case.toml:8: domain.half-length = 0.9 must exceed the reach of drop 0, 0.9"});
+      {"case.toml:8: domain.half-length = 0.9 must exceed the reach of drop 0, 1.0"});
   // Inside the sphere, but not inside its fifty-odd flat faces.
-  expect_parts(message_of(drop + "center = [0.49, 0, 0]\n"
+  expect_parts(message_of(drop + "center = [0.48, 0, 0]\n"
                                  "[domain]\nshape = \"sphere\"\nradius = 1.5\nnodes = 50\n"),
-               {"case.toml:", "drop 0"});
+               {"case.toml:3: drop 0 "});
 }
 
 TEST(BadScene, OverlappingDropsAreNamed) {
   const std::string two = std::string(kQuiescent) +
                           "[[drop]]\nradius = 1\n[[drop]]\nradius = 1\ncenter = [1.5, 0, 0]\n";
-  expect_parts(message_of(two), {"case.toml: drops 0 and 1 touch: ", "near ("});
+  expect_parts(message_of(two), {"case.toml:5: drops 0 and 1 touch: ", "near ("});
   const std::string partly_inside =
       std::string(kQuiescent) +
       "[[drop]]\nradius = 2\n[[drop]]\nradius = 1\ncenter = [1.5, 0, 0]\n";
-  expect_parts(message_of(partly_inside), {"case.toml: drops 0 and 1 touch: ", "near ("});
+  expect_parts(message_of(partly_inside), {"case.toml:5: drops 0 and 1 touch: ", "near ("});
 }
 
 std::string file_case(const std::string& file) {
@@ -71,6 +72,62 @@ TEST(BadScene, UnclosedSurfaceIsRefused) {
   folder.write_stl("open.stl", mesh);
   expect_parts(message_of(file_case("open.stl"), {}, folder.path()),
                {"case.toml:4: drop.surface = \"open.stl\" is unfit: ", "closed"});
+}
+
+TEST(BadScene, TheLaterDropOfAConflictIsNamed) {
+  const std::string drop = "[[drop]]\nradius = 1\n";
+  expect_parts(
+      message_of(kQuiescent + drop + drop + "center = [5, 0, 0]\n" + drop + "center = [1, 0, 0]\n"),
+      {"case.toml:8: drops 0 and 2 touch: "});
+  expect_parts(
+      message_of(kQuiescent + drop + drop + "center = [9.99, 0, 0]\nnodes = 60\n" +
+                 "[domain]\nhalf-width = 11\n[[drop]]\nradius = 0.1\ncenter = [0, 5, 0]\n"),
+      {"no error"});
+}
+
+/// Two spheres, the second one `offset` away, in one mesh.
+SurfaceMesh two_spheres(double radius, double inner, const Vec3& offset) {
+  SurfaceMesh mesh = sphere(100, radius);
+  const SurfaceMesh second = sphere(100, inner, offset);
+  const std::int32_t first = mesh.num_vertices();
+  for (const Vec3& x : second.x) mesh.x.add(x);
+  for (const FaceVertices& f : second.faces)
+    mesh.faces.add(
+        {VertexId{f[0].value + first}, VertexId{f[1].value + first}, VertexId{f[2].value + first}});
+  return mesh;
+}
+
+TEST(BadScene, SurfacesInTwoPiecesAreRefused) {
+  const test::TemporaryFolder folder;
+  folder.write_stl("two.stl", two_spheres(1.0, 1.0, Vec3(5, 0, 0)));
+  expect_parts(message_of(file_case("two.stl"), {}, folder.path()),
+               {"case.toml:4: drop.surface = \"two.stl\" is unfit: surface is in more than one "
+                "piece: vertex ",
+                " at ("});
+  folder.write_stl("tanks.stl", two_spheres(5.0, 5.0, Vec3(20, 0, 0)));
+  expect_parts(message_of(std::string(kQuiescent) +
+                              "[[drop]]\nradius = 1\n[domain]\nsurface = \"tanks.stl\"\n"
+                              "[[domain.patch]]\ntag = 0\n",
+                          {}, folder.path()),
+               {"case.toml:6: domain.surface = \"tanks.stl\" is unfit: surface is in more than one "
+                "piece: "});
+}
+
+TEST(BadScene, VerticesThatAreNotFiniteAreNamed) {
+  const test::TemporaryFolder folder;
+  const std::string tetrahedron =
+      "v 1 1 1\nv 1 -1 -1\nv -1 1 -1\nv -1 -1 {}\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
+  for (const char* value : {"nan", "inf"}) {
+    folder.write("drop.obj", fmt::format(fmt::runtime(tetrahedron), value));
+    expect_parts(
+        message_of(file_case("drop.obj"), {}, folder.path()),
+        {"case.toml:4: drop.surface = \"drop.obj\" cannot be used: ", "point 3", "not finite"});
+    SurfaceMesh mesh = sphere(100);
+    mesh.x[VertexId{12}].x() = std::stod(value);
+    folder.write_stl("drop.stl", mesh);
+    expect_parts(message_of(file_case("drop.stl"), {}, folder.path()),
+                 {"case.toml:4: drop.surface = \"drop.stl\" ", "not finite"});
+  }
 }
 
 TEST(BadScene, InsideOutSurfaceIsRefused) {

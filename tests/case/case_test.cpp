@@ -103,6 +103,54 @@ TEST(Case, OverridesWinAndAddDrops) {
   EXPECT_EQ(c.evolution.scheme, TimeScheme::euler);
 }
 
+TEST(Case, OverridesNeedNoIndexWhereThereIsOneTable) {
+  const Case c = shear_case("[[flow.schedule]]\ntime = 1\nfactor = 0\n",
+                            {"drop.nodes=80", "flow.schedule.time=2"});
+  EXPECT_EQ(c.drops[0].nodes, 80);
+  EXPECT_EQ(c.flow.schedule()[0].time, 2.0);
+}
+
+TEST(Case, OverridesMayAddADropInAnyOrder) {
+  const Case c =
+      shear_case("", {"drop[1].nodes=60", "drop[1].center=[0, 0, 3]", "drop[1].radius=0.5"});
+  ASSERT_EQ(c.drops.size(), 2u);
+  EXPECT_EQ(c.drops[1].nodes, 60);
+}
+
+TEST(Case, OverridesTakeTitlesWithBlanksAndQuotedNumbers) {
+  EXPECT_EQ(shear_case("", {"title=Two drops"}).title, "Two drops");
+  EXPECT_EQ(shear_case("", {"title=\"Two drops\""}).title, "Two drops");
+  EXPECT_EQ(shear_case("", {"title=\"7\""}).title, "7");
+}
+
+TEST(Case, InlineTablesAreTables) {
+  const Case c = parse_case(
+      "flow = {kind = \"quiescent\"}\ndrop = [{radius = 0.5}, {radius = 1, center = [3, 0, 0]}]\n",
+      "case.toml");
+  EXPECT_EQ(c.flow.family(), FlowFamily::quiescent);
+  EXPECT_EQ(c.drops.size(), 2u);
+}
+
+TEST(Case, CapillaryNumberOfAFlowAtRestIsOneOrInfinite) {
+  const auto read = [](const std::string& flow, const std::string& more = "") {
+    return parse_case("[flow]\n" + flow + "\n[[drop]]\nradius = 1\n" + more, "case.toml").Ca;
+  };
+  const std::string at_rest = "kind = \"quiescent\"\ncapillary-number = ";
+  EXPECT_EQ(read("kind = \"quiescent\""), 1.0);
+  EXPECT_EQ(read(at_rest + "1"), 1.0);
+  EXPECT_TRUE(std::isinf(read(at_rest + "inf")));
+  EXPECT_THROW(read(at_rest + "2"), InvalidInput);
+  EXPECT_THROW(read("gradient = [[0, 0, 0], [0, 0, 0], [0, 0, 0]]\ncapillary-number = 2"),
+               InvalidInput);
+  // A schedule or a patch that sets a rate makes any number meaningful.
+  const std::string start = "[[flow.schedule]]\ntime = 1\nkind = \"simple-shear\"\n";
+  EXPECT_EQ(read(at_rest + "0.3", start), 0.3);
+  EXPECT_THROW(read(at_rest + "0.3", start + "factor = 0\n"), InvalidInput);
+  EXPECT_EQ(read(at_rest + "0.3", "[[domain.patch]]\nname = \"x-\"\nvelocity = [1, 0, 0]\n"), 0.3);
+  EXPECT_THROW(read(at_rest + "0.3", "[[domain.patch]]\nname = \"x-\"\nvelocity = [0, 0, 0]\n"),
+               InvalidInput);
+}
+
 TEST(Case, ScheduleStopsRampsAndReverses) {
   const Case c = shear_case(
       "[[flow.schedule]]\ntime = 1\nfactor = 0\nramp = 2\n"

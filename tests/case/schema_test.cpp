@@ -115,6 +115,16 @@ TEST(Explain, UnknownKeysAreSuggested) {
   }
 }
 
+TEST(Explain, WhatResemblesNothingIsSentToTheList) {
+  try {
+    (void)explain("xyzzy");
+    FAIL() << "accepted";
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(error.what(), "explain: xyzzy: unknown key; `meniscus explain` lists all keys");
+  }
+  EXPECT_NE(explain().find("--set 'title=Two drops'"), std::string::npos);
+}
+
 TEST(ReferencePage, InDocsIsThatOfTheSchema) {
   const std::filesystem::path page =
       std::filesystem::path(__FILE__).parent_path() / "../../docs/case-file.md";

@@ -61,6 +61,35 @@ TEST(FindDefect, NamesWhatIsWrong) {
   expect_defect(lonely, "vertex 42 at (5, 5, 5) belongs to no face");
 }
 
+/// Both surfaces in one mesh, the vertices of the second after those of the first.
+SurfaceMesh together(SurfaceMesh a, const SurfaceMesh& b) {
+  const std::int32_t offset = a.num_vertices();
+  for (const Vec3& x : b.x) a.x.add(x);
+  for (const FaceVertices& f : b.faces)
+    a.faces.add({VertexId{f[0].value + offset}, VertexId{f[1].value + offset},
+                 VertexId{f[2].value + offset}});
+  return a;
+}
+
+TEST(FindDefect, NamesASecondPiece) {
+  const SurfaceMesh one = sphere(42);
+  const SurfaceMesh two = together(one, translated(sphere(42), Vec3(5, 0, 0)));
+  expect_defect(two, "more than one piece: vertex 42 at (");
+  SurfaceMesh cavity = sphere(42, 0.4);
+  for (FaceVertices& f : cavity.faces) std::swap(f[0], f[1]);
+  expect_defect(together(one, cavity), "more than one piece");
+}
+
+TEST(FindDefect, NotFiniteComesBeforeNotClosed) {
+  for (const double value :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    SurfaceMesh open = sphere(42);
+    open.faces.resize(open.num_faces() - 1);
+    open.x[VertexId{12}].z() = value;
+    EXPECT_EQ(find_defect(open), "vertex 12 is not finite");
+  }
+}
+
 TEST(FindDefect, NamesFlatFacesAndPinchedVertices) {
   SurfaceMesh flat = box(8, Vec3::Constant(1.0)).mesh;
   // Split one edge by a vertex in its middle, but in one of its two faces only by a flat one.

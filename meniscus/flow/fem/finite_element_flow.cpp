@@ -162,9 +162,9 @@ FlowReport FiniteElementFlow::solve(const Scene& scene, double t) {
   const bool was_made =
       !is_kept && report.ok && report.solver == options_.linear && report.iterations > 0;
   prepared_at_ = was_made ? mesh_.x : Field<TetVertexId, Vec3>();
-  if (!report.ok) return {false, report.failure, report.iterations};
+  if (!report.ok) return {false, report.failure, report.iterations, report.failed_solvers};
   take_solution(scene, *problem);
-  return {true, {}, report.iterations};
+  return {true, {}, report.iterations, report.failed_solvers};
 }
 
 void FiniteElementFlow::take_solution(const Scene& scene, const InstantProblem& problem) {

@@ -131,6 +131,7 @@ StokesReport StokesSolver::solve(const StokesProblem& problem, StokesState& stat
     return report;
   }
   int iterations = 0;
+  std::vector<std::string> failed;
   std::vector<LinearSolver> order = solvers_in_order(options_.linear, problem.mesh.num_vertices());
   if (preconditioner == linear::Preconditioner::kept) order.insert(order.begin(), order.front());
   for (const LinearSolver which : order) {
@@ -139,11 +140,14 @@ StokesReport StokesSolver::solve(const StokesProblem& problem, StokesState& stat
     preconditioner = linear::Preconditioner::fresh;
     iterations += report.iterations;
     report.iterations = iterations;
+    report.failed_solvers = failed;
     if (report.ok) {
       state = std::move(attempt);
       return report;
     }
-    log::warning("linear solver {}: {}", linear::name(method(which)), report.failure);
+    failed.push_back(
+        fmt::format("linear solver {}: {}", linear::name(method(which)), report.failure));
+    log::warning("{}; trying another way", failed.back());
   }
   return report;
 }

@@ -23,6 +23,7 @@ struct [[nodiscard]] StokesReport {
   double residual = 0.0;                      ///< left over
   LinearSolver solver = LinearSolver::block;  ///< the one that gave the answer
   std::vector<double> linear_residuals;       ///< of its last solve
+  std::vector<std::string> failed_solvers;    ///< each with its reason, before that one
 };
 
 /// Solves R(u) = 0 by Newton's method, J δ = −R (eq. 13 of hooper2001), on one mesh topology. The
