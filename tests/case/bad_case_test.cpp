@@ -102,7 +102,8 @@ const std::vector<BadCase> kValues{
     {"NaN", shear_with("viscosity-ratio = nan\n"),
      "case.toml:6: drop.viscosity-ratio = nan must be finite and > 0"},
     {"NaN in a vector", shear_with("center = [0, nan, 0]\n"),
-     "case.toml:6: drop.center = [0.0, nan, 0.0] must be finite"},
+     "case.toml:6: drop.center = [0.0, nan, 0.0] must be finite and between -1000000 "
+     "and 1000000"},
     {"infinite time", shear_with("[time]\nend = inf\n"),
      "case.toml:7: time.end = inf must be finite and at least 0"},
     {"too few nodes", shear_with("nodes = 8\n"),

@@ -137,6 +137,18 @@ TEST(ReferencePage, InDocsIsThatOfTheSchema) {
          "  MENISCUS_UPDATE_DOCS=1 case_tests --gtest_filter='ReferencePage.*'";
 }
 
+TEST(Documentation, IndexNamesEveryPage) {
+  const std::filesystem::path docs = std::filesystem::path(__FILE__).parent_path() / "../../docs";
+  std::ifstream stream(docs / "README.md");
+  std::ostringstream index;
+  index << stream.rdbuf();
+  for (const auto& entry : std::filesystem::directory_iterator(docs)) {
+    const std::string page = entry.path().filename().string();
+    if (entry.path().extension() != ".md" || page == "README.md") continue;
+    EXPECT_NE(index.str().find("(" + page + ")"), std::string::npos) << page;
+  }
+}
+
 TEST(Examples, AreFoundByNameOrSuggested) {
   EXPECT_GE(examples().size(), 7u);
   EXPECT_NE(example_text("shear-subcritical").find("simple-shear"), std::string_view::npos);
