@@ -22,6 +22,12 @@ class CornerMerger {
   void add_corner(const Vec3& x) {
     const std::array<double, 3> key = {x[0] + 0.0, x[1] + 0.0, x[2] + 0.0};  // −0 is 0
     const auto next = static_cast<std::int64_t>(triangles_.points.size());
+    if (!x.allFinite()) {  // NaN has no place in the order of keys: a point of its own, refused
+                           // later
+      triangles_.points.push_back(x);
+      corners_[num_corners_++ % 3] = next;
+      return;
+    }
     const auto [found, is_new] = point_.try_emplace(key, next);
     if (is_new) triangles_.points.push_back(x);
     corners_[num_corners_++ % 3] = found->second;

@@ -125,11 +125,14 @@ TEST(BadScene, VerticesThatAreNotFiniteAreNamed) {
         message_of(file_case("drop.obj"), {}, folder.path()),
         {"case.toml:4: drop.surface = \"drop.obj\" cannot be used: ", "point 3", "not finite"});
   }
-  SurfaceMesh mesh = sphere(100);
-  mesh.x[VertexId{12}].x() = std::numeric_limits<double>::infinity();
-  folder.write_stl("drop.stl", mesh);
-  expect_parts(message_of(file_case("drop.stl"), {}, folder.path()),
-               {"case.toml:4: drop.surface = \"drop.stl\" cannot be used: ", "not finite"});
+  for (const double value :
+       {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    SurfaceMesh mesh = sphere(100);
+    mesh.x[VertexId{12}].x() = value;
+    folder.write_stl("drop.stl", mesh);
+    expect_parts(message_of(file_case("drop.stl"), {}, folder.path()),
+                 {"case.toml:4: drop.surface = \"drop.stl\" cannot be used: ", "not finite"});
+  }
 }
 
 TEST(BadScene, InsideOutSurfaceIsRefused) {
