@@ -55,21 +55,21 @@ Books books(int N0, fem::CapillaryForm form) {
   EXPECT_TRUE(flow->rebuild(scene).ok);
   EXPECT_TRUE(flow->solve(scene, 0.0).ok);
   const InterfaceMotion motion = normal_motion(scene, flow->velocity(), MotionNormal::area_vector);
-  const Books result{*flow->power(), surface_energy_rate(scene, motion)};
-  return result;
+  return {*flow->power(), surface_energy_rate(scene, motion)};
 }
 
 // The books close to second order in h, the accuracy of the velocity: of the drop's own share, the
 // rate of its surface, the weak and balanced forms miss 0.5 % and 0.2 % at N0 = 800 and the nodal
 // form, whose force is not the gradient of the triangulation's area, 4 %.
 TEST(Energy, BooksOfADropInShearCloseToSecondOrder) {
-  for (const fem::CapillaryForm form : {fem::CapillaryForm::weak, fem::CapillaryForm::nodal}) {
+  for (const auto& [form, largest_share] :
+       {std::pair(fem::CapillaryForm::weak, 0.01), std::pair(fem::CapillaryForm::nodal, 0.05)}) {
     std::vector<Books> of;
     for (const int N0 : {110, 200, 400, 800}) of.push_back(books(N0, form));
     for (std::size_t i = 1; i < of.size(); ++i)
       EXPECT_LT(of[i].residual(), of[i - 1].residual()) << i;
     EXPECT_LT(of[2].residual(), 0.02 * of[2].power.in);
-    EXPECT_LT(of[3].residual(), 0.05 * of[3].surface_rate);
+    EXPECT_LT(of[3].residual(), largest_share * of[3].surface_rate);
     // 1/h² ~ N0: from 200 to 800 by a factor of 4.
     EXPECT_NEAR(std::log2(of[1].residual() / of[3].residual()), 2.0, 0.2);
     for (const Books& each : of)
