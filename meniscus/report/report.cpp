@@ -97,7 +97,7 @@ std::string sections_html(const std::vector<SurfaceFrame>& frames) {
   if (frames.size() == 1) return text + "</div>\n";
   constexpr double width = 560.0, height = 56.0;
   const std::string bar = draw_color_bar(
-      times, "Sections through each drop’s centroid, by time t [1/G]", 10.0, 24.0, 420.0);
+      times, "Sections through each drop’s centroid, by time t [1/G]", 24.0, 24.0, 420.0);
   return text + "<div class=\"key\">" + inline_svg(bar, width, height, "Colours of time") +
          "</div></div>\n";
 }
@@ -131,7 +131,7 @@ std::string page_html(RunData& run) {
          "</div>\n" + drops_html(run) + case_html(run) +
          "<footer>Lengths in R₀, times in 1/G, stresses in μG; G is the rate of strain or shear, "
          "μ the outer viscosity. The figures behind the plots are in history.csv and drops.csv "
-         "beside this page, the meshes in surface.pvd and volume.pvd.</footer>\n"
+         "beside this page, the meshes in the .pvd files.</footer>\n"
          "</main>\n</body>\n</html>\n";
 }
 
