@@ -99,6 +99,10 @@ struct Case {
   SaddleMethod method;
   bool is_closed;
 };
+void PrintTo(const Case& each, std::ostream* out) {
+  *out << name(each.method) << (each.is_closed ? ", closed" : ", open");
+}
+
 class EveryMethod : public testing::TestWithParam<Case> {};
 
 TEST_P(EveryMethod, FindsTheSolution) {
