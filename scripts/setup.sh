@@ -1,22 +1,29 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that are missing for one purpose and does nothing when none is.
-#   scripts/setup.sh run|test|long|coverage
+#   scripts/setup.sh bare|run|test|long|coverage
+# `bare` is `run` without node and npm: the report is the plain page then.
 set -euo pipefail
 
 build=(make g++ cmake ninja-build pkgconf git ca-certificates python3 libpetsc-real-dev openmpi-bin
        libopenblas-dev libeigen3-dev libcgal-dev libtet1.5-dev libhdf5-openmpi-dev libvtk9-dev
-       libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libspdlog-dev)
+       libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libspdlog-dev zlib1g-dev
+       librsvg2-dev fonts-dejavu-core libmicrohttpd-dev)
+# The page that moves. Where node came from elsewhere, Debian's npm conflicts with it.
+page=()
+command -v npm >/dev/null || page=(nodejs npm)
 test=(libgtest-dev clang-format-14)
+browser=(chromium)
 # clang 14, Debian's default, cannot read the ranges of libstdc++ 12.
 long=(clang-tidy-16)
 coverage=(gcovr)
 
 case "${1:-}" in
-  run) wanted=("${build[@]}") ;;
-  test) wanted=("${build[@]}" "${test[@]}") ;;
-  long) wanted=("${build[@]}" "${test[@]}" "${long[@]}") ;;
+  bare) wanted=("${build[@]}") ;;
+  run) wanted=("${build[@]}" "${page[@]}") ;;
+  test) wanted=("${build[@]}" "${page[@]}" "${test[@]}" "${browser[@]}") ;;
+  long) wanted=("${build[@]}" "${page[@]}" "${test[@]}" "${browser[@]}" "${long[@]}") ;;
   coverage) wanted=("${build[@]}" "${test[@]}" "${coverage[@]}") ;;
-  *) echo "usage: $0 run|test|long|coverage" >&2; exit 2 ;;
+  *) echo "usage: $0 bare|run|test|long|coverage" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query >/dev/null; then

@@ -36,6 +36,11 @@ add_test(NAME refusals COMMAND Python3::Interpreter
   $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/refusals)
 set_tests_properties(refusals PROPERTIES TIMEOUT 300)
 
+add_test(NAME remesh COMMAND Python3::Interpreter
+  ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/remesh.py
+  $<TARGET_FILE:meniscus_program> ${CMAKE_CURRENT_BINARY_DIR}/remesh)
+set_tests_properties(remesh PROPERTIES TIMEOUT 900)
+
 add_test(NAME variants COMMAND Python3::Interpreter
   ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/variants.py
   $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/variants)
@@ -43,7 +48,7 @@ set_tests_properties(variants PROPERTIES TIMEOUT 900)
 
 # Dynamics against independent references: most of an hour on two cores.
 if(MENISCUS_LONG_TESTS)
-  add_test(NAME cases COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/cases/check_cases.py
-    $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/cases)
+  add_test(NAME cases COMMAND meniscus_program check --all --quiet
+    --cases ${PROJECT_SOURCE_DIR}/cases --output ${CMAKE_CURRENT_BINARY_DIR}/cases)
   set_tests_properties(cases PROPERTIES TIMEOUT 14400 LABELS long)
 endif()

@@ -16,6 +16,19 @@ namespace {
 
 using Action = std::function<int()>;
 
+void add_watch(CLI::App& command, WatchArguments& watch) {
+  CLI::Option* flag =
+      command.add_flag("--watch", watch.is_on, "Serve the page of the run while it goes on");
+  command.add_option("--port", watch.port, "Port of the page; 0: any that is free")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 65535))
+      ->needs(flag);
+  command
+      .add_option("--listen", watch.address, "Address of the page; others can be seen by others")
+      ->capture_default_str()
+      ->needs(flag);
+}
+
 void add_run(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<RunArguments>();
   CLI::App* command = app.add_subcommand("run", "Simulate a case");
@@ -29,6 +42,7 @@ void add_run(CLI::App& app, Action& action) {
       ->allow_extra_args(false);
   command->add_flag("--overwrite", arguments->is_overwrite, "Replace the run the folder holds");
   command->add_flag("-q,--quiet", arguments->is_quiet, "Print nothing but errors");
+  add_watch(*command, arguments->watch);
   command->callback(
       [&action, arguments] { action = [arguments] { return run_command(*arguments); }; });
 }
@@ -45,6 +59,7 @@ void add_resume(CLI::App& app, Action& action) {
   from->needs(output);
   output->needs(from);
   command->add_flag("-q,--quiet", arguments->is_quiet, "Print nothing but errors");
+  add_watch(*command, arguments->watch);
   command->callback(
       [&action, arguments] { action = [arguments] { return resume_command(*arguments); }; });
 }
@@ -62,13 +77,82 @@ void add_mesh(CLI::App& app, Action& action) {
       [&action, arguments] { action = [arguments] { return mesh_command(*arguments); }; });
 }
 
+void add_remesh(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<RemeshArguments>();
+  CLI::App* command = app.add_subcommand(
+      "remesh", "Triangulate a closed surface anew; say how good it was, is, and how near to it");
+  command->add_option("surface", arguments->surface, "Surface (.stl, .ply, .obj, .off, .vtp)")
+      ->required();
+  command->add_option("-o,--output", arguments->output,
+                      "File for the result, of any of these kinds [SURFACE-remeshed.EXT]");
+  CLI::Option* nodes = command->add_option(
+      "--nodes", arguments->nodes,
+      "By number of vertices, of all pieces together, dense where curved [as there are]");
+  CLI::Option* edge =
+      command->add_option("--edge-length", arguments->edge_length, "By mean edge, even everywhere");
+  CLI::Option* chord =
+      command->add_option("--chordal-error", arguments->chordal_error,
+                          "By the largest distance of a face from the smooth surface");
+  nodes->excludes(edge)->excludes(chord);
+  edge->excludes(chord);
+  command->add_option("--edge-floor", arguments->edge_floor, "No edge is asked to be shorter [0]");
+  command->add_option("--gradation", arguments->gradation,
+                      "Largest growth of the edge length per length [0.5]");
+  command->add_flag("--json", arguments->is_json, "Print the table as JSON");
+  command->add_flag("--overwrite", arguments->is_overwrite, "Replace a file of that name");
+  command->footer(
+      "Lengths are in the unit of the file. Each piece keeps its volume. Edges and corners of a\n"
+      "solid are rounded over about half of the mean edge: the surface is taken to be smooth.");
+  command->callback(
+      [&action, arguments] { action = [arguments] { return remesh_command(*arguments); }; });
+}
+
 void add_report(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<ReportArguments>();
   CLI::App* command = app.add_subcommand("report", "Make a run's page of plots again, or stills");
   command->add_option("directory", arguments->directory, "Folder of the run")->required();
-  command->add_flag("--svg", arguments->is_svg, "Write interface.svg and history.svg instead");
+  command->add_flag("--svg", arguments->is_svg,
+                    "Write interface, deformation, mesh and history as .svg instead");
+  command->add_flag("--png", arguments->is_png, "Write them as .png");
+  command->add_flag("--movie", arguments->is_movie, "Write interface.mp4 (needs ffmpeg)");
+  command->add_option("--times", arguments->times, "Times of the stills: --times 0,2,10 [spread]")
+      ->delimiter(',');
   command->callback(
       [&action, arguments] { action = [arguments] { return report_command(*arguments); }; });
+}
+
+void add_compare(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<CompareArguments>();
+  CLI::App* command = app.add_subcommand("compare", "Two or more runs in one page");
+  command->add_option("directories", arguments->directories, "Folders of the runs")
+      ->required()
+      ->expected(2, 8);
+  command->add_option("-o,--output", arguments->output, "The page to write")->capture_default_str();
+  command->callback(
+      [&action, arguments] { action = [arguments] { return compare_command(*arguments); }; });
+}
+
+void add_check(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<CheckArguments>();
+  CLI::App* command =
+      app.add_subcommand("check", "Rerun validation cases and compare them with their references");
+  CLI::Option* directories = command->add_option("directory", arguments->directories,
+                                                 "Folder of a case: case.toml and check.toml");
+  command->add_flag("--all", arguments->is_all, "Every case below --cases")->excludes(directories);
+  command->add_option("--cases", arguments->cases, "Folder of the cases, with --all [cases]");
+  command->add_option("-o,--output", arguments->output,
+                      "Folder for the runs and check.html [out/check]");
+  command->add_flag("--short", arguments->is_short, "Only the runs that take seconds");
+  CLI::Option* recorded = command->add_flag("--recorded", arguments->is_recorded,
+                                            "Run nothing: compare the results kept with the cases");
+  command->add_flag("--record", arguments->is_record, "Keep the results with the cases")
+      ->excludes(recorded);
+  command->add_flag("-q,--quiet", arguments->is_quiet, "Print nothing but the table and errors");
+  command->footer(
+      "A finished run of the same program and case is not made again, an unfinished one is taken\n"
+      "up. Exit status 1 when a quantity is outside its tolerance.");
+  command->callback(
+      [&action, arguments] { action = [arguments] { return check_command(*arguments); }; });
 }
 
 void add_explain(CLI::App& app, Action& action) {
@@ -104,7 +188,8 @@ int run_command_line(int argc, char** argv) {
   app.require_subcommand(1);
   ignore_write_signals();
   Action action;
-  for (const auto add : {add_run, add_resume, add_mesh, add_report, add_explain, add_examples})
+  for (const auto add : {add_run, add_resume, add_mesh, add_remesh, add_check, add_report,
+                         add_compare, add_explain, add_examples})
     add(app, action);
   try {
     app.parse(argc, argv);

@@ -6,12 +6,20 @@
 
 namespace meniscus {
 
+/// Whether and where the page of a run is served while it goes on.
+struct WatchArguments {
+  bool is_on = false;
+  std::string address = "127.0.0.1";
+  int port = 8642;
+};
+
 struct RunArguments {
   std::string case_file;
   std::string output;                  ///< empty: the case file's name without its ending
   std::vector<std::string> overrides;  ///< key=value
   bool is_overwrite = false;
   bool is_quiet = false;
+  WatchArguments watch = {};
 };
 /// `meniscus run`. Returns the exit status; so do all below.
 int run_command(const RunArguments& arguments);
@@ -22,6 +30,7 @@ struct ResumeArguments {
   std::string from;             ///< a checkpoint file; empty: the newest of the directory
   std::string output;           ///< with `from`: the new folder
   bool is_quiet = false;
+  WatchArguments watch = {};
 };
 int resume_command(const ResumeArguments& arguments);
 
@@ -32,11 +41,43 @@ struct MeshArguments {
 };
 int mesh_command(const MeshArguments& arguments);
 
+struct RemeshArguments {
+  std::string surface;
+  std::string output;  ///< empty: the surface's name with "-remeshed" before its ending
+  std::optional<double> nodes, edge_length, chordal_error;  ///< none: as many nodes as there are
+  double edge_floor = 0.0;
+  double gradation = 0.5;
+  bool is_json = false;
+  bool is_overwrite = false;
+};
+int remesh_command(const RemeshArguments& arguments);
+
 struct ReportArguments {
   std::string directory;
-  bool is_svg = false;  ///< stills instead of the page: interface.svg and history.svg
+  bool is_svg = false, is_png = false;  ///< stills instead of the page
+  bool is_movie = false;                ///< interface.mp4 instead of the page
+  std::vector<double> times;            ///< of the stills [1/G]; none: spread over the run
 };
 int report_command(const ReportArguments& arguments);
+
+struct CompareArguments {
+  std::vector<std::string> directories;
+  std::string output = "comparison.html";
+};
+int compare_command(const CompareArguments& arguments);
+
+struct CheckArguments {
+  std::vector<std::string> directories;
+  std::string cases = "cases";       ///< where --all looks
+  std::string output = "out/check";  ///< runs, and check.html
+  bool is_all = false;
+  bool is_short = false;     ///< only the runs marked short
+  bool is_recorded = false;  ///< compares the results kept beside the cases, runs nothing
+  bool is_record = false;    ///< keeps the results there
+  bool is_quiet = false;
+};
+int check_command(const CheckArguments& arguments);
+
 int explain_command(const std::string& key);
 /// Lists the examples, or writes the named one into the working directory.
 int examples_command(const std::string& name, bool is_overwrite);

@@ -1,5 +1,7 @@
 #include "meniscus/app/frames.hpp"
 
+#include <algorithm>
+
 #include "meniscus/io/vtk_file.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/curvature.hpp"
@@ -10,6 +12,38 @@ namespace {
 
 void append(std::vector<double>& values, const Vec3& v) {
   values.insert(values.end(), {v.x(), v.y(), v.z()});
+}
+
+/// p of the cell's corner at a vertex.
+double corner_value(const TetMesh& mesh, std::span<const double> on_corners, CellId c,
+                    TetVertexId v) {
+  const CellVertices& cell = mesh.cells[c];
+  const auto corner = static_cast<std::size_t>(std::ranges::find(cell, v) - cell.begin());
+  return on_corners[4 * static_cast<std::size_t>(c.value) + corner];
+}
+
+/// p_out − p_in at the vertices of all interfaces; no values where the flow has no pressure.
+std::vector<double> pressure_jump(const Evolution& evolution) {
+  const TetMesh* mesh = evolution.flow().volume_mesh();
+  const std::span<const double> p = evolution.flow().corner_pressure();
+  std::vector<double> jump;
+  if (mesh == nullptr || p.empty()) return jump;
+  for (std::size_t i = 0; i < mesh->interfaces.size(); ++i) {
+    const EmbeddedSurface& surface = mesh->interfaces[i];
+    const SurfaceMesh& triangles = evolution.scene().interfaces[i].mesh;
+    const std::size_t first = jump.size();
+    jump.resize(first + static_cast<std::size_t>(triangles.num_vertices()));
+    for (const FaceId f : triangles.faces.ids()) {
+      const auto [inside, outside] = surface.sides[f];
+      for (const VertexId v : triangles.faces[f]) {
+        // On either side of an interface the pressure has one value at a vertex: any face will do.
+        const TetVertexId at = surface.vertex(v);
+        jump[first + static_cast<std::size_t>(v.value)] =
+            corner_value(*mesh, p, outside, at) - corner_value(*mesh, p, inside, at);
+      }
+    }
+  }
+  return jump;
 }
 
 }  // namespace
@@ -35,8 +69,10 @@ void write_surface_frame(const std::filesystem::path& path, const Evolution& evo
     drop.values.insert(drop.values.end(), static_cast<std::size_t>(mesh.num_faces()),
                        scene.interfaces[i].drop);
   }
-  io::write_vtp(path, surfaces, {{curvature, normal_velocity, velocities, density}, {drop}},
-                evolution.t());
+  io::MeshData data{{curvature, normal_velocity, velocities, density}, {drop}};
+  const io::NamedArray jump{"pressure_jump", 1, pressure_jump(evolution)};
+  if (!jump.values.empty()) data.on_vertices.push_back(jump);
+  io::write_vtp(path, surfaces, data, evolution.t());
 }
 
 void write_volume_frame(const std::filesystem::path& path, const Evolution& evolution) {

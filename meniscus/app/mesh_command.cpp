@@ -2,10 +2,10 @@
 #include <numbers>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "meniscus/app/commands.hpp"
 #include "meniscus/app/frames.hpp"
+#include "meniscus/app/output_file.hpp"
 #include "meniscus/case/case.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/evolve/evolution.hpp"
@@ -38,18 +38,14 @@ void print_quality(const TetMesh& mesh) {
              q.min_volume);
 }
 
-void require_writable(const std::filesystem::path& file) {
-  if (file.extension() != ".vtu") reject_input("-o {}: the mesh is written as .vtu", file.string());
-  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-  if (!std::filesystem::is_directory(folder) || access(folder.c_str(), W_OK) != 0)
-    reject_input("-o {}: {} is no folder one can write to", file.string(), folder.string());
-  if (std::filesystem::is_directory(file)) reject_input("-o {}: is a folder", file.string());
-}
-
 }  // namespace
 
 int mesh_command(const MeshArguments& arguments) {
-  if (!arguments.output.empty()) require_writable(arguments.output);
+  if (!arguments.output.empty()) {
+    if (std::filesystem::path(arguments.output).extension() != ".vtu")
+      reject_input("-o {}: the mesh is written as .vtu", arguments.output);
+    require_writable(arguments.output);
+  }
   const Case c = read_case(arguments.case_file, arguments.overrides);
   if (c.method == FlowMethod::boundary_integral && !arguments.output.empty())
     reject_input("--output {}: boundary integrals need no volume mesh", arguments.output);

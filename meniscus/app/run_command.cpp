@@ -1,9 +1,11 @@
 #include <filesystem>
+#include <memory>
 
 #include <fmt/format.h>
 
 #include "meniscus/app/commands.hpp"
 #include "meniscus/app/interrupt.hpp"
+#include "meniscus/app/live_view.hpp"
 #include "meniscus/app/run_record.hpp"
 #include "meniscus/app/simulation.hpp"
 #include "meniscus/case/case.hpp"
@@ -47,15 +49,33 @@ void finish(const Simulation& simulation, const RunRecord& record, const std::st
   write_report(simulation.directory().path());
 }
 
+/// The live view, if one is wanted: it listens before the run begins, so that nothing is written
+/// when it cannot.
+std::unique_ptr<LiveView> make_live_view(const WatchArguments& watch) {
+  return watch.is_on ? std::make_unique<LiveView>(WatchAddress{watch.address, watch.port})
+                     : nullptr;
+}
+
+void begin_live_view(LiveView* view, Simulation& simulation, const Progress& progress) {
+  if (view == nullptr) return;
+  view->begin(simulation.directory().path());
+  view->update(simulation.directory());
+  simulation.set_observer([view](const RunDirectory& directory) { view->update(directory); });
+  progress.say(fmt::format("watch the run at {}", view->url()));
+}
+
 /// Runs to the end, keeping run.json and the report true however it ends.
-int simulate(Simulation& simulation, const RunRecord& record, Progress& progress) {
+int simulate(Simulation& simulation, const RunRecord& record, Progress& progress, LiveView* view) {
   watch_for_interrupts();
   record.write(simulation, "running");
+  begin_live_view(view, simulation, progress);
   const std::string folder = simulation.directory().path().string();
   try {
     const Outcome outcome = simulation.run(progress);
     progress.close();
-    finish(simulation, record, outcome == Outcome::done ? "done" : "stopped");
+    const std::string status = outcome == Outcome::done ? "done" : "stopped";
+    finish(simulation, record, status);
+    if (view != nullptr) view->end(status);
     if (outcome == Outcome::stopped) {
       progress.say(fmt::format("stopped at t = {:g}; go on with: meniscus resume {}",
                                simulation.evolution().t(), folder));
@@ -68,6 +88,7 @@ int simulate(Simulation& simulation, const RunRecord& record, Progress& progress
     } catch (const std::exception&) {
       log::warning("neither run.json nor the report could be brought up to date");
     }
+    if (view != nullptr) view->end("failed");
     throw;
   }
   progress.say(fmt::format("done: {} steps to t = {:g}; see {}/report.html",
@@ -80,7 +101,7 @@ void copy_run(const fs::path& from, const fs::path& to) {
   (void)RunDirectory::create(to, false);
   try {
     for (const char* name : {"history.csv", "drops.csv", "events.csv", "timing.csv", "run.json",
-                             "surface.pvd", "volume.pvd", "surface", "volume"})
+                             "surface.pvd", "volume.pvd", "surface", "volume", "reference.csv"})
       if (fs::exists(from / name))
         fs::copy(from / name, to / name,
                  fs::copy_options::recursive | fs::copy_options::overwrite_existing);
@@ -88,6 +109,18 @@ void copy_run(const fs::path& from, const fs::path& to) {
     remove_run(to);
     throw RunFailure(error.what());
   }
+}
+
+/// What the case is compared with stays with the run, which the page takes it from. A run that
+/// replaces another does not keep that one's.
+void copy_reference(const fs::path& case_folder, const fs::path& run_folder) {
+  const fs::path source = case_folder / "reference.csv", target = run_folder / "reference.csv";
+  std::error_code ignored;
+  if (fs::equivalent(fs::absolute(case_folder / "."), run_folder, ignored)) return;
+  if (fs::exists(source, ignored))
+    io::write_file(target, io::read_file(source));
+  else
+    fs::remove(target, ignored);
 }
 
 /// A checkpoint goes on only with the rows of the run it was taken in.
@@ -125,12 +158,14 @@ int run_command(const RunArguments& arguments) {
   if (const EvolutionReport prepared = evolution.prepare(); !prepared.ok)
     throw RunFailure(fmt::format("the initial mesh could not be made: {}", prepared.failure));
   require_first_step(evolution, c);
+  const std::unique_ptr<LiveView> view = make_live_view(arguments.watch);
   // Only now that the run can begin is anything written.
   RunDirectory directory = RunDirectory::create(folder, arguments.is_overwrite);
+  copy_reference(file.parent_path(), folder);
   Simulation simulation(std::move(evolution), std::move(directory), output_schedule(c.output),
                         case_description(c, file.parent_path()));
   Progress progress(0.0, c.evolution.end, arguments.is_quiet);
-  return simulate(simulation, RunRecord(c, arguments.case_file, text), progress);
+  return simulate(simulation, RunRecord(c, arguments.case_file, text), progress, view.get());
 }
 
 int resume_command(const ResumeArguments& arguments) {
@@ -153,6 +188,7 @@ int resume_command(const ResumeArguments& arguments) {
     require_same_run(archive, checkpoint, source);
     copy_run(source, folder);
   }
+  const std::unique_ptr<LiveView> view = make_live_view(arguments.watch);
   RunRecord record(c, "", "");
   record.go_on_from(folder / "run.json");
   Progress progress(evolution.t(), c.evolution.end, arguments.is_quiet);
@@ -160,19 +196,7 @@ int resume_command(const ResumeArguments& arguments) {
   Simulation simulation(std::move(evolution), std::move(directory), output_schedule(c.output),
                         case_description(c, archive.texts.at("case/folder")));
   simulation.load_schedule(archive);
-  return simulate(simulation, record, progress);
-}
-
-int report_command(const ReportArguments& arguments) {
-  const fs::path folder(arguments.directory);
-  if (!holds_run(folder)) reject_input("{} does not hold a run", arguments.directory);
-  if (!arguments.is_svg) {
-    write_report(folder);
-    return 0;
-  }
-  write_interface_svg(folder, folder / "interface.svg");
-  write_history_svg(folder, folder / "history.svg");
-  return 0;
+  return simulate(simulation, record, progress, view.get());
 }
 
 }  // namespace meniscus

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "meniscus/app/frames.hpp"
 #include "meniscus/core/error.hpp"
@@ -116,6 +118,21 @@ std::vector<io::PvdEntry> frames_before(const fs::path& pvd, double t) {
   return entries;
 }
 
+/// Those of the events in a table, and the ones before: their checkpoints stay.
+std::set<std::int64_t> steps_around_events(const fs::path& events) {
+  std::set<std::int64_t> steps;
+  if (!fs::exists(events)) return steps;
+  for (const double step : io::read_table(events).column("step")) {
+    steps.insert(std::llround(step));
+    steps.insert(std::llround(step) - 1);
+  }
+  return steps;
+}
+
+std::string joined_ids(const std::vector<int>& ids) {
+  return fmt::format("{}", fmt::join(ids, ";"));
+}
+
 io::TableWriter table(const fs::path& path, const std::vector<std::string>& columns,
                       std::optional<std::int64_t> first_step) {
   return first_step && fs::exists(path) ? io::TableWriter(path, columns, *first_step)
@@ -133,6 +150,8 @@ const std::vector<std::string>& timed_phases() {
 
 RunDirectory::RunDirectory(fs::path path, std::optional<std::int64_t> first_step)
     : path_(std::move(path)),
+      kept_steps_(first_step ? steps_around_events(path_ / "events.csv")
+                             : std::set<std::int64_t>{}),
       history_(table(path_ / "history.csv", kHistoryColumns, first_step)),
       drops_(table(path_ / "drops.csv", kDropColumns, first_step)),
       events_(table(path_ / "events.csv", kEventColumns, first_step)),
@@ -188,6 +207,16 @@ void RunDirectory::add_rows(const HistoryRow& h, const std::vector<DropRow>& dro
                 stress(1, 1) - stress(2, 2)});
 }
 
+void RunDirectory::add_events(std::int64_t step, double t,
+                              const std::vector<TopologyEvent>& events) {
+  for (const TopologyEvent& e : events)
+    events_.add({step, t, e.kind == EventKind::breakup ? "breakup" : "coalescence", e.place.x(),
+                 e.place.y(), e.place.z(), joined_ids(e.parents), joined_ids(e.children),
+                 e.volume_before, e.volume_after, e.area_before, e.area_after, e.energy_before,
+                 e.energy_after, cell(e.neck_radius), cell(e.gap)});
+  if (!events.empty()) kept_steps_.insert({step - 1, step});
+}
+
 void RunDirectory::add_timing(std::int64_t step, double t,
                               const std::vector<std::pair<std::string, double>>& seconds) {
   std::vector<io::Cell> row{step, t};
@@ -218,7 +247,8 @@ void RunDirectory::add_volume_frame(const Evolution& evolution) {
 void RunDirectory::write_checkpoint(const Archive& archive, std::int64_t step) {
   io::write_archive(path_ / fmt::format("checkpoint-{:06}.h5", step), archive);
   const auto all = checkpoints(path_);
-  for (std::size_t i = 0; i + kCheckpointsKept < all.size(); ++i) fs::remove(all[i].second);
+  for (std::size_t i = 0; i + kCheckpointsKept < all.size(); ++i)
+    if (!kept_steps_.contains(all[i].first)) fs::remove(all[i].second);
 }
 
 void RunDirectory::write_text(const std::string& name, const std::string& text) const {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,13 +24,18 @@ class RunDirectory {
   static RunDirectory take_up(const std::filesystem::path& path, std::int64_t first_step, double t);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// What surface.pvd and volume.pvd name.
+  [[nodiscard]] const std::vector<io::PvdEntry>& surface_frames() const { return surface_frames_; }
+  [[nodiscard]] const std::vector<io::PvdEntry>& volume_frames() const { return volume_frames_; }
 
   void add_rows(const HistoryRow& history, const std::vector<DropRow>& drops);
+  void add_events(std::int64_t step, double t, const std::vector<TopologyEvent>& events);
   void add_timing(std::int64_t step, double t,
                   const std::vector<std::pair<std::string, double>>& seconds);
   void add_surface_frame(const Evolution& evolution);
   void add_volume_frame(const Evolution& evolution);
-  /// Writes checkpoint-<step>.h5 and removes all but the last two.
+  /// Writes checkpoint-<step>.h5 and removes all but the last two and those around events: of the
+  /// steps in events.csv and the ones before.
   void write_checkpoint(const Archive& archive, std::int64_t step);
   void write_text(const std::string& name, const std::string& text) const;
 
@@ -37,6 +43,7 @@ class RunDirectory {
   RunDirectory(std::filesystem::path path, std::optional<std::int64_t> first_step);
 
   std::filesystem::path path_;
+  std::set<std::int64_t> kept_steps_;  // of checkpoints around events
   io::TableWriter history_, drops_, events_, timing_;
   std::vector<io::PvdEntry> surface_frames_, volume_frames_;
 };

@@ -34,10 +34,12 @@ void Simulation::load_schedule(const Archive& archive) {
 }
 
 Outcome Simulation::run(Progress& progress) {
+  bool is_after_event = false;
   for (bool is_first = true;; is_first = false) {
     const bool is_last = evolution_.is_finished(), is_stopped = !is_last && is_interrupted();
     const Archive state = state_before_solve();
-    if (is_first || is_last || is_stopped || evolution_.step() % schedule_.checkpoint_every == 0)
+    if (is_first || is_last || is_stopped || is_after_event ||
+        evolution_.step() % schedule_.checkpoint_every == 0)
       write_checkpoint(state);
     if (is_stopped) return Outcome::stopped;
     if (const EvolutionReport solved = evolution_.solve(); !solved.ok) {
@@ -51,6 +53,9 @@ Outcome Simulation::run(Progress& progress) {
       write_checkpoint(state);
       throw RunFailure(advanced.failure);
     }
+    // Around an event: the state before the step in which it happened, and the one after.
+    is_after_event = !evolution_.events().empty();
+    if (is_after_event) write_checkpoint(state);
   }
 }
 
@@ -83,6 +88,8 @@ void Simulation::record(Progress& progress, bool is_last) {
           schedule_.volume_interval > 0.0 ? next_multiple(schedule_.volume_interval, t) : HUGE_VAL;
     }
     directory_.add_rows(history, drops);
+    directory_.add_events(history.step, history.t, evolution_.events());
+    if (observer_) observer_(directory_);
   }
   const auto now = seconds();
   auto spent = now;

@@ -29,6 +29,10 @@ class Simulation {
 
   /// When the next frames are due, from the checkpoint the evolution was loaded from.
   void load_schedule(const Archive& archive);
+  /// Called after each row, when its files are whole.
+  void set_observer(std::function<void(const RunDirectory&)> observer) {
+    observer_ = std::move(observer);
+  }
   /// Throws RunFailure, a checkpoint being left, when the run cannot go on.
   Outcome run(Progress& progress);
 
@@ -47,6 +51,7 @@ class Simulation {
   RunDirectory directory_;
   OutputSchedule schedule_;
   std::function<void(Archive&)> describe_;
+  std::function<void(const RunDirectory&)> observer_;
   double next_surface_frame_ = 0.0, next_volume_frame_ = 0.0;
   PhaseTimes output_times_;
   std::vector<std::pair<std::string, double>> timed_;  // at the row before

@@ -25,6 +25,16 @@ std::string read_petsc_options(Settings& settings) {
   return options;
 }
 
+TopologyOptions read_topology(Settings& settings, double edge_floor) {
+  TopologyOptions options;
+  options.breakup_radius = settings.number("topology.breakup-radius");
+  options.coalescence =
+      settings.choice<bool>("topology.coalescence", {{"on", true}, {"off", false}});
+  options.coalescence_gap = settings.number("topology.coalescence-gap");
+  options.edge_floor = edge_floor;
+  return options;
+}
+
 }  // namespace
 
 EvolutionOptions read_evolution(Settings& settings) {
@@ -46,6 +56,8 @@ EvolutionOptions read_evolution(Settings& settings) {
   options.remesh_every = settings.whole("interface.remesh-every");
   options.edge_floor =
       settings.number_or("interface.edge-floor", 0.5 * settings.number("topology.breakup-radius"));
+  options.topology = read_topology(settings, options.edge_floor);
+  options.gap_layers = settings.whole("interface.gap-layers");
   return options;
 }
 
@@ -86,6 +98,7 @@ fem::Options read_finite_elements(Settings& settings) {
       settings.choice<Grading>("domain.grading", {{"linear", Grading::linear},
                                                   {"exponential", Grading::exponential},
                                                   {"gaussian", Grading::gaussian}});
+  options.volume_mesh.gap_layers = settings.whole("interface.gap-layers");
   options.volume_motion = settings.choice<VolumeMotion>("interface.volume-motion",
                                                         {{"spines", VolumeMotion::spines},
                                                          {"lagrangian", VolumeMotion::lagrangian},

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
@@ -36,6 +38,25 @@ std::optional<double> smallest_gap(const Scene& scene) {
       gap = std::min(gap, smallest_gap(scene.interfaces[i].mesh, scene.boundary.mesh));
   }
   return std::isfinite(gap) ? std::optional(gap) : std::nullopt;
+}
+
+SurfaceMotion surface_motion(const Scene& scene, const InterfaceMotion& motion) {
+  SurfaceMotion result;
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+    result.add(scene.interfaces[i].mesh, motion[i]);
+  return result;
+}
+
+std::string text_of(std::span<const int> ids) { return fmt::format("{}", fmt::join(ids, ", ")); }
+
+void announce(const TopologyEvent& event, double t) {
+  const auto [kind, size, what] =
+      event.kind == EventKind::breakup
+          ? std::tuple("breakup", *event.neck_radius, "a neck of radius")
+          : std::tuple("coalescence", *event.gap, "a gap of");
+  log::info("{} at t = {:.6g}: drop {} -> {}, at {} {:.3g} near ({:.4g}, {:.4g}, {:.4g})", kind, t,
+            text_of(event.parents), text_of(event.children), what, size, event.place.x(),
+            event.place.y(), event.place.z());
 }
 
 double largest_tension(const Scene& scene) {
@@ -78,8 +99,10 @@ EvolutionReport Evolution::advance() {
       t_ += dt;
       dt_ = dt;
       ++step_;
+      for (const TopologyEvent& event : events_) announce(event, t_);
       return report;
     }
+    if (report.is_final) return report;
     warnings_.push_back(
         fmt::format("step {} of length {:.3g} failed: {}", step_ + 1, dt, report.failure));
     log::warning("{}; trying a shorter one", warnings_.back());
@@ -115,11 +138,14 @@ EvolutionReport Evolution::try_step(double dt) {
 EvolutionReport Evolution::finish_step(const Scene& start, const InterfaceMotion& motion,
                                        double dt) {
   scene_ = start;
+  events_.clear();
   move_interfaces(scene_, motion, dt);
   for (const Interface& interface : scene_.interfaces)
     if (!is_finite(interface.mesh)) return {false, "an interface vertex left all bounds"};
   if (is_remesh_due()) {
+    const Scene moved = scene_;
     remesh_interfaces();
+    if (EvolutionReport changed = change_topology(moved, motion); !changed.ok) return changed;
     const FlowReport made = flow_->rebuild(scene_);
     return {made.ok, made.failure};
   }
@@ -139,23 +165,56 @@ double Evolution::step_length() const {
   return std::min(options_.max_step, options_.step_factor * capillary * shortest);
 }
 
+/// Of every interface and the outer boundary; none where no gap is asked about.
+std::vector<SurfaceTree> Evolution::trees_for_gaps() const {
+  std::vector<SurfaceTree> trees;
+  if (options_.gap_layers == 0.0) return trees;
+  for (const Interface& interface : scene_.interfaces) trees.emplace_back(interface.mesh);
+  if (!scene_.is_unbounded) trees.emplace_back(scene_.boundary.mesh);
+  return trees;
+}
+
 void Evolution::remesh_interfaces() {
   const PhaseTimer timer(times_, "remesh surface");
+  std::vector<SurfaceTree> trees = trees_for_gaps();
   for (std::size_t i = 0; i < scene_.interfaces.size(); ++i) {
     Interface& interface = scene_.interfaces[i];
     RemeshOptions options;
     options.C0 = interface.C0;
     options.volume = interface.volume;
     options.edge_floor = options_.edge_floor;
+    options.gap_layers = options_.gap_layers;
+    for (std::size_t j = 0; j < trees.size(); ++j)
+      if (j != i) options.neighbours.push_back(&trees[j]);
     options.find_fault = find_self_intersection;
     const RemeshReport report = remesh(interface.mesh, options);
     correction_[i] = report.volume_shift;
+    if (report.ok && i < trees.size()) trees[i] = SurfaceTree(interface.mesh);
     if (report.ok) continue;
     warnings_.push_back(fmt::format("drop {} was not remeshed at t = {:.6g}: {}", interface.drop,
                                     t_, report.failure));
     log::warning("{}", warnings_.back());
     correction_[i] = std::abs(restore_volume(interface.mesh, interface.volume));
   }
+}
+
+/// Cuts and bridges what is due in the interfaces as remeshed; `moved` with `motion` says how they
+/// came there. A step that makes drops touch is refused: with coalescence a shorter one lets them
+/// come close first, without it drops stay apart.
+EvolutionReport Evolution::change_topology(const Scene& moved, const InterfaceMotion& motion) {
+  if (std::string touching = find_touching_drops(scene_); !touching.empty())
+    return {false, options_.topology.coalescence
+                       ? std::move(touching)
+                       : touching + "; topology.coalescence = \"off\" keeps them apart"};
+  TopologyReport changed = apply_topology(scene_, options_.topology, surface_motion(moved, motion));
+  for (std::string& warning : changed.warnings)
+    warnings_.push_back(fmt::format("t = {:.6g}: {}", t_, warning));
+  if (!changed.refusal.empty()) return {false, std::move(changed.refusal), true};
+  if (changed.events.empty()) return {};
+  events_ = std::move(changed.events);
+  correction_.assign(scene_.interfaces.size(), 0.0);
+  remesh_interfaces();
+  return {};
 }
 
 void Evolution::restore_volumes() {

@@ -8,6 +8,7 @@
 #include "meniscus/evolve/options.hpp"
 #include "meniscus/evolve/record.hpp"
 #include "meniscus/flow/flow_solver.hpp"
+#include "meniscus/mesh/surface_tree.hpp"
 
 namespace meniscus {
 
@@ -15,6 +16,7 @@ namespace meniscus {
 struct [[nodiscard]] EvolutionReport {
   bool ok = true;
   std::string failure;
+  bool is_final = false;  ///< no shorter step would do: what comes must not happen
 };
 
 /// A scene that evolves in time: its interfaces move with the velocity a flow solver gives, and are
@@ -42,6 +44,9 @@ class Evolution {
   [[nodiscard]] const PhaseTimes& times() const { return times_; }
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
+  /// The changes of topology in the step that led to t_k.
+  [[nodiscard]] const std::vector<TopologyEvent>& events() const { return events_; }
+
   /// Δt = step_factor · min(1, 1/tension) · l_min within its bounds, for the shapes as they are.
   [[nodiscard]] double step_length() const;
 
@@ -57,7 +62,9 @@ class Evolution {
   EvolutionReport try_step(double dt);
   EvolutionReport finish_step(const Scene& start, const InterfaceMotion& motion, double dt);
   [[nodiscard]] bool is_remesh_due() const { return (step_ + 1) % options_.remesh_every == 0; }
+  [[nodiscard]] std::vector<SurfaceTree> trees_for_gaps() const;
   void remesh_interfaces();
+  EvolutionReport change_topology(const Scene& moved, const InterfaceMotion& motion);
   void restore_volumes();
   FlowReport solve_flow(double t);
 
@@ -69,6 +76,7 @@ class Evolution {
   std::int64_t step_ = 0;
   InterfaceMotion motion_;          // n n·v at t_k
   std::vector<double> correction_;  // per interface: largest shift that restored its volume
+  std::vector<TopologyEvent> events_;
   int iterations_ = 0;              // linear iterations since the last row
   mutable PhaseTimes times_;        // the clock is no part of the state
   std::vector<std::string> warnings_;

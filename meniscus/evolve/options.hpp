@@ -1,5 +1,7 @@
 #pragma once
 
+#include "meniscus/topology/apply_topology.hpp"
+
 namespace meniscus {
 
 enum class TimeScheme { rk2, euler };  ///< eqs 22 and 21 of hooper2001
@@ -18,6 +20,8 @@ struct EvolutionOptions {
   double min_step = 1e-6;   ///< a step that fails at this size ends the run
   int remesh_every = 1;     ///< steps between remeshings
   double edge_floor = 0.0;  ///< [R0] no interface edge is asked to be shorter
+  double gap_layers = 0.0;  ///< layers of tetrahedra asked for where sheets are close; 0: none
+  TopologyOptions topology;  ///< when necks are cut and gaps bridged
 };
 
 }  // namespace meniscus

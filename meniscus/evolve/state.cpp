@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/evolve/event_archive.hpp"
 #include "meniscus/evolve/evolution.hpp"
 
 namespace meniscus {
@@ -58,6 +59,23 @@ Interface load_interface(const Archive& archive, std::size_t i) {
   return interface;
 }
 
+// The liquids of the regions change with the interfaces.
+void save_liquids(const Scene& scene, Archive& archive) {
+  std::vector<double>& values = archive.reals["evolution/liquids"];
+  for (const Liquid& liquid : scene.liquids)
+    values.insert(values.end(), {liquid.viscosity, liquid.body_force.x(), liquid.body_force.y(),
+                                 liquid.body_force.z()});
+}
+
+Field<RegionId, Liquid> load_liquids(const Archive& archive, std::size_t num_interfaces) {
+  const auto& values = entry(archive.reals, "evolution/liquids", 4 * (num_interfaces + 1));
+  Field<RegionId, Liquid> liquids;
+  for (std::size_t k = 0; k < values.size(); k += 4)
+    liquids.add(
+        {.viscosity = values[k], .body_force = Vec3(values[k + 1], values[k + 2], values[k + 3])});
+  return liquids;
+}
+
 }  // namespace
 
 void Evolution::save(Archive& archive) const {
@@ -67,6 +85,8 @@ void Evolution::save(Archive& archive) const {
   archive.reals["evolution/corrections"] = correction_;
   for (std::size_t i = 0; i < scene_.interfaces.size(); ++i)
     save_interface(scene_.interfaces[i], i, archive);
+  save_liquids(scene_, archive);
+  save_events(events_, archive);
   flow_->save(archive);
 }
 
@@ -81,6 +101,8 @@ void Evolution::load(const Archive& archive) {
       static_cast<std::size_t>(entry(archive.integers, "evolution/interfaces", 1)[0]);
   scene_.interfaces.clear();
   for (std::size_t i = 0; i < count; ++i) scene_.interfaces.push_back(load_interface(archive, i));
+  scene_.liquids = load_liquids(archive, count);
+  events_ = load_events(archive);
   correction_ = entry(archive.reals, "evolution/corrections", count);
   flow_->load(archive, scene_);
 }

@@ -1,9 +1,11 @@
 #include "meniscus/io/surface_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <span>
+#include <string_view>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/atomic_file.hpp"
@@ -106,6 +108,11 @@ TaggedSurface to_surface(const RawTriangles& triangles) {
 }
 
 }  // namespace
+
+void require_surface_extension(const fs::path& path) {
+  constexpr std::array<std::string_view, 5> known{".stl", ".ply", ".obj", ".off", ".vtp"};
+  if (std::ranges::find(known, lower_extension(path)) == known.end()) reject_extension(path);
+}
 
 TaggedSurface read_surface(const fs::path& path) {
   const RawTriangles triangles = parse(path);

@@ -14,6 +14,9 @@ namespace meniscus::io {
 /// coordinates not finite).
 [[nodiscard]] TaggedSurface read_surface(const std::filesystem::path& path);
 
+/// Throws InvalidInput naming the file unless its extension is one that is read and written.
+void require_surface_extension(const std::filesystem::path& path);
+
 /// Writes by extension (stl, ply, obj, off, vtp). Throws RunFailure when the disk refuses.
 void write_surface(const std::filesystem::path& path, const SurfaceMesh& mesh);
 

@@ -183,14 +183,32 @@ std::vector<double> Table::column(const std::string& name) const {
   return values;
 }
 
-Table read_table(const fs::path& path) {
-  const std::string text = read_file(path);
+namespace {
+
+Table parse_table(const fs::path& path, std::string_view text) {
   std::vector<Record> records = parse_records(path, text);
   Table table{.columns = std::move(records[0].cells), .rows = {}};
   for (std::size_t i = 1; i < records.size(); ++i) {
     table.rows.push_back(std::move(records[i].cells));
   }
   return table;
+}
+
+}  // namespace
+
+Table read_table(const fs::path& path) { return parse_table(path, read_file(path)); }
+
+Table read_commented_table(const fs::path& path) {
+  const std::string text = read_file(path);
+  std::string rows;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
+    const std::string_view line = std::string_view(text).substr(at, end - at);
+    if (!line.starts_with('#') && line.find_first_not_of(" \t\r\n") != std::string_view::npos)
+      rows += line;
+    at = end;
+  }
+  return parse_table(path, rows);
 }
 
 }  // namespace meniscus::io

@@ -50,5 +50,8 @@ struct Table {
 /// A last line cut short is left out. Throws InvalidInput naming the file and the line when it is
 /// missing, empty, or a row has not as many cells as there are columns.
 [[nodiscard]] Table read_table(const std::filesystem::path& path);
+/// As `read_table`, of a table that people write: lines that begin with `#` and empty ones are
+/// skipped.
+[[nodiscard]] Table read_commented_table(const std::filesystem::path& path);
 
 }  // namespace meniscus::io

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -34,6 +36,15 @@ struct SurfaceFrame {
   MeshData data;
 };
 [[nodiscard]] SurfaceFrame read_vtp(const std::filesystem::path& path);
+
+/// Tetrahedra as a file gives them; points that lie on each other may have numbers of their own.
+struct VolumeFrame {
+  std::vector<Vec3> points;
+  std::vector<std::array<std::int32_t, 4>> cells;
+  MeshData data;
+};
+/// Throws InvalidInput naming the file and the fault (missing, corrupt, not all tetrahedra).
+[[nodiscard]] VolumeFrame read_vtu(const std::filesystem::path& path);
 
 /// The time series file of ParaView: rewritten whole (temporary name, rename) after each frame.
 struct PvdEntry {

@@ -12,7 +12,9 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/atomic_file.hpp"
@@ -41,26 +43,28 @@ bool have_arrays_types(std::string_view bytes) {
   return true;
 }
 
-[[noreturn]] void reject_foreign(const fs::path& path) {
-  reject_input("{}: not a surface file of VTK (.vtp), or corrupt", path.string());
+[[noreturn]] void reject_foreign(const fs::path& path, const char* kind) {
+  reject_input("{}: not a {}, or corrupt", path.string(), kind);
 }
 
-vtkSmartPointer<vtkPolyData> read_poly_data(const fs::path& path) {
+/// What one of VTK's readers makes of a file; `kind` serves the message.
+template <class Reader>
+auto read_data_set(const fs::path& path, const char* kind) {
   const std::string bytes = read_file(path);
-  if (!have_arrays_types(bytes)) reject_foreign(path);
+  if (!have_arrays_types(bytes)) reject_foreign(path, kind);
   const VtkMessages messages;
-  vtkNew<vtkXMLPolyDataReader> reader;
+  vtkNew<Reader> reader;
   reader->ReadFromInputStringOn();
   reader->SetInputString(bytes);
   try {
     reader->Update();
   } catch (const std::exception&) {  // an absurd length asks for more memory than there is
-    reject_foreign(path);
+    reject_foreign(path, kind);
   }
   if (messages.any() || reader->GetErrorCode() != 0 || reader->GetOutput() == nullptr) {
-    reject_foreign(path);
+    reject_foreign(path, kind);
   }
-  return reader->GetOutput();
+  return vtkSmartPointer(reader->GetOutput());
 }
 
 VertexField<Vec3> read_points(vtkPolyData& poly) {
@@ -116,15 +120,54 @@ std::vector<NamedArray> read_arrays(vtkFieldData& fields) {
   return arrays;
 }
 
+std::vector<std::array<std::int32_t, 4>> read_tetrahedra(const fs::path& path,
+                                                         vtkUnstructuredGrid& grid) {
+  std::vector<std::array<std::int32_t, 4>> cells;
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c) {
+    if (grid.GetCellType(c) != VTK_TETRA) {
+      reject_input("{}: cell {} is no tetrahedron; only these are read", path.string(), c);
+    }
+    grid.GetCells()->GetCellAtId(c, corners);
+    if (corners->GetNumberOfIds() != 4) {
+      reject_input("{}: cell {} has {} corners", path.string(), c, corners->GetNumberOfIds());
+    }
+    std::array<std::int32_t, 4>& cell = cells.emplace_back();
+    for (std::size_t k = 0; k < 4; ++k) {
+      const vtkIdType corner = corners->GetId(static_cast<vtkIdType>(k));
+      if (corner < 0 || corner >= grid.GetNumberOfPoints()) {
+        reject_input("{}: cell {} has the point {}; the file has {} points", path.string(), c,
+                     corner, grid.GetNumberOfPoints());
+      }
+      cell[k] = static_cast<std::int32_t>(corner);
+    }
+  }
+  return cells;
+}
+
 }  // namespace
 
 SurfaceFrame read_vtp(const fs::path& path) {
-  const vtkSmartPointer<vtkPolyData> poly = read_poly_data(path);
+  const auto poly = read_data_set<vtkXMLPolyDataReader>(path, "surface file of VTK (.vtp)");
   SurfaceFrame frame;
   frame.mesh.x = read_points(*poly);
   frame.mesh.faces = read_faces(path, *poly);
   frame.data.on_vertices = read_arrays(*poly->GetPointData());
   frame.data.on_cells = read_arrays(*poly->GetCellData());
+  return frame;
+}
+
+VolumeFrame read_vtu(const fs::path& path) {
+  const auto grid =
+      read_data_set<vtkXMLUnstructuredGridReader>(path, "volume mesh file of VTK (.vtu)");
+  VolumeFrame frame;
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i) {
+    const double* point = grid->GetPoint(i);
+    frame.points.emplace_back(point[0], point[1], point[2]);
+  }
+  frame.cells = read_tetrahedra(path, *grid);
+  frame.data.on_vertices = read_arrays(*grid->GetPointData());
+  frame.data.on_cells = read_arrays(*grid->GetCellData());
   return frame;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 #include "meniscus/core/error.hpp"
 
@@ -13,16 +14,32 @@ struct DirectedEdge {
   FaceId face;
 };
 
+/// The edges of all faces in the order of their smaller end, larger end, direction and face: by a
+/// counting sort over the smaller ends, whose few edges are then sorted each by themselves.
 std::vector<DirectedEdge> directed_edges(const SurfaceMesh& mesh) {
-  std::vector<DirectedEdge> edges;
-  edges.reserve(3 * static_cast<std::size_t>(mesh.num_faces()));
+  std::vector<std::int32_t> first(static_cast<std::size_t>(mesh.num_vertices()) + 1, 0);
+  const auto smaller = [](VertexId a, VertexId b) {
+    return static_cast<std::size_t>(std::min(a, b).value);
+  };
+  for (const FaceVertices& v : mesh.faces)
+    for (std::size_t k = 0; k < 3; ++k) ++first[smaller(v[k], v[(k + 1) % 3]) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+
+  std::vector<DirectedEdge> edges(3 * static_cast<std::size_t>(mesh.num_faces()));
+  std::vector<std::int32_t> next(first.begin(), first.end() - 1);
   for (const FaceId f : mesh.faces.ids()) {
     const FaceVertices& v = mesh.faces[f];
-    for (std::size_t k = 0; k < 3; ++k) edges.push_back({v[k], v[(k + 1) % 3], v[(k + 2) % 3], f});
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::int32_t& place = next[smaller(v[k], v[(k + 1) % 3])];
+      edges[static_cast<std::size_t>(place++)] = {v[k], v[(k + 1) % 3], v[(k + 2) % 3], f};
+    }
   }
-  std::ranges::sort(edges, {}, [](const DirectedEdge& e) {
-    return std::tuple(std::min(e.from, e.to), std::max(e.from, e.to), e.from, e.face);
-  });
+  for (std::size_t i = 0; i + 1 < first.size(); ++i)
+    std::sort(edges.begin() + first[i], edges.begin() + first[i + 1],
+              [](const DirectedEdge& d, const DirectedEdge& e) {
+                return std::tuple(std::max(d.from, d.to), d.from, d.face) <
+                       std::tuple(std::max(e.from, e.to), e.from, e.face);
+              });
   return edges;
 }
 

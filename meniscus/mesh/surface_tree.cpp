@@ -109,9 +109,10 @@ void SurfaceTree::search_closest(std::int32_t node, ClosestSearch& search) const
   if (far_reach < search.shrink * search.squared) search_closest(far, search);
 }
 
-std::optional<SurfaceTree::Hit> SurfaceTree::first_hit(const Vec3& origin,
-                                                       const Vec3& direction) const {
+std::optional<SurfaceTree::Hit> SurfaceTree::first_hit(const Vec3& origin, const Vec3& direction,
+                                                       double within) const {
   Hit best;
+  best.distance = within;
   search_ray(0, origin, direction, best);
   if (!best.face.is_valid()) return std::nullopt;
   return best;

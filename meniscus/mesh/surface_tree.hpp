@@ -29,8 +29,11 @@ class SurfaceTree {
   /// faces are about equally near, as at the centre of a sphere.
   [[nodiscard]] Hit closest(const Vec3& p, double within = std::numeric_limits<double>::infinity(),
                             double slack = 0.0) const;
-  /// The first face met by the ray from `origin` along the unit vector `direction`.
-  [[nodiscard]] std::optional<Hit> first_hit(const Vec3& origin, const Vec3& direction) const;
+  /// The first face met by the ray from `origin` along the unit vector `direction`, nearer than
+  /// `within`.
+  [[nodiscard]] std::optional<Hit> first_hit(
+      const Vec3& origin, const Vec3& direction,
+      double within = std::numeric_limits<double>::infinity()) const;
   /// Calls `visit` for every face whose box the box [low, high] touches, until it returns false.
   void visit_box(const Vec3& low, const Vec3& high,
                  const std::function<bool(FaceId, const Triangle&)>& visit) const;

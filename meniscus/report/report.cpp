@@ -12,7 +12,9 @@
 #include "meniscus/report/history_plots.hpp"
 #include "meniscus/report/interface_picture.hpp"
 #include "meniscus/report/interface_section.hpp"
-#include "meniscus/report/page_style.hpp"
+#include "meniscus/report/page.hpp"
+#include "meniscus/report/page_bundle.hpp"
+#include "meniscus/report/page_data.hpp"
 #include "meniscus/report/run_data.hpp"
 #include "meniscus/report/summary.hpp"
 #include "meniscus/report/text.hpp"
@@ -114,28 +116,65 @@ std::string plots_html(const RunData& run) {
   return text;
 }
 
-std::string page_html(RunData& run) {
+/// What can be seen without a script, and on paper: pictures and plots, each in a section that the
+/// page's script puts its own view in place of.
+std::string still_html(RunData& run) {
   const PageFrames page = page_frames(run);
-  const std::string pictures = interface_html(page) + sections_html(page.frames);
-  const std::string title = run.facts.title.empty() ? "A run of Meniscus" : run.facts.title;
-  // The policy lets a browser load nothing, so that the page is the same wherever it lies.
-  return fmt::format(
-             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-             "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-             "style-src 'unsafe-inline'\"/>\n<title>{}</title>\n<style>{}{}</style>\n</head>\n"
-             "<body>\n<main>\n",
-             escaped(title), page_style(), plot_style()) +
-         heading_html(run) + tiles_html(run) + pictures + plots_html(run) +
-         "<h2>The run</h2>\n<div class=\"columns\">\n" + facts_html(run) + phases_html(run) +
-         "</div>\n" + drops_html(run) + case_html(run) +
-         "<footer>Lengths in R₀, times in 1/G, stresses in μG; G is the rate of strain or shear, "
-         "μ the outer viscosity. The figures behind the plots are in history.csv and drops.csv "
-         "beside this page, the meshes in the .pvd files.</footer>\n"
-         "</main>\n</body>\n</html>\n";
+  return "<section class=\"still view\">\n" + interface_html(page) + sections_html(page.frames) +
+         "</section>\n<section class=\"still plots-of-run\">\n" + plots_html(run) + "</section>\n";
+}
+
+std::string end_html(const RunData& run) {
+  return "<h2>The run</h2>\n<div class=\"columns\">\n" + facts_html(run) + phases_html(run) +
+         "</div>\n" + drops_html(run) + case_html(run);
+}
+
+std::string title_of(const RunData& run) {
+  return run.facts.title.empty() ? "A run of Meniscus" : run.facts.title;
+}
+
+std::string page_html(RunData& run) {
+  PageParts parts{.title = title_of(run), .content = {}, .data = {}};
+  const PageBudget budget;
+  if (has_page_bundle()) {
+    PageRun packed = packed_run(run, budget);
+    parts.data = data_elements("report", std::span(&run, 1), std::span(&packed, 1), budget);
+  }
+  const std::string stills = still_html(run);  // before the heading, which names what failed here
+  parts.content =
+      heading_html(run) + tiles_html(run) + "<div id=\"app\"></div>\n" + stills + end_html(run);
+  return whole_page(parts);
 }
 
 }  // namespace
+
+std::string live_page(const fs::path& run_directory) {
+  if (!has_page_bundle()) {
+    reject_input(
+        "--watch: this program was built without the page's script; install node and npm and build "
+        "again");
+  }
+  const RunData run = load_run(run_directory);
+  PageParts parts{.title = title_of(run), .content = {}, .data = {}, .is_live = true};
+  parts.data = live_data_element(run);
+  parts.content = heading_html(run) + "<div id=\"app\"></div>\n<h2>The run</h2>\n" +
+                  facts_html(run) + case_html(run);
+  return whole_page(parts);
+}
+
+LivePart live_surface(const fs::path& path, double t) {
+  // A page asks for one frame at a time: it need not be as small as in a page that holds all.
+  constexpr int most_live_faces = 60000;
+  const SurfaceFrame whole = load_surface(path, t);
+  PackedFrame frame = packed(coarsened(whole, most_live_faces));
+  frame.num_faces_of_run = whole.mesh.num_faces();
+  return {entry_json(frame), std::move(frame.bytes)};
+}
+
+LivePart live_cuts(const fs::path& path, double t) {
+  PackedFrame cuts = packed(t, load_cuts(path));
+  return {entry_json(cuts), std::move(cuts.bytes)};
+}
 
 void write_report(const fs::path& run_directory) {
   RunData run = load_run(run_directory);

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace meniscus {
 
@@ -12,14 +14,34 @@ namespace meniscus {
 /// neither run.json nor history.csv, RunFailure when the disk refuses.
 void write_report(const std::filesystem::path& run_directory);
 
-/// A picture that stands alone (.svg): the interface at the frames nearest to `times` [1/G], or at
-/// six between the first and the last when none are given. Throws InvalidInput without frames.
-void write_interface_svg(const std::filesystem::path& run_directory,
-                         const std::filesystem::path& out, std::span<const double> times = {});
+/// The page of a run that is still going on, for a server: it asks for the tables and frames as
+/// they come (docs/report.md). Throws InvalidInput in a program built without the page's script.
+[[nodiscard]] std::string live_page(const std::filesystem::path& run_directory);
 
-/// All plots of the history in one picture that stands alone (.svg). Throws InvalidInput without
-/// history.csv.
-void write_history_svg(const std::filesystem::path& run_directory,
-                       const std::filesystem::path& out);
+/// One file of a run for that page: what it must know beforehand (JSON), and the packed bytes.
+struct LivePart {
+  std::string entry, bytes;
+};
+[[nodiscard]] LivePart live_surface(const std::filesystem::path& path, double t);
+[[nodiscard]] LivePart live_cuts(const std::filesystem::path& path, double t);
+
+/// One page of two or more runs: curves over each other, shapes at equal times, a table of what
+/// differs. Throws InvalidInput when one is no folder of a run.
+void write_comparison(std::span<const std::filesystem::path> run_directories,
+                      const std::filesystem::path& out);
+
+enum class StillFormat { svg, png };
+
+/// Pictures that stand alone, in the run's folder: interface (at the frames nearest to `times`, or
+/// at six when none are given), history (all plots), deformation (D(t) alone, with its reference)
+/// and mesh (the cut through the drops at the last volume mesh, or at those nearest to `times`),
+/// each as far as the run has what it shows. Returns their names. Throws InvalidInput when there is
+/// nothing to show.
+std::vector<std::string> write_stills(const std::filesystem::path& run_directory,
+                                      StillFormat format, std::span<const double> times = {});
+
+/// A film of the interface, all frames (.mp4), made by the program ffmpeg. Throws InvalidInput
+/// without frames or without ffmpeg, RunFailure when it fails.
+void write_movie(const std::filesystem::path& run_directory, const std::filesystem::path& out);
 
 }  // namespace meniscus

@@ -1,6 +1,7 @@
 #include "meniscus/report/run_data.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include <nlohmann/json.hpp>
@@ -89,24 +90,27 @@ void load_facts(RunData& run) {
   }
 }
 
-std::optional<io::Table> load_table(RunData& run, const char* name) {
+std::optional<io::Table> load_table(RunData& run, const char* name,
+                                    io::Table (*read)(const fs::path&) = io::read_table) {
   if (!fs::exists(run.folder / name)) return std::nullopt;
   try {
-    return io::read_table(run.folder / name);
+    return read(run.folder / name);
   } catch (const InvalidInput& error) {
     run.faults.emplace_back(error.what());
     return std::nullopt;
   }
 }
 
-void load_frames(RunData& run) {
-  if (!fs::exists(run.folder / "surface.pvd")) return;
+std::vector<io::PvdEntry> load_frames(RunData& run, const char* name) {
+  std::vector<io::PvdEntry> frames;
+  if (!fs::exists(run.folder / name)) return frames;
   try {
-    run.frames = io::read_pvd(run.folder / "surface.pvd");
-    std::ranges::stable_sort(run.frames, {}, &io::PvdEntry::t);
+    frames = io::read_pvd(run.folder / name);
+    std::ranges::stable_sort(frames, {}, &io::PvdEntry::t);
   } catch (const InvalidInput& error) {
     run.faults.emplace_back(error.what());
   }
+  return frames;
 }
 
 }  // namespace
@@ -115,6 +119,15 @@ std::string RunFacts::case_value(const std::string& key) const {
   const auto found =
       std::ranges::find(case_values, key, &std::pair<std::string, std::string>::first);
   return found == case_values.end() ? std::string() : found->second;
+}
+
+std::span<const TableFile> table_files() {
+  static constexpr std::array<TableFile, 5> files = {{{"history", "history.csv"},
+                                                      {"drops", "drops.csv"},
+                                                      {"events", "events.csv"},
+                                                      {"timing", "timing.csv"},
+                                                      {"reference", "reference.csv"}}};
+  return files;
 }
 
 RunData load_run(const fs::path& folder) {
@@ -129,7 +142,9 @@ RunData load_run(const fs::path& folder) {
   run.drops = load_table(run, "drops.csv");
   run.events = load_table(run, "events.csv");
   run.timing = load_table(run, "timing.csv");
-  load_frames(run);
+  run.reference = load_table(run, "reference.csv", io::read_commented_table);
+  run.frames = load_frames(run, "surface.pvd");
+  run.volume_frames = load_frames(run, "volume.pvd");
   return run;
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,9 +31,17 @@ struct RunData {
   std::filesystem::path folder;
   RunFacts facts;
   std::optional<io::Table> history, drops, events, timing;
-  std::vector<io::PvdEntry> frames;  ///< of the surface, in the order of time
+  std::optional<io::Table> reference;  ///< what the case is compared with: `t` and columns of above
+  std::vector<io::PvdEntry> frames;    ///< of the surface, in the order of time
+  std::vector<io::PvdEntry> volume_frames;  ///< likewise
   std::vector<std::string> faults;
 };
+
+/// The tables of a run that a page shows: name, and the file in its folder.
+struct TableFile {
+  const char *name, *file;
+};
+[[nodiscard]] std::span<const TableFile> table_files();
 
 /// Throws InvalidInput when the folder holds neither run.json nor history.csv.
 [[nodiscard]] RunData load_run(const std::filesystem::path& folder);

@@ -19,12 +19,29 @@ const io::NamedArray* find_scalar(const std::vector<io::NamedArray>& arrays, con
   return is_usable ? &*found : nullptr;
 }
 
+}  // namespace
+
+std::span<const SurfaceQuantity> surface_quantities() {
+  static constexpr std::array<SurfaceQuantity, 4> quantities = {
+      {{"curvature", "Curvature κ = k₁ + k₂", "1/R₀"},
+       {"normal_velocity", "Normal velocity v·n", "G R₀"},
+       {"pressure_jump", "Pressure jump p_out − p_in", "μG"},
+       {"node_density", "Nodes per area", "1/R₀²"}}};
+  return quantities;
+}
+
 SurfaceFrame load_surface(const std::filesystem::path& path, double t) {
   const io::SurfaceFrame file = io::read_vtp(path);
   if (!is_finite(file.mesh)) reject_input("{}: a coordinate is not finite", path.string());
   SurfaceFrame frame{.t = t, .mesh = file.mesh, .curvature = {}, .drop = {}};
   const auto* kappa = find_scalar(file.data.on_vertices, "curvature", frame.mesh.num_vertices());
   if (kappa != nullptr) frame.curvature = VertexField<double>(kappa->values);
+  for (const SurfaceQuantity& quantity : surface_quantities()) {
+    const auto* array =
+        find_scalar(file.data.on_vertices, quantity.name, frame.mesh.num_vertices());
+    if (array == nullptr) continue;
+    frame.fields.push_back({quantity.name, VertexField<double>(array->values)});
+  }
   frame.drop = FaceField<int>(frame.mesh.num_faces(), 0);
   if (const auto* drop = find_scalar(file.data.on_cells, "drop", frame.mesh.num_faces())) {
     std::ranges::transform(drop->values, frame.drop.begin(),
@@ -32,8 +49,6 @@ SurfaceFrame load_surface(const std::filesystem::path& path, double t) {
   }
   return frame;
 }
-
-}  // namespace
 
 std::vector<io::PvdEntry> nearest_frames(std::span<const io::PvdEntry> frames,
                                          std::span<const double> times) {
@@ -72,6 +87,22 @@ std::vector<SurfaceFrame> load_surfaces(RunData& run, std::span<const io::PvdEnt
   return surfaces;
 }
 
+namespace {
+
+/// Means of the values of the vertices that became one.
+VertexField<double> gathered(const VertexField<double>& values,
+                             const VertexField<VertexId>& to_coarse,
+                             const VertexField<double>& count) {
+  VertexField<double> means(values.empty() ? 0 : count.size(), 0.0);
+  for (const VertexId v : values.ids()) {
+    const VertexId coarse = to_coarse[v];
+    means[coarse] += values[v] / count[coarse];
+  }
+  return means;
+}
+
+}  // namespace
+
 SurfaceFrame coarsened(const SurfaceFrame& frame, int num_faces) {
   if (frame.mesh.num_faces() <= num_faces) return frame;
   // A surface of area S crosses about 1.5 S/h² cells of edge h, each with two faces around it.
@@ -89,14 +120,14 @@ SurfaceFrame coarsened(const SurfaceFrame& frame, int num_faces) {
     if (is_new) {
       count.add(0.0);
       result.mesh.x.add(Vec3::Zero());
-      if (!frame.curvature.empty()) result.curvature.add(0.0);
     }
     const double n = ++count[to_coarse[v]];
     Vec3& mean = result.mesh.x[to_coarse[v]];
     mean += (x - mean) / n;
-    if (frame.curvature.empty()) continue;
-    double& kappa = result.curvature[to_coarse[v]];
-    kappa += (frame.curvature[v] - kappa) / n;
+  }
+  result.curvature = gathered(frame.curvature, to_coarse, count);
+  for (const SurfaceField& field : frame.fields) {
+    result.fields.push_back({field.name, gathered(field.values, to_coarse, count)});
   }
   for (const FaceId f : frame.mesh.faces.ids()) {
     FaceVertices face;

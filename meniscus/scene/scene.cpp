@@ -121,6 +121,16 @@ bool has_open_patch(const Scene& scene) {
   });
 }
 
+void assign_regions(Scene& scene) {
+  std::vector<Bounds> bounds;
+  for (const Interface& interface : scene.interfaces) bounds.emplace_back(interface.mesh);
+  const std::vector<RegionId> surrounding = surrounding_regions(scene, bounds);
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+    scene.interfaces[i].inside = region_within(i);
+    scene.interfaces[i].outside = surrounding[i];
+  }
+}
+
 std::string find_conflict(const Scene& scene) {
   if (std::string fault = find_not_finite(scene); !fault.empty()) return fault;
   std::vector<Bounds> bounds;

@@ -58,8 +58,8 @@ SurfaceMesh assembled(const RemeshState& state) {
   return mesh;
 }
 
-/// The smallest mean length of the edges at a vertex.
-double smallest_mean_edge(const SurfaceMesh& mesh) {
+/// Mean length of the edges at each vertex.
+VertexField<double> mean_edges(const SurfaceMesh& mesh) {
   VertexField<double> length(mesh.num_vertices(), 0.0);
   VertexField<int> count(mesh.num_vertices(), 0);
   for (const FaceVertices& v : mesh.faces)
@@ -67,18 +67,21 @@ double smallest_mean_edge(const SurfaceMesh& mesh) {
       length[v[k]] += (mesh.x[v[(k + 1) % 3]] - mesh.x[v[k]]).norm();
       ++count[v[k]];
     }
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const VertexId v : mesh.x.ids()) smallest = std::min(smallest, length[v] / count[v]);
-  return smallest;
+  for (const VertexId v : length.ids()) length[v] /= count[v];
+  return length;
 }
 
-/// Restores the volume and records by how much it had changed and how far vertices moved for it.
+/// Restores the volume and records by how much it had changed and how far vertices moved for it:
+/// all by the same fraction of their edges, as a face lies below the surface by κl²/16 and κl is
+/// about the same everywhere.
 void correct_volume(SurfaceMesh& mesh, double volume_before, const RemeshOptions& options,
                     RemeshReport& report) {
   report.volume_change = enclosed_volume(mesh) / volume_before - 1.0;
-  report.volume_shift =
-      std::abs(restore_volume(mesh, options.volume > 0.0 ? options.volume : volume_before));
-  report.volume_shift_over_edge = report.volume_shift / smallest_mean_edge(mesh);
+  const VertexField<double> edges = mean_edges(mesh);
+  const double fraction =
+      restore_volume(mesh, options.volume > 0.0 ? options.volume : volume_before, edges);
+  report.volume_shift_over_edge = std::abs(fraction);
+  report.volume_shift = std::abs(fraction) * *std::ranges::max_element(edges);
 }
 
 /// Whether a face looks inward. Edits and springs keep faces within 60° of the surface; a surface
@@ -116,6 +119,7 @@ void RemeshOptions::validate() const {
           "zero or positive");
   require(edge_ceiling > edge_floor, "edge_ceiling", edge_ceiling, "larger than edge_floor");
   require(gradation > 0.0, "gradation", gradation, "positive");
+  require(gap_layers >= 0.0 && gap_layers <= 100.0, "gap_layers", gap_layers, "between 0 and 100");
   require(min_vertices >= 4, "min_vertices", min_vertices, "at least 4");
   require(max_sweeps >= 1, "max_sweeps", max_sweeps, "at least 1");
   require(equilibrium > 0.0 && equilibrium < 1.0, "equilibrium", equilibrium, "in (0, 1)");
@@ -139,9 +143,9 @@ RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options) {
     const RemeshReference reference = reference_surface(mesh, topology, options);
     RemeshState state = start_state(reference, mesh, topology);
     equilibrate(state, options, report);
+    report.expected_vertices = expected_vertices(state);
     if (has_fold(state)) return fail("a face is folded over");
 
-    report.expected_vertices = expected_vertices(state);
     SurfaceMesh result = assembled(state);
     correct_volume(result, volume, options, report);
     report.min_angle_deg = smallest_angle_deg(result);

@@ -2,8 +2,10 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "meniscus/mesh/surface_mesh.hpp"
+#include "meniscus/mesh/surface_tree.hpp"
 
 namespace meniscus {
 
@@ -22,6 +24,9 @@ struct RemeshOptions {
   /// What else makes the result unfit, in one line, else empty text (such as
   /// `find_self_intersection`); may be empty.
   std::function<std::string(const SurfaceMesh&)> find_fault = {};
+  double gap_layers = 0.0;  ///< layers of tetrahedra asked for where sheets are close; 0: none
+  /// Other surfaces that may be close; they must outlive the call.
+  std::vector<const SurfaceTree*> neighbours = {};
   void validate() const;  ///< Throws InvalidInput naming field, value, range.
 };
 
@@ -31,7 +36,7 @@ struct [[nodiscard]] RemeshReport {
   int splits = 0, collapses = 0, flips = 0, sweeps = 0;
   double volume_change = 0.0;           ///< relative, by remeshing, before the correction
   double volume_shift = 0.0;            ///< largest shift of a vertex by the correction [R0]
-  double volume_shift_over_edge = 0.0;  ///< the same over the local mean edge
+  double volume_shift_over_edge = 0.0;  ///< of each vertex, over the mean edge there
   double min_angle_deg = 0.0;
   double expected_vertices = 0.0;  ///< ∮ρ dS of eq. 2 on the result
 };
@@ -44,5 +49,8 @@ RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options);
 /// Shifts every vertex by the same multiple of its unit area vector A_i/|A_i| so that the enclosed
 /// volume becomes `volume` to 1e-13 relative; returns the size of the shift [R0], signed outward.
 double restore_volume(SurfaceMesh& mesh, double volume);
+/// The same with a shift of its own for each vertex: a common factor, which is returned, times its
+/// weight.
+double restore_volume(SurfaceMesh& mesh, double volume, const VertexField<double>& weights);
 
 }  // namespace meniscus

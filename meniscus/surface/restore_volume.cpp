@@ -13,9 +13,13 @@ constexpr int kMaxNewtonSteps = 20;         // V(s) is a cubic: a small shift ta
 }  // namespace
 
 double restore_volume(SurfaceMesh& mesh, double volume) {
+  return restore_volume(mesh, volume, VertexField<double>(mesh.num_vertices(), 1.0));
+}
+
+double restore_volume(SurfaceMesh& mesh, double volume, const VertexField<double>& weights) {
   MENISCUS_ASSERT(volume > 0.0, "volume = {}", volume);
   VertexField<Vec3> direction = vertex_area_vectors(mesh);
-  for (Vec3& d : direction) d.normalize();
+  for (const VertexId v : direction.ids()) direction[v] *= weights[v] / direction[v].norm();
   const VertexField<Vec3> start = mesh.x;
   double shift = 0.0;
   double error = enclosed_volume(mesh) - volume;

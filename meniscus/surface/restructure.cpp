@@ -1,6 +1,7 @@
 #include "meniscus/surface/restructure.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -129,23 +130,31 @@ bool try_collapse_edge(RemeshState& state, HalfedgeId h) {
   return true;
 }
 
-/// Sum of the two angles that face an edge [radians].
-double opposite_angles(const RemeshState& state, HalfedgeId h) {
+/// Sum of the two angles that face an edge less π [radians], if it is more than `least` ≥ −π/2;
+/// else some value below that. Most edges are far from flipping: they cost no angle.
+double opposite_angle_excess(const RemeshState& state, HalfedgeId h, double least) {
   const Vec3 &a = state.vertices[state.mesh.from(h)].x, &b = state.vertices[state.mesh.to(h)].x;
-  const auto angle = [&](const Vec3& apex) {
+  const auto cosine_and_sine = [&](const Vec3& apex) {
     const Vec3 p = a - apex, q = b - apex;
-    return std::atan2(p.cross(q).norm(), p.dot(q));
+    return std::pair(p.dot(q), p.cross(q).norm());
   };
-  return angle(state.vertices[state.mesh.opposite(h)].x) +
-         angle(state.vertices[state.mesh.opposite(state.mesh.twin(h))].x);
+  const auto [c1, s1] = cosine_and_sine(state.vertices[state.mesh.opposite(h)].x);
+  const auto [c2, s2] = cosine_and_sine(state.vertices[state.mesh.opposite(state.mesh.twin(h))].x);
+  // Cosine and sine of the sum, both times the same length.
+  const double cosine = c1 * c2 - s1 * s2, sine = s1 * c2 + c1 * s2;
+  // The sum is below π where the sine is positive, and below π/2 where the cosine is too.
+  const double tangent = std::tan(least);  // of −least from π
+  if (sine > 0.0 && (cosine >= 0.0 || sine > cosine * tangent)) return -std::numbers::pi;
+  return -std::atan2(sine, -cosine);
 }
 
 bool try_flip(RemeshState& state, HalfedgeId h) {
   const EditMesh& mesh = state.mesh;
   const VertexId a = mesh.from(h), b = mesh.to(h), c = mesh.opposite(h),
                  d = mesh.opposite(mesh.twin(h));
-  const double excess = opposite_angles(state, h) - std::numbers::pi;
-  if (excess < kDelaunaySlack - kLargestAllowance) return false;
+  constexpr double kLeast = kDelaunaySlack - kLargestAllowance;
+  const double excess = opposite_angle_excess(state, h, kLeast);
+  if (excess < kLeast) return false;
   const std::int32_t valence_a = mesh.valence(a), valence_b = mesh.valence(b);
   if (valence_a <= 4 || valence_b <= 4) return false;
   // Growth of Σ(valence − 6)² by the flip.
@@ -222,11 +231,23 @@ DensityEdits edit(RemeshState& state, const Candidates& candidates,
 }  // namespace
 
 int flip_to_delaunay(RemeshState& state) {
+  const EditMesh& mesh = state.mesh;
   int flips = 0;
-  for (int round = 0; round < kMaxFlipRounds; ++round) {
+  // The round in which an edge between the faces of a vertex was last flipped. Whether an edge
+  // flips depends on its four corners alone: after the first round, only those near flips may.
+  VertexField<int> last_flip(mesh.num_vertex_slots(), 0);
+  for (int round = 1; round <= kMaxFlipRounds; ++round) {
     int flipped = 0;
-    for (std::int32_t i = 0; i < state.mesh.num_halfedge_slots(); ++i)
-      if (state.mesh.is_representative(HalfedgeId{i}) && try_flip(state, HalfedgeId{i})) ++flipped;
+    for (std::int32_t i = 0; i < mesh.num_halfedge_slots(); ++i) {
+      const HalfedgeId h{i};
+      if (!mesh.is_representative(h)) continue;
+      const std::array<VertexId, 4> corners{mesh.from(h), mesh.to(h), mesh.opposite(h),
+                                            mesh.opposite(mesh.twin(h))};
+      const auto is_near = [&](VertexId v) { return last_flip[v] >= round - 1; };
+      if (!std::ranges::any_of(corners, is_near) || !try_flip(state, h)) continue;
+      for (const VertexId v : corners) last_flip[v] = round;
+      ++flipped;
+    }
     flips += flipped;
     if (flipped == 0) break;
   }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/gap.hpp"
 
 namespace meniscus {
 namespace {
@@ -21,26 +22,31 @@ VertexField<double> averaged_over_rings(const VertexField<double>& values,
   return result;
 }
 
-/// Lowers lengths until none exceeds a neighbour's by more than gradation × distance. Sweeps along
-/// the edges; the last finds nothing to do, and a sweep carries a bound over many edges.
-void limit_gradation(VertexField<double>& length, const SurfaceMesh& mesh,
-                     const SurfaceTopology& topology, double gradation) {
-  bool changed = true;
-  while (changed) {
-    changed = false;
-    for (const SurfaceEdge& e : topology.edges()) {
-      double &a = length[e.a], &b = length[e.b];
-      const double reach = gradation * (mesh.x[e.a] - mesh.x[e.b]).norm();
-      const double bound_a = b + reach, bound_b = a + reach;
-      if (a > bound_a * (1.0 + 1e-12)) {
-        a = bound_a;
-        changed = true;
-      } else if (b > bound_b * (1.0 + 1e-12)) {
-        b = bound_b;
-        changed = true;
-      }
-    }
+/// The shape operator k1 d1 d1ᵀ + k2 d2 d2ᵀ of a neighbour, turned into the tangent plane at n by
+/// the smallest rotation.
+Mat3 shape_operator(const VertexCurvature& c, const Vec3& n) {
+  const auto turned = [&](const Vec3& d) -> Vec3 {
+    return d - n.dot(d) / (1.0 + n.dot(c.n)) * (n + c.n);
+  };
+  const Vec3 d1 = turned(c.d1), d2 = turned(c.d2);
+  return c.k1 * d1 * d1.transpose() + c.k2 * d2 * d2.transpose();
+}
+
+/// ⟨κ⟩² at a vertex, the fit's error O(h²) taken out by one step of deferred correction. Fitted
+/// to one ring of radius h, the curvature of a height f(x) is f₂ + 7/96 h² f₄ with f₂ and f₄ its
+/// second and fourth derivative (least squares of cos⁴ by a quadratic form), and the mean of f₂
+/// over the ring is f₂ + 1/4 h² f₄: of what the mean exceeds the own value by, 7/24 is the error.
+double squared_rms(const VertexField<VertexCurvature>& curvature, std::span<const VertexId> ring,
+                   VertexId v) {
+  constexpr double kCorrection = 7.0 / 24.0;
+  const Vec3& n = curvature[v].n;
+  Mat3 sum = Mat3::Zero();
+  for (const VertexId w : ring) {
+    if (curvature[w].n.dot(n) <= 0.0) return std::pow(curvature[v].rms(), 2);
+    sum += shape_operator(curvature[w], n);
   }
+  const Mat3 own = shape_operator(curvature[v], n);
+  return 0.5 * (own + kCorrection * (own - sum / static_cast<double>(ring.size()))).squaredNorm();
 }
 
 /// C0 and the floor, raised and lowered so far that they leave a small or round drop its fewest
@@ -70,11 +76,31 @@ double length_of_density(double density) {
   return std::sqrt(2.0 / (std::numbers::sqrt3 * density));
 }
 
+void limit_gradation(VertexField<double>& length, const SurfaceMesh& mesh,
+                     const SurfaceTopology& topology, double gradation) {
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    for (const SurfaceEdge& e : topology.edges()) {
+      double &a = length[e.a], &b = length[e.b];
+      const double reach = gradation * (mesh.x[e.a] - mesh.x[e.b]).norm();
+      const double bound_a = b + reach, bound_b = a + reach;
+      if (a > bound_a * (1.0 + 1e-12)) {
+        a = bound_a;
+        changed = true;
+      } else if (b > bound_b * (1.0 + 1e-12)) {
+        b = bound_b;
+        changed = true;
+      }
+    }
+  }
+}
+
 VertexField<double> rest_lengths(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                                  const VertexField<VertexCurvature>& curvature,
                                  const RemeshOptions& options) {
   VertexField<double> squared(mesh.num_vertices());
-  for (const VertexId v : mesh.x.ids()) squared[v] = std::pow(curvature[v].rms(), 2);
+  for (const VertexId v : mesh.x.ids()) squared[v] = squared_rms(curvature, topology.ring(v), v);
   squared = averaged_over_rings(squared, topology);
 
   const auto [C0, edge_floor] = allowance(squared, mesh, options);
@@ -82,8 +108,14 @@ VertexField<double> rest_lengths(const SurfaceMesh& mesh, const SurfaceTopology&
   for (const VertexId v : mesh.x.ids()) {
     double l = std::min(length_of_density(C0 * squared[v]), options.edge_ceiling);
     if (options.size_bound) l = std::min(l, options.size_bound(mesh.x[v]));
-    length[v] = std::max(l, edge_floor);
+    length[v] = l;
   }
+  if (options.gap_layers > 0.0) {
+    VertexField<Vec3> normals(mesh.num_vertices());
+    for (const VertexId v : mesh.x.ids()) normals[v] = curvature[v].n;
+    bound_by_gaps(length, mesh, normals, options.gap_layers, options.neighbours);
+  }
+  for (double& l : length) l = std::max(l, edge_floor);
   limit_gradation(length, mesh, topology, options.gradation);
   return length;
 }

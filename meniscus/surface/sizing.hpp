@@ -11,6 +11,10 @@ namespace meniscus {
 [[nodiscard]] double density_of_length(double rest_length);
 [[nodiscard]] double length_of_density(double density);
 
+/// Lowers lengths until none exceeds a neighbour's by more than gradation × distance.
+void limit_gradation(VertexField<double>& length, const SurfaceMesh& mesh,
+                     const SurfaceTopology& topology, double gradation);
+
 /// Rest length l0 at the vertices [R0]:
 ///   ρ = C0⟨κ⟩² (eq. 1), averaged once with the first ring: ½(own + mean of ring);
 ///   l0 = (2/(√3 ρ))^½, at most edge_ceiling and size_bound(x), at least edge_floor;

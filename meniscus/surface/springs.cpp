@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace meniscus {
 namespace {
@@ -15,6 +16,9 @@ constexpr double kShortening = 0.85;
 constexpr double kStepTimesValence = 1.5;
 constexpr double kLongestMove = 0.25;  // of l0 in one step: no vertex can cross its ring
 constexpr int kMaxUnfoldings = 4;
+/// Of the move that counts as rest: vertices that would move less stay, and cost nothing. Most do
+/// while the neighbourhoods of a few edits settle.
+constexpr double kStill = 0.3;
 
 /// The next move of each vertex, tangential.
 VertexField<Vec3> spring_moves(const RemeshState& state) {
@@ -57,35 +61,59 @@ bool is_folded(const RemeshState& state, HalfedgeId h) {
                      state.vertices[mesh.opposite(h)]);
 }
 
-/// Puts the corners of folded faces back where they were; faces that were folded before stay.
-void take_back_folds(RemeshState& state, const VertexField<RemeshVertex>& before) {
-  const EditMesh& mesh = state.mesh;
-  for (int round = 0; round < kMaxUnfoldings; ++round) {
-    bool found = false;
-    for (std::int32_t i = 0; i < mesh.num_halfedge_slots(); i += 3) {
-      const HalfedgeId h{i};
-      if (!mesh.is_alive(h) || !is_folded(state, h)) continue;
-      found = true;
-      for (const VertexId v : {mesh.from(h), mesh.to(h), mesh.opposite(h)})
-        state.vertices[v] = before[v];
-    }
-    if (!found) return;
+/// One step of the springs: what it has moved, and from where.
+class Step {
+ public:
+  explicit Step(RemeshState& state) : state_(state), saved_(state.mesh.num_vertex_slots(), -1) {}
+
+  void move(VertexId v, const Vec3& d) {
+    RemeshVertex& vertex = state_.vertices[v];
+    saved_[v] = static_cast<std::int32_t>(before_.size());
+    before_.push_back(vertex);
+    vertex = vertex_at(state_.reference, state_.reference.walk.moved(vertex.place, d));
   }
-}
+
+  /// Puts the corners of folded faces back where they were; faces that were folded before stay.
+  void take_back_folds() {
+    const EditMesh& mesh = state_.mesh;
+    for (int round = 0; round < kMaxUnfoldings; ++round) {
+      bool found = false;
+      for (std::int32_t i = 0; i < mesh.num_halfedge_slots(); i += 3) {
+        const HalfedgeId h{i};
+        if (!mesh.is_alive(h) || !has_moved(h) || !is_folded(state_, h)) continue;
+        found = true;
+        for (const VertexId v : {mesh.from(h), mesh.to(h), mesh.opposite(h)})
+          if (has_moved(v)) state_.vertices[v] = before_[static_cast<std::size_t>(saved_[v])];
+      }
+      if (!found) return;
+    }
+  }
+
+ private:
+  [[nodiscard]] bool has_moved(VertexId v) const { return saved_[v] >= 0; }
+  /// Whether a corner of the face of h has.
+  [[nodiscard]] bool has_moved(HalfedgeId h) const {
+    const EditMesh& mesh = state_.mesh;
+    return has_moved(mesh.from(h)) || has_moved(mesh.to(h)) || has_moved(mesh.opposite(h));
+  }
+
+  RemeshState& state_;
+  VertexField<std::int32_t> saved_;  // place in before_, or -1
+  std::vector<RemeshVertex> before_;
+};
 
 }  // namespace
 
 int relax_springs(RemeshState& state, double equilibrium, int max_steps) {
-  for (int step = 0; step < max_steps; ++step) {
+  for (int number = 0; number < max_steps; ++number) {
     const VertexField<Vec3> moves = spring_moves(state);
-    if (largest_relative_move(state, moves) <= equilibrium) return step;
-    const VertexField<RemeshVertex> before = state.vertices;
-    for (const VertexId v : moves.ids()) {
-      if (!state.mesh.is_alive(v)) continue;
-      RemeshVertex& vertex = state.vertices[v];
-      vertex = vertex_at(state.reference, state.reference.walk.moved(vertex.place, moves[v]));
-    }
-    take_back_folds(state, before);
+    if (largest_relative_move(state, moves) <= equilibrium) return number;
+    Step step(state);
+    for (const VertexId v : moves.ids())
+      if (state.mesh.is_alive(v) &&
+          moves[v].norm() > kStill * equilibrium * state.vertices[v].rest_length)
+        step.move(v, moves[v]);
+    step.take_back_folds();
   }
   return max_steps;
 }

@@ -6,9 +6,15 @@
 #include <numeric>
 
 #include "meniscus/mesh/surface_check.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
 
 namespace meniscus {
 namespace {
+
+/// Layers of the surfaces' own edges that a gap may hold and still count as one: above 1/kGapEdge,
+/// the width that the surfaces have been remeshed for, by more than the error of the distances (a
+/// fifth); low enough that a sphere of 110 vertices, 5.5 edges across, is none for three layers.
+constexpr double kNarrow = 1.75;
 
 VertexField<double> mean_edge_at_vertices(const SurfaceMesh& mesh) {
   VertexField<double> sum(mesh.num_vertices(), 0.0), count(mesh.num_vertices(), 0.0);
@@ -57,8 +63,20 @@ double graded_size(Grading grading, double h_s, double d_s, double h_b, double d
   return h_s;
 }
 
-SizeLaw::Sized::Sized(const SurfaceMesh& surface)
-    : mesh(&surface), tree(surface), size(mean_edge_at_vertices(surface)) {}
+double gap_size(double width, double layers, double h) {
+  if (width > kNarrow * layers * h) return std::numeric_limits<double>::infinity();
+  return std::max(kGapEdge * width / layers, h);
+}
+
+SizeLaw::Sized::Sized(const SurfaceMesh& surface, double gap_layers)
+    : mesh(&surface), tree(surface), size(mean_edge_at_vertices(surface)) {
+  if (gap_layers == 0.0) return;
+  VertexField<Vec3> normals = vertex_area_vectors(surface);
+  for (Vec3& n : normals) n.normalize();
+  VertexField<double> reach = size;
+  for (double& r : reach) r *= kNarrow * gap_layers;
+  gaps = own_gaps(surface, tree, normals, reach);
+}
 
 SizeLaw::Sized::Nearest SizeLaw::Sized::nearest(const Vec3& x) const {
   // A fifth is within what a mesher makes of a wanted size, and costs half of an exact search.
@@ -67,14 +85,22 @@ SizeLaw::Sized::Nearest SizeLaw::Sized::nearest(const Vec3& x) const {
   Nearest result{hit.distance, 0.0};
   for (std::size_t k = 0; k < 3; ++k)
     result.size += hit.weights[static_cast<int>(k)] * size[mesh->faces[hit.face][k]];
+  if (gaps.inside.empty()) return result;
+  const auto narrowest = [&](const VertexField<double>& widths) {
+    const FaceVertices& v = mesh->faces[hit.face];
+    return std::min({widths[v[0]], widths[v[1]], widths[v[2]]});
+  };
+  result.inside = narrowest(gaps.inside);
+  result.outside = narrowest(gaps.outside);
   return result;
 }
 
 SizeLaw::SizeLaw(const Scene& scene, const VolumeMeshOptions& options)
     : options_(options), container_(containers(scene)), inside_first_(scene.interfaces.size()) {
   surfaces_.reserve(scene.interfaces.size() + 1);
-  for (const Interface& interface : scene.interfaces) surfaces_.emplace_back(interface.mesh);
-  surfaces_.emplace_back(scene.boundary.mesh);
+  for (const Interface& interface : scene.interfaces)
+    surfaces_.emplace_back(interface.mesh, options.gap_layers);
+  surfaces_.emplace_back(scene.boundary.mesh, 0.0);  // convex or far: it has no gap of its own
   std::iota(inside_first_.begin(), inside_first_.end(), std::size_t{0});
   std::ranges::stable_sort(inside_first_, std::greater<>(),
                            [&](std::size_t i) { return depth(container_, i); });
@@ -86,11 +112,22 @@ std::size_t SizeLaw::enclosing_surface(const Vec3& x) const {
   return innermost == inside_first_.end() ? container_.size() : *innermost;
 }
 
+double SizeLaw::bounded_by_gap(double size, const Sized::Nearest& a,
+                               const Sized::Nearest& b) const {
+  return std::min(size,
+                  gap_size(a.distance + b.distance, options_.gap_layers, std::min(a.size, b.size)));
+}
+
 double SizeLaw::operator()(const Vec3& x) const {
+  const bool with_gaps = options_.gap_layers > 0.0;
   const std::size_t enclosing = enclosing_surface(x);
   const Sized::Nearest outer = surfaces_[enclosing].nearest(x);
   bool has_inner = false;
   double size = outer.size + options_.interior_growth * outer.distance;
+  double bound = std::numeric_limits<double>::infinity();
+  if (with_gaps && enclosing < container_.size())
+    bound = gap_size(outer.inside, options_.gap_layers, outer.size);
+  std::vector<Sized::Nearest> inners;
   for (std::size_t i = 0; i < container_.size(); ++i) {
     if (container_[i] != enclosing) continue;
     const Sized::Nearest inner = surfaces_[i].nearest(x);
@@ -98,8 +135,13 @@ double SizeLaw::operator()(const Vec3& x) const {
         graded_size(options_.grading, inner.size, inner.distance, outer.size, outer.distance);
     size = has_inner ? std::min(size, law) : law;
     has_inner = true;
+    if (!with_gaps) continue;
+    bound = std::min(bound, gap_size(inner.outside, options_.gap_layers, inner.size));
+    bound = bounded_by_gap(bound, inner, outer);
+    for (const Sized::Nearest& other : inners) bound = bounded_by_gap(bound, inner, other);
+    inners.push_back(inner);
   }
-  return size;
+  return std::min(size, bound);
 }
 
 }  // namespace meniscus

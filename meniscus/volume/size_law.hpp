@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "meniscus/mesh/surface_tree.hpp"
+#include "meniscus/surface/gap.hpp"
 #include "meniscus/volume/tetrahedralize.hpp"
 
 namespace meniscus {
@@ -15,6 +16,11 @@ namespace meniscus {
 /// the last a bell whose standard deviation is a third of the way to the other surface.
 [[nodiscard]] double graded_size(Grading grading, double h_s, double d_s, double h_b, double d_b);
 
+/// Bound on the edge length in a gap of width `width` between surfaces whose edges are `h` long
+/// [R0], so that the gap holds `layers` layers: kGapEdge width/layers, but no less than h. Infinite
+/// where the gap is wider than 7/4 layers of h: the surfaces hold it by themselves.
+[[nodiscard]] double gap_size(double width, double layers, double h);
+
 /// The wanted edge length of the tetrahedra of a scene as a function of the point.
 ///
 /// Each region is bounded from outside by one surface (the interface that encloses it, or the outer
@@ -23,6 +29,10 @@ namespace meniscus {
 /// h_s + interior_growth d of the enclosing one. A law between two neighbouring drops would keep
 /// all of the space between them as fine as they are, however far apart; the smallest of the laws
 /// towards the enclosing surface is fine near each of them and grows in between.
+///
+/// With `gap_layers` > 0 the size is, besides, at most `gap_size` of each gap the point lies in:
+/// between any two of the surfaces around its region, the width being the sum of its distances from
+/// them; and between two sheets of one of them, the width being that at the nearest place.
 class SizeLaw {
  public:
   SizeLaw(const Scene& scene, const VolumeMeshOptions& options);
@@ -33,16 +43,20 @@ class SizeLaw {
  private:
   /// A surface with the mean length of the edges at each vertex.
   struct Sized {
-    explicit Sized(const SurfaceMesh& mesh);
+    Sized(const SurfaceMesh& mesh, double gap_layers);
     struct Nearest {
       double distance = 0.0, size = 0.0;
+      double inside = 0.0, outside = 0.0;  // widths of the surface's own gaps there
     };
     [[nodiscard]] Nearest nearest(const Vec3& x) const;
 
     const SurfaceMesh* mesh;
     SurfaceTree tree;
     VertexField<double> size;
+    OwnGaps gaps;  // empty without gap layers
   };
+  [[nodiscard]] double bounded_by_gap(double size, const Sized::Nearest& a,
+                                      const Sized::Nearest& b) const;
   [[nodiscard]] std::size_t enclosing_surface(const Vec3& x) const;
 
   VolumeMeshOptions options_;

@@ -119,6 +119,8 @@ void VolumeMeshOptions::validate() const {
   // Below √2 Delaunay refinement has no guarantee to end; in practice it does from 1.1 on.
   if (!(radius_edge >= 1.1 && radius_edge <= 10.0))
     reject_input("radius_edge = {} must lie between 1.1 and 10", radius_edge);
+  if (!(gap_layers >= 0.0 && gap_layers <= 100.0))
+    reject_input("gap_layers = {} must lie between 0 and 100", gap_layers);
 }
 
 VolumeMeshReport tetrahedralize(const Scene& scene, const VolumeMeshOptions& options,

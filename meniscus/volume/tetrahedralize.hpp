@@ -14,6 +14,7 @@ struct VolumeMeshOptions {
   double interior_growth =
       0.5;  ///< growth of size per distance inside a region that no farther surface bounds
   double radius_edge = 1.4;  ///< TetGen's radius-edge bound
+  double gap_layers = 0.0;   ///< layers of tetrahedra asked for where surfaces are close; 0: none
   void validate() const;
 };
 

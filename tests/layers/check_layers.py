@@ -17,16 +17,17 @@ USES = {
     "io": ["core", "geometry", "mesh"],
     "scene": ["core", "geometry", "mesh"],
     "surface": ["core", "geometry", "mesh", "scene"],
+    "topology": ["core", "geometry", "mesh", "scene", "surface"],
     "volume": ["core", "geometry", "mesh", "scene", "surface"],
     "flow": ["core", "geometry", "mesh", "scene", "volume"],
     "flow/fem": ["core", "geometry", "mesh", "linear", "scene", "surface", "volume", "flow"],
     "flow/bem": ["core", "geometry", "mesh", "linear", "scene", "surface", "flow"],
-    "evolve": ["core", "geometry", "mesh", "scene", "surface", "volume", "flow"],
-    "case": ["core", "geometry", "mesh", "io", "scene", "surface", "volume", "flow", "flow/fem",
-             "flow/bem", "evolve"],
+    "evolve": ["core", "geometry", "mesh", "scene", "surface", "topology", "volume", "flow"],
+    "case": ["core", "geometry", "mesh", "io", "scene", "surface", "topology", "volume", "flow",
+             "flow/fem", "flow/bem", "evolve"],
     "report": ["core", "geometry", "mesh", "io"],
-    "app": ["core", "geometry", "mesh", "linear", "io", "scene", "surface", "volume", "flow",
-            "flow/fem", "flow/bem", "evolve", "case", "report"],
+    "app": ["core", "geometry", "mesh", "linear", "io", "scene", "surface", "topology", "volume",
+            "flow", "flow/fem", "flow/bem", "evolve", "case", "report"],
 }
 
 # Single headers that are closed to a room which may use the rest of their room.
@@ -38,9 +39,12 @@ LIBRARIES = [
     ("VTK", re.compile(r"vtk"), ["io"]),
     ("HDF5", re.compile(r"hdf5|H5"), ["io"]),
     ("TetGen", re.compile(r"tetgen"), ["volume"]),
-    ("CGAL", re.compile(r"CGAL/"), ["geometry", "mesh", "surface", "volume"]),
+    ("CGAL", re.compile(r"CGAL/"), ["geometry", "mesh", "surface", "topology", "volume"]),
     ("toml++", re.compile(r"toml"), ["case"]),
     ("CLI11", re.compile(r"CLI/"), ["app"]),
+    ("libmicrohttpd", re.compile(r"microhttpd"), ["app"]),
+    ("librsvg and cairo", re.compile(r"librsvg|cairo"), ["report"]),
+    ("zlib", re.compile(r"zlib"), ["report"]),
     ("nlohmann-json", re.compile(r"nlohmann/"), ["case", "report", "app"]),
 ]
 

@@ -14,10 +14,18 @@ using test::get;
 using test::message_of;
 using test::put;
 
+/// A page without its script and what only that reads: tests/web looks at these in a browser.
+std::string without_scripts(std::string page) {
+  for (std::size_t at = page.find("<script"); at != std::string::npos; at = page.find("<script")) {
+    page.erase(at, page.find("</script>", at) + 9 - at);
+  }
+  return page;
+}
+
 /// The page of a run, checked for what holds of every page.
 std::string page_of(const std::filesystem::path& folder) {
   write_report(folder);
-  const std::string page = get(folder / "report.html");
+  const std::string page = without_scripts(get(folder / "report.html"));
   const test::Xml xml = test::parse_xml(page);
   EXPECT_EQ(xml.fault, "");
   EXPECT_EQ(test::bad_coordinate(xml), "");
@@ -183,20 +191,35 @@ TEST(Report, LargeRunsStaySmallPages) {
 
 TEST(Report, PicturesStandAlone) {
   const test::TemporaryFolder folder;
-  test::write_synthetic_run(folder.path(), {});
+  test::write_synthetic_run(folder.path(), {.num_volume_frames = 2});
+  const std::vector<std::string> names = {"interface.svg", "deformation.svg", "mesh.svg",
+                                          "history.svg"};
+  EXPECT_EQ(write_stills(folder.path(), StillFormat::svg), names);
+  EXPECT_EQ(count(get(folder / "interface.svg"), "class=\"mesh\""), 6);
+  EXPECT_EQ(count(get(folder / "mesh.svg"), "class=\"cut\""), 2);  // by liquid and by quality
+  EXPECT_TRUE(has(get(folder / "mesh.svg"), "t = 6,"));
   const double times[] = {0.0, 3.1};
-  write_interface_svg(folder.path(), folder / "all.svg");
-  write_interface_svg(folder.path(), folder / "two.svg", times);
-  write_history_svg(folder.path(), folder / "history.svg");
-  for (const char* name : {"all.svg", "two.svg", "history.svg"}) {
+  (void)write_stills(folder.path(), StillFormat::svg, times);
+  for (const std::string& name : names) {
     const test::Xml xml = test::parse_xml(get(folder / name));
     EXPECT_EQ(xml.fault, "") << name;
     EXPECT_EQ(test::bad_coordinate(xml), "") << name;
     EXPECT_EQ(test::outside_reference(xml), "") << name;
   }
-  EXPECT_EQ(count(get(folder / "all.svg"), "class=\"mesh\""), 6);
-  EXPECT_EQ(count(get(folder / "two.svg"), "class=\"mesh\""), 2);
-  EXPECT_TRUE(has(get(folder / "two.svg"), "t = 3<"));
+  EXPECT_EQ(count(get(folder / "interface.svg"), "class=\"mesh\""), 2);
+  EXPECT_TRUE(has(get(folder / "interface.svg"), "t = 3<"));
+  EXPECT_TRUE(has(get(folder / "mesh.svg"), "t = 0,"));
+}
+
+TEST(Report, ReferenceIsDrawn) {
+  const test::TemporaryFolder folder;
+  test::write_synthetic_run(folder.path(), {});
+  EXPECT_FALSE(has(page_of(folder.path()), "<title>reference</title>"));
+  put(folder / "reference.csv", "# Where it comes from.\nt,D\n0,0\n1,0.12\n6,0.2\n");
+  const std::string page = page_of(folder.path());
+  EXPECT_EQ(count(page, "<title>reference</title>"), 1);  // D has one, no other quantity
+  put(folder / "reference.csv", "# Where it comes from.\nt,D\n0\n1,2\n");
+  EXPECT_TRUE(has(page_of(folder.path()), "reference.csv:2: 1 cells where the header has 2"));
 }
 
 TEST(Report, RefusesWhatIsNoRun) {
@@ -205,10 +228,10 @@ TEST(Report, RefusesWhatIsNoRun) {
   EXPECT_EQ(message_of<InvalidInput>([&] { write_report(path); }),
             path + ": not the folder of a run; it holds neither run.json nor history.csv");
   put(folder / "run.json", "{}");
-  EXPECT_EQ(message_of<InvalidInput>([&] { write_interface_svg(path, folder / "i.svg"); }),
+  EXPECT_EQ(message_of<InvalidInput>([&] { (void)write_stills(path, StillFormat::svg); }),
+            path + ": no frame, mesh or history that a picture could show");
+  EXPECT_EQ(message_of<InvalidInput>([&] { write_movie(path, folder / "m.mp4"); }),
             path + ": no frame of the surface can be read");
-  EXPECT_EQ(message_of<InvalidInput>([&] { write_history_svg(path, folder / "h.svg"); }),
-            path + ": no history to plot");
   EXPECT_EQ(folder.num_entries(), 1);
 }
 

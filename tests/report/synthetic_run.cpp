@@ -3,13 +3,17 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <utility>
+#include <vector>
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "meniscus/io/table.hpp"
 #include "meniscus/io/vtk_file.hpp"
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/mesh/tet_mesh.hpp"
 
 namespace meniscus::test {
 namespace {
@@ -56,13 +60,15 @@ double curvature_at(const Shape& s, const Vec3& u) {
 void write_frame(const fs::path& path, const SyntheticRun& run, const SurfaceMesh& ball, double t) {
   std::vector<SurfaceMesh> meshes;
   io::NamedArray curvature{"curvature", 1, {}}, speed{"normal_velocity", 1, {}},
-      velocity{"velocity", 3, {}}, density{"node_density", 1, {}}, drop{"drop", 1, {}};
+      velocity{"velocity", 3, {}}, density{"node_density", 1, {}}, jump{"pressure_jump", 1, {}},
+      drop{"drop", 1, {}};
   for (int k = 0; k < run.num_drops; ++k) {
     const Shape shape = shape_at(t, k);
     SurfaceMesh mesh = ball;
     for (Vec3& x : mesh.x) {
       curvature.values.push_back(curvature_at(shape, x));
-      speed.values.push_back(std::exp(-t));
+      speed.values.push_back(std::exp(-t) * x.x() * x.y());
+      jump.values.push_back(-curvature.values.back() / 0.3);
       velocity.values.insert(velocity.values.end(), {x.y(), 0.0, 0.0});
       x = stretch(shape) * x + shape.center;
     }
@@ -72,7 +78,7 @@ void write_frame(const fs::path& path, const SyntheticRun& run, const SurfaceMes
   }
   std::vector<const SurfaceMesh*> surfaces;
   for (const SurfaceMesh& mesh : meshes) surfaces.push_back(&mesh);
-  io::write_vtp(path, surfaces, {{curvature, speed, velocity, density}, {drop}}, t);
+  io::write_vtp(path, surfaces, {{curvature, speed, velocity, density, jump}, {drop}}, t);
 }
 
 void write_frames(const fs::path& folder, const SyntheticRun& run) {
@@ -85,6 +91,55 @@ void write_frames(const fs::path& folder, const SyntheticRun& run) {
     write_frame(folder / entries.back().file, run, ball, t);
   }
   io::write_pvd(folder / "surface.pvd", entries);
+}
+
+/// Cubes of six tetrahedra each; those whose middle lies in the first drop are of region 1.
+TetMesh box_mesh(int cubes_per_side, const Shape& drop) {
+  constexpr double half_width = 4.0;
+  static constexpr int paths[6][2] = {{1, 2}, {2, 1}, {0, 2}, {2, 0}, {0, 1}, {1, 0}};
+  const int n = cubes_per_side;
+  TetMesh mesh;
+  for (int i = 0; i < (n + 1) * (n + 1) * (n + 1); ++i) {
+    const Vec3 corner(i % (n + 1), i / (n + 1) % (n + 1), i / ((n + 1) * (n + 1)));
+    mesh.x.add(half_width * (2.0 / n * corner - Vec3::Ones()));
+  }
+  const int strides[3] = {1, n + 1, (n + 1) * (n + 1)};
+  const Mat3 to_ball = stretch(drop).inverse();
+  for (int cube = 0; cube < n * n * n; ++cube) {
+    const int base = cube % n + cube / n % n * strides[1] + cube / (n * n) * strides[2];
+    for (const auto& [second, third] :
+         paths) {  // from corner to corner along the three axes in turn
+      const int first = 3 - second - third, a = base + strides[first], b = a + strides[second];
+      const int corners[4] = {base, a, b, b + strides[third]};
+      CellVertices cell;
+      Vec3 middle = Vec3::Zero();
+      for (std::size_t k = 0; k < 4; ++k) {
+        cell[k] = TetVertexId{corners[k]};
+        middle += 0.25 * mesh.x[cell[k]];
+      }
+      const CellId c = mesh.cells.add(cell);
+      if (signed_volume(mesh, c) < 0.0) std::swap(mesh.cells[c][2], mesh.cells[c][3]);
+      mesh.region.add(RegionId{(to_ball * (middle - drop.center)).norm() < 1.0 ? 1 : 0});
+    }
+  }
+  return mesh;
+}
+
+void write_volume_frames(const fs::path& folder, const SyntheticRun& run) {
+  fs::create_directories(folder / "volume");
+  std::vector<io::PvdEntry> entries;
+  for (int i = 0; i < run.num_volume_frames; ++i) {
+    const double t = run.num_volume_frames > 1 ? end_time * i / (run.num_volume_frames - 1) : 0.0;
+    const TetMesh mesh = box_mesh(12, shape_at(t, 0));
+    io::NamedArray region{"region", 1, {}}, dihedral{"min_dihedral_deg", 1, {}};
+    for (const CellId c : mesh.cells.ids()) {
+      region.values.push_back(mesh.region[c].value);
+      dihedral.values.push_back(30.0 + 25.0 * std::sin(c.value));
+    }
+    entries.push_back({t, fmt::format("volume/volume-{:04}.vtu", i)});
+    io::write_vtu(folder / entries.back().file, mesh, {{}, {region, dihedral}}, t);
+  }
+  io::write_pvd(folder / "volume.pvd", entries);
 }
 
 void write_drops(io::TableWriter& drops, const SyntheticRun& run, int step, double t) {
@@ -181,6 +236,7 @@ void write_synthetic_run(const fs::path& folder, const SyntheticRun& run) {
   fs::create_directories(folder);
   write_tables(folder, run);
   write_frames(folder, run);
+  if (run.num_volume_frames > 0) write_volume_frames(folder, run);
   std::ofstream(folder / "run.json") << record;
 }
 

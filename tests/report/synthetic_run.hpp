@@ -9,6 +9,7 @@ struct SyntheticRun {
   int num_frames = 11;  ///< of the surface
   int num_steps = 60;   ///< rows of the history, less one
   int num_vertices = 200;
+  int num_volume_frames = 0;
 };
 
 /// Writes the files of a run as the program does, from a formula instead of a flow: balls that

@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "meniscus/app/check_results.hpp"
+#include "meniscus/app/commands.hpp"
+#include "meniscus/app/run_comparison.hpp"
+#include "meniscus/case/case.hpp"
+#include "meniscus/case/check_file.hpp"
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/version.hpp"
+#include "meniscus/report/check_page.hpp"
+
+namespace meniscus {
+namespace {
+
+namespace fs = std::filesystem;
+using report::CheckLine;
+
+/// The folders below `cases` that hold a check.toml, by name.
+std::vector<fs::path> all_cases(const fs::path& cases) {
+  std::vector<fs::path> folders;
+  std::error_code unreadable;
+  for (const fs::directory_entry& entry : fs::directory_iterator(cases, unreadable))
+    if (fs::exists(entry.path() / "check.toml")) folders.push_back(entry.path());
+  if (folders.empty())
+    reject_input("{}: no folder here holds a check.toml; name one, or give --cases",
+                 cases.string());
+  std::ranges::sort(folders);
+  return folders;
+}
+
+std::vector<fs::path> chosen_cases(const CheckArguments& arguments) {
+  if (arguments.is_all) return all_cases(arguments.cases);
+  std::vector<fs::path> folders;
+  for (const std::string& name : arguments.directories) {
+    fs::path folder = fs::path(name).lexically_normal();
+    if (!folder.has_filename()) folder = folder.parent_path();
+    if (!fs::exists(folder / "check.toml"))
+      reject_input("{}: no validation case: it holds no check.toml", name);
+    folders.push_back(folder);
+  }
+  if (folders.empty()) reject_input("check: name the folder of a case, or give --all");
+  return folders;
+}
+
+/// Makes the run a check asks for, or takes it up where it was left. False: it could not end.
+bool simulate(const fs::path& case_file, const CheckedRun& run, const fs::path& folder,
+              bool is_quiet) {
+  switch (state_of_run(folder, read_case(case_file, run.overrides))) {
+    case RunState::finished:
+      return true;
+    case RunState::unfinished:
+      return resume_command({.directory = folder.string(),
+                             .until = {},
+                             .from = {},
+                             .output = {},
+                             .is_quiet = is_quiet}) == 0;
+    case RunState::absent:
+      break;
+  }
+  fs::create_directories(folder.parent_path());
+  RunArguments arguments;
+  arguments.case_file = case_file.string();
+  arguments.output = folder.string();
+  arguments.overrides = run.overrides;
+  arguments.is_overwrite = true;
+  arguments.is_quiet = is_quiet;
+  return run_command(arguments) == 0;
+}
+
+/// The tables of every run wanted, simulated or as they were recorded.
+std::map<std::string, RunTables> tables_of(const fs::path& folder, const std::string& name,
+                                           const CheckFile& check,
+                                           const CheckArguments& arguments) {
+  std::map<std::string, RunTables> tables;
+  for (const CheckedRun& run : check.runs) {
+    if (arguments.is_short && !run.is_short) continue;
+    if (arguments.is_recorded) {
+      if (fs::exists(folder / "results" / (file_name_of(run.name) + "-drops.csv")))
+        tables[run.name] = read_record(folder / "results", run.name);
+      continue;
+    }
+    const fs::path output =
+        fs::path(arguments.output) / fmt::format("{}-{}", name, file_name_of(run.name));
+    if (!arguments.is_quiet) fmt::print(stderr, "{}: {}\n", name, run.name);
+    if (!simulate(folder / "case.toml", run, output, arguments.is_quiet))
+      throw RunFailure(
+          fmt::format("{}: {}: the run stopped; check again to go on with it", name, run.name));
+    tables[run.name] = read_run_tables(output);
+    if (arguments.is_record) write_record(folder / "results", run.name, output);
+  }
+  return tables;
+}
+
+std::string amount(double value, bool is_absolute, bool is_signed) {
+  if (is_absolute) return is_signed ? fmt::format("{:+.2g}", value) : fmt::format("{:.2g}", value);
+  return is_signed ? fmt::format("{:+.2f} %", 100.0 * value)
+                   : fmt::format("{:.2g} %", 100.0 * value);
+}
+
+CheckLine line_of(const CheckRow& row) {
+  CheckLine line{.case_name = row.case_name,
+                 .run = row.run,
+                 .quantity = row.quantity,
+                 .place = {},
+                 .reference = {},
+                 .measured = {},
+                 .deviation = row.note,
+                 .tolerance = {}};
+  if (row.tolerance) line.tolerance = amount(*row.tolerance, row.is_absolute, false);
+  line.verdict = !row.worst       ? CheckLine::Verdict::missing
+                 : !row.is_held() ? CheckLine::Verdict::reported
+                 : row.passes()   ? CheckLine::Verdict::passed
+                                  : CheckLine::Verdict::failed;
+  if (!row.worst) return line;
+  if (row.compared > 1)
+    line.place = fmt::format("{:.4g} (worst of {})", row.worst->place, row.compared);
+  else if (std::isfinite(row.worst->place) && row.worst->place != 0.0)
+    line.place = fmt::format("{:.4g}", row.worst->place);
+  line.reference = fmt::format("{:.5g}", row.worst->reference);
+  line.measured = fmt::format("{:.5g}", row.worst->measured);
+  line.deviation = amount(row.worst->deviation, row.is_absolute, true);
+  return line;
+}
+
+std::vector<CheckRow> check_case(const fs::path& folder, const CheckArguments& arguments) {
+  const std::string name = fs::absolute(folder).filename().string();
+  const CheckFile check = read_check_file(folder / "check.toml");
+  std::optional<io::Table> reference;
+  if (fs::exists(folder / "reference.csv"))
+    reference = io::read_commented_table(folder / "reference.csv");
+  std::vector<CheckRow> rows =
+      compare(name, check, tables_of(folder, name, check, arguments), reference);
+  if (arguments.is_short)
+    std::erase_if(rows, [](const CheckRow& row) { return !row.worst && row.note == "not run"; });
+  return rows;
+}
+
+}  // namespace
+
+int check_command(const CheckArguments& arguments) {
+  if (arguments.is_recorded && arguments.is_record)
+    reject_input("--record writes what --recorded reads: only one of them");
+  std::vector<CheckLine> lines;
+  int failed = 0, held = 0;
+  for (const fs::path& folder : chosen_cases(arguments))
+    for (const CheckRow& row : check_case(folder, arguments)) {
+      lines.push_back(line_of(row));
+      // Without its run a record says nothing; a run made just now has no excuse.
+      const bool is_counted = row.is_held() && (row.worst || !arguments.is_recorded);
+      held += is_counted ? 1 : 0;
+      failed += is_counted && !row.passes() ? 1 : 0;
+    }
+  fmt::print("{}\n{} of {} passed\n", report::check_text(lines), held - failed, held);
+  fs::create_directories(arguments.output);
+  report::write_check_page(
+      lines,
+      fmt::format("Meniscus {} ({}): {} of {} quantities within their tolerance{}.", version_string,
+                  commit_string, held - failed, held,
+                  arguments.is_recorded ? ", as recorded beside the cases" : ""),
+      fs::path(arguments.output) / "check.html");
+  return failed > 0 ? 1 : 0;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,113 @@
+#include "meniscus/app/check_results.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/version.hpp"
+#include "meniscus/io/atomic_file.hpp"
+
+namespace meniscus {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// Steps that a record keeps, besides the last.
+constexpr std::size_t kRecordedSteps = 250;
+
+Json read_run_json(const fs::path& folder) {
+  std::ifstream file(folder / "run.json");
+  Json json = Json::parse(file, nullptr, false);
+  return json.is_object() ? json : Json::object();
+}
+
+std::string provenance(const fs::path& folder) {
+  const Json run = read_run_json(folder);
+  return fmt::format("# {} {} ({}), {}: {} steps in {:.0f} s on one core\n",
+                     run.value("program", ""), run.value("version", ""), run.value("commit", ""),
+                     run.value("finished", "").substr(0, 10), run.value("steps", 0),
+                     run.value("wall_seconds", 0.0));
+}
+
+/// Every k-th step and the last.
+std::set<std::string> kept_steps(const io::Table& history) {
+  const std::size_t column = history.find("step").value(), count = history.rows.size();
+  const std::size_t stride =
+      std::max<std::size_t>(1, (count + kRecordedSteps - 1) / kRecordedSteps);
+  std::set<std::string> steps;
+  for (std::size_t i = 0; i < count; ++i)
+    if (i % stride == 0 || i + 1 == count) steps.insert(history.rows[i][column]);
+  return steps;
+}
+
+/// A number with nine significant digits, beyond any figure compared; other cells as they are.
+std::string shortened(const std::string& cell) {
+  if (cell.find_first_of(".e") == std::string::npos) return cell;
+  char* end = nullptr;
+  const double value = std::strtod(cell.c_str(), &end);
+  return end == cell.c_str() + cell.size() ? fmt::format("{:.9g}", value) : cell;
+}
+
+std::string thinned(const io::Table& table, const std::set<std::string>& steps) {
+  const std::size_t column = table.find("step").value();
+  std::string text = fmt::format("{}\n", fmt::join(table.columns, ","));
+  for (const std::vector<std::string>& row : table.rows) {
+    if (!steps.contains(row[column])) continue;
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      if (k > 0) text += ',';
+      text += shortened(row[k]);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string file_name_of(const std::string& name) {
+  std::string result;
+  for (const char c : name) {
+    const auto u = static_cast<unsigned char>(c);
+    if (u < 128 && std::isalnum(u) != 0)
+      result += static_cast<char>(std::tolower(u));
+    else if (!result.empty() && result.back() != '-')
+      result += '-';
+  }
+  while (!result.empty() && result.back() == '-') result.pop_back();
+  return result;
+}
+
+RunState state_of_run(const fs::path& folder, const Case& c) {
+  const Json run = read_run_json(folder);
+  if (run.value("commit", "") != commit_string || !run.contains("case") ||
+      run["case"] != Json::parse(case_json(c)))
+    return RunState::absent;
+  return run.value("status", "") == "done" ? RunState::finished : RunState::unfinished;
+}
+
+RunTables read_run_tables(const fs::path& folder) {
+  return {io::read_table(folder / "drops.csv"), io::read_table(folder / "history.csv")};
+}
+
+RunTables read_record(const fs::path& results, const std::string& run) {
+  const std::string name = file_name_of(run);
+  return {io::read_commented_table(results / (name + "-drops.csv")),
+          io::read_commented_table(results / (name + "-history.csv"))};
+}
+
+void write_record(const fs::path& results, const std::string& run, const fs::path& folder) {
+  const RunTables tables = read_run_tables(folder);
+  const std::set<std::string> steps = kept_steps(tables.history);
+  const std::string head = provenance(folder), name = file_name_of(run);
+  fs::create_directories(results);
+  io::write_file(results / (name + "-drops.csv"), head + thinned(tables.drops, steps));
+  io::write_file(results / (name + "-history.csv"), head + thinned(tables.history, steps));
+}
+
+}  // namespace meniscus

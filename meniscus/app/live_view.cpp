@@ -1,0 +1,144 @@
+#include "meniscus/app/live_view.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <thread>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/log.hpp"
+#include "meniscus/report/report.hpp"
+
+namespace meniscus {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr const char* json_type = "application/json";
+constexpr const char* binary_type = "application/octet-stream";
+constexpr std::int64_t most_table_bytes = 1 << 22;  // at once; who is behind asks again
+
+/// The tables that can be asked for, by the path of the request.
+struct ServedTable {
+  std::string_view path;
+  const char *name, *file;
+};
+constexpr std::array<ServedTable, 5> served_tables = {
+    {{"/history.csv", "history", "history.csv"},
+     {"/drops.csv", "drops", "drops.csv"},
+     {"/events.csv", "events", "events.csv"},
+     {"/timing.csv", "timing", "timing.csv"},
+     {"/reference.csv", "reference", "reference.csv"}}};
+
+std::int64_t size_of(const fs::path& file) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  return error ? 0 : static_cast<std::int64_t>(size);
+}
+
+template <class Parts>
+WatchServer::Answer entries_from(const Parts& parts, std::int64_t from) {
+  std::string list;
+  for (std::size_t k = static_cast<std::size_t>(from); k < parts.size(); ++k)
+    list += (list.empty() ? "" : ",") + parts[k].entry;
+  return {200, json_type, "[" + list + "]", nullptr};
+}
+
+template <class Parts>
+WatchServer::Answer bytes_of(const Parts& parts, std::int64_t number) {
+  if (static_cast<std::size_t>(number) >= parts.size()) return {};
+  return {200, binary_type, {}, parts[static_cast<std::size_t>(number)].bytes};
+}
+
+}  // namespace
+
+LiveView::LiveView(const WatchAddress& address)
+    : address_(address.address),
+      server_(address, [this](std::string_view path, std::optional<std::int64_t> number) {
+        return answer(path, number);
+      }) {}
+
+std::string LiveView::url() const { return fmt::format("http://{}:{}/", address_, server_.port()); }
+
+void LiveView::begin(const fs::path& folder) {
+  auto page = std::make_shared<const std::string>(live_page(folder));
+  const std::lock_guard lock(mutex_);
+  folder_ = folder;
+  page_ = std::move(page);
+}
+
+void LiveView::update(const RunDirectory& directory) {
+  // Only this thread adds to the lists: their sizes can be read without the lock.
+  const auto add_new = [&](std::vector<Part>& parts, const std::vector<io::PvdEntry>& entries,
+                           LivePart (*pack)(const fs::path&, double)) {
+    for (std::size_t k = parts.size(); k < entries.size(); ++k) {
+      LivePart part = pack(directory.path() / entries[k].file, entries[k].t);
+      const std::lock_guard lock(mutex_);
+      parts.push_back(
+          {std::move(part.entry), std::make_shared<const std::string>(std::move(part.bytes))});
+    }
+  };
+  try {
+    add_new(frames_, directory.surface_frames(), live_surface);
+    add_new(cuts_, directory.volume_frames(), live_cuts);
+  } catch (const InvalidInput& error) {  // a view that lacks a frame is no reason to end a run
+    log::warning("live view: {}", error.what());
+  }
+}
+
+void LiveView::end(const std::string& status) {
+  const Clock::time_point now = Clock::now();
+  {
+    const std::lock_guard lock(mutex_);
+    status_ = status;
+  }
+  const auto last_question = [&] {
+    const std::lock_guard lock(mutex_);
+    return asked_;
+  };
+  // A page asks every second and then for what is new: it has all when it has been quiet for
+  // longer.
+  while (Clock::now() - now < 4s && Clock::now() - last_question() < 1500ms)
+    std::this_thread::sleep_for(50ms);
+}
+
+WatchServer::Answer LiveView::answer(std::string_view path, std::optional<std::int64_t> number) {
+  const std::lock_guard lock(mutex_);
+  if (path == "/favicon.ico") return {204, "text/plain", {}, nullptr};
+  if (page_ == nullptr) return {503, "text/plain", "the run is about to begin\n", nullptr};
+  asked_ = Clock::now();
+  if (path == "/") return {200, "text/html; charset=utf-8", {}, page_};
+  if (path == "/state") return {200, json_type, state(), nullptr};
+  if (path == "/frames") return entries_from(frames_, number.value_or(0));
+  if (path == "/cuts") return entries_from(cuts_, number.value_or(0));
+  if (path == "/frame" && number) return bytes_of(frames_, *number);
+  if (path == "/cut" && number) return bytes_of(cuts_, *number);
+  return table(path, number.value_or(0));
+}
+
+std::string LiveView::state() const {
+  nlohmann::ordered_json tables = nlohmann::ordered_json::object();
+  for (const auto& [path, name, file] : served_tables) tables[name] = size_of(folder_ / file);
+  return nlohmann::ordered_json{
+      {"status", status_}, {"frames", frames_.size()}, {"cuts", cuts_.size()}, {"tables", tables}}
+      .dump();
+}
+
+WatchServer::Answer LiveView::table(std::string_view path, std::int64_t from) const {
+  const auto found = std::ranges::find(served_tables, path, &ServedTable::path);
+  if (found == served_tables.end()) return {404, "text/plain", "not here\n", nullptr};
+  const fs::path file = folder_ / found->file;
+  const std::int64_t length = std::clamp<std::int64_t>(size_of(file) - from, 0, most_table_bytes);
+  std::string rows(static_cast<std::size_t>(length), '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.seekg(from);
+  stream.read(rows.data(), length);
+  rows.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, stream.gcount())));
+  return {200, "text/csv; charset=utf-8", std::move(rows), nullptr};
+}
+
+}  // namespace meniscus

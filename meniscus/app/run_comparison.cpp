@@ -1,0 +1,284 @@
+#include "meniscus/app/run_comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "meniscus/core/error.hpp"
+
+namespace meniscus {
+namespace {
+
+using Measure = CheckedQuantity::Measure;
+
+/// The volume of every drop of every run stays within this (relative).
+constexpr double kLargestDrift = 1e-6;
+/// Places at which two runs are compared when none are given.
+constexpr int kComparedPlaces = 50;
+
+/// The values of a column of drops.csv, by step, for one drop.
+std::map<double, double> by_step(const io::Table& drops, const std::string& column, int drop) {
+  const std::vector<double> steps = drops.column("step"), ids = drops.column("drop"),
+                            values = drops.column(column);
+  std::map<double, double> result;
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    if (ids[i] == drop) result[steps[i]] = values[i];
+  return result;
+}
+
+std::map<double, double> by_step(const RunTables& run, const std::string& column, int drop) {
+  if (run.drops.find(column)) return by_step(run.drops, column, drop);
+  if (!run.history.find(column))
+    reject_input("{}: neither drops.csv nor history.csv has this column", column);
+  const std::vector<double> steps = run.history.column("step"), values = run.history.column(column);
+  std::map<double, double> result;
+  for (std::size_t i = 0; i < steps.size(); ++i) result[steps[i]] = values[i];
+  return result;
+}
+
+std::string name_of(const CheckedQuantity& quantity) {
+  std::string name = quantity.column;
+  if (quantity.minus_drop) name += fmt::format(" of {} − {}", quantity.drop, *quantity.minus_drop);
+  if (quantity.measure == Measure::largest) return "largest " + name;
+  if (quantity.measure == Measure::smallest) return "smallest " + name;
+  if (quantity.measure == Measure::last) return "last " + name;
+  return name + "(" + quantity.over + ")";
+}
+
+double deviation_of(const CheckedQuantity& quantity, double measured, double reference) {
+  return quantity.is_absolute ? measured - reference : measured / reference - 1.0;
+}
+
+double extreme(const CheckedQuantity& quantity, const Series& series) {
+  if (series.y.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (quantity.measure == Measure::largest) return *std::ranges::max_element(series.y);
+  if (quantity.measure == Measure::smallest) return *std::ranges::min_element(series.y);
+  return series.y.back();
+}
+
+/// The number a quantity has in one run: an extreme, or the value of its curve at its one place.
+std::optional<double> single_value(const CheckedQuantity& quantity, const RunTables& run) {
+  const Series series = series_of(run, quantity);
+  if (quantity.measure == Measure::curve) return value_at(series, quantity.at.at(0));
+  return series.y.empty() ? std::nullopt : std::optional(extreme(quantity, series));
+}
+
+/// a of the least squares of a + b N0^−order.
+double limit(const std::vector<double>& nodes, const std::vector<double>& values, double order) {
+  double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const double x = std::pow(nodes[i], -order);
+    n += 1.0;
+    sx += x;
+    sy += values[i];
+    sxx += x * x;
+    sxy += x * values[i];
+  }
+  return (sy * sxx - sx * sxy) / (n * sxx - sx * sx);
+}
+
+class Comparison {
+ public:
+  Comparison(std::string case_name, const CheckFile& check,
+             const std::map<std::string, RunTables>& runs,
+             const std::optional<io::Table>& reference)
+      : case_name_(std::move(case_name)), check_(check), runs_(runs), reference_(reference) {}
+
+  std::vector<CheckRow> rows() {
+    for (const CheckedRun& run : check_.runs) {
+      for (const CheckedQuantity& quantity : run.quantities) add_quantity(run.name, quantity);
+      add_drift(run.name);
+    }
+    for (const CheckedExtrapolation& entry : check_.extrapolations) add_extrapolation(entry);
+    return std::move(rows_);
+  }
+
+ private:
+  CheckRow& add(const std::string& run, const CheckedQuantity& quantity) {
+    rows_.push_back({.case_name = case_name_,
+                     .run = run,
+                     .quantity = name_of(quantity),
+                     .worst = {},
+                     .tolerance = quantity.tolerance,
+                     .is_absolute = quantity.is_absolute,
+                     .note = {}});
+    return rows_.back();
+  }
+
+  void add_quantity(const std::string& run, const CheckedQuantity& quantity) {
+    CheckRow& row = add(run, quantity);
+    const auto found = runs_.find(run);
+    if (found == runs_.end()) {
+      row.note = "not run";
+    } else if (quantity.measure != Measure::curve || quantity.reference) {
+      compare_single(row, quantity, single_value(quantity, found->second));
+    } else {
+      compare_curve(row, quantity, series_of(found->second, quantity));
+    }
+  }
+
+  void add_drift(const std::string& run) {
+    const auto found = runs_.find(run);
+    if (found == runs_.end()) return;
+    double drift = 0.0;
+    for (const double value : found->second.drops.column("volume_drift"))
+      drift = std::max(drift, std::abs(value));
+    rows_.push_back({.case_name = case_name_,
+                     .run = run,
+                     .quantity = "largest volume_drift",
+                     .worst = Deviation{0.0, 0.0, drift, drift},
+                     .compared = 1,
+                     .tolerance = kLargestDrift,
+                     .is_absolute = true,
+                     .note = {}});
+  }
+
+  void add_extrapolation(const CheckedExtrapolation& entry) {
+    CheckRow& row = add(entry.name, entry.quantity);
+    std::string missing;
+    const std::optional<double> value = extrapolated(entry, missing);
+    if (!value)
+      row.note = missing;
+    else
+      compare_single(row, entry.quantity, value);
+  }
+
+  std::optional<double> extrapolated(const CheckedExtrapolation& entry,
+                                     std::string& missing) const {
+    std::vector<double> values;
+    for (const std::string& name : entry.runs) {
+      const auto found = runs_.find(name);
+      const std::optional<double> value =
+          found == runs_.end() ? std::nullopt : single_value(entry.quantity, found->second);
+      if (!value) {
+        missing = fmt::format("without \"{}\"", name);
+        return std::nullopt;
+      }
+      values.push_back(*value);
+    }
+    return limit(entry.nodes, values, entry.order);
+  }
+
+  /// What a quantity that is one number is compared with.
+  std::optional<double> single_reference(const CheckedQuantity& quantity) const {
+    if (quantity.reference) return quantity.reference;
+    if (quantity.against.empty()) return value_at(reference_series(quantity), quantity.at.at(0));
+    if (const auto run = runs_.find(quantity.against); run != runs_.end())
+      return single_value(quantity, run->second);
+    const auto entry =
+        std::ranges::find(check_.extrapolations, quantity.against, &CheckedExtrapolation::name);
+    std::string missing;
+    return entry == check_.extrapolations.end() ? std::nullopt : extrapolated(*entry, missing);
+  }
+
+  void compare_single(CheckRow& row, const CheckedQuantity& quantity,
+                      std::optional<double> measured) const {
+    const std::optional<double> reference = single_reference(quantity);
+    if (!measured || !reference) {
+      row.note = measured ? "no reference" : "not reached";
+      return;
+    }
+    row.compared = 1;
+    row.worst = {quantity.measure == Measure::curve ? quantity.at[0]
+                                                    : std::numeric_limits<double>::quiet_NaN(),
+                 *reference, *measured, deviation_of(quantity, *measured, *reference)};
+  }
+
+  [[nodiscard]] Series reference_series(const CheckedQuantity& quantity) const {
+    if (!reference_) reject_input("{}: no reference.csv for {}", case_name_, quantity.column);
+    return {reference_->column(quantity.over), reference_->column(quantity.column)};
+  }
+
+  void compare_curve(CheckRow& row, const CheckedQuantity& quantity, const Series& measured) const {
+    Series reference;
+    if (quantity.against.empty()) {
+      reference = reference_series(quantity);
+    } else {
+      const auto run = runs_.find(quantity.against);
+      if (run == runs_.end()) {
+        row.note = fmt::format("without \"{}\"", quantity.against);
+        return;
+      }
+      reference = series_of(run->second, quantity);
+    }
+    for (const double place : places(quantity, measured, reference)) {
+      const std::optional<double> a = value_at(measured, place), b = value_at(reference, place);
+      if (!a || !b) continue;
+      // Without a length of reference a ratio says nothing: spheres at rest have D = 0.
+      if (!quantity.is_absolute && *b == 0.0) continue;
+      ++row.compared;
+      const Deviation deviation{place, *b, *a, deviation_of(quantity, *a, *b)};
+      if (!row.worst || std::abs(deviation.deviation) > std::abs(row.worst->deviation))
+        row.worst = deviation;
+    }
+    if (!row.worst) row.note = "not reached";
+  }
+
+  /// Where a curve is compared: where it is asked for, at the reference's rows, or between two runs
+  /// at equal distances over the range they share.
+  static std::vector<double> places(const CheckedQuantity& quantity, const Series& measured,
+                                    const Series& reference) {
+    if (!quantity.at.empty()) return quantity.at;
+    if (quantity.against.empty()) return reference.x;
+    std::vector<double> result;
+    if (measured.x.empty() || reference.x.empty()) return result;
+    const double begin = std::max(*std::ranges::min_element(measured.x),
+                                  *std::ranges::min_element(reference.x)),
+                 end = std::min(*std::ranges::max_element(measured.x),
+                                *std::ranges::max_element(reference.x));
+    for (int i = 0; i <= kComparedPlaces && end > begin; ++i)
+      result.push_back(begin + (end - begin) * i / kComparedPlaces);
+    return result;
+  }
+
+  std::string case_name_;
+  const CheckFile& check_;
+  const std::map<std::string, RunTables>& runs_;
+  const std::optional<io::Table>& reference_;
+  std::vector<CheckRow> rows_;
+};
+
+}  // namespace
+
+bool CheckRow::passes() const {
+  return worst && tolerance && std::abs(worst->deviation) <= *tolerance;
+}
+
+Series series_of(const RunTables& run, const CheckedQuantity& quantity) {
+  std::map<double, double> y = by_step(run, quantity.column, quantity.drop);
+  if (quantity.minus_drop) {
+    const std::map<double, double> other = by_step(run, quantity.column, *quantity.minus_drop);
+    for (auto& [step, value] : y)
+      value -= other.contains(step) ? other.at(step) : std::numeric_limits<double>::quiet_NaN();
+  }
+  const std::map<double, double> x = by_step(run, quantity.over, quantity.drop);
+  Series series;
+  for (const auto& [step, value] : y) {
+    const auto place = x.find(step);
+    if (place == x.end() || !std::isfinite(value) || !std::isfinite(place->second)) continue;
+    series.x.push_back(place->second);
+    series.y.push_back(value);
+  }
+  return series;
+}
+
+std::optional<double> value_at(const Series& series, double x) {
+  for (std::size_t i = 0; i < series.x.size(); ++i) {
+    if (series.x[i] == x) return series.y[i];
+    if (i == 0) continue;
+    const double a = series.x[i - 1], b = series.x[i];
+    if ((a < x && x < b) || (b < x && x < a))
+      return series.y[i - 1] + (x - a) / (b - a) * (series.y[i] - series.y[i - 1]);
+  }
+  return std::nullopt;
+}
+
+std::vector<CheckRow> compare(const std::string& case_name, const CheckFile& check,
+                              const std::map<std::string, RunTables>& runs,
+                              const std::optional<io::Table>& reference) {
+  return Comparison(case_name, check, runs, reference).rows();
+}
+
+}  // namespace meniscus

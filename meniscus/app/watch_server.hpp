@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace meniscus {
+
+/// Where the live view of a run is served.
+struct WatchAddress {
+  std::string address = "127.0.0.1";  ///< IPv4; no other machine reaches the default
+  int port = 8642;                    ///< 0: any that is free
+};
+
+/// A small HTTP server on a thread of its own. It answers GET and HEAD for whatever its handler
+/// knows and refuses all else, a request with a body included. One thread serves all who ask, so
+/// that those who are slow hold up nobody; the number of connections, their memory and their
+/// silence are limited.
+class WatchServer {
+ public:
+  struct Answer {
+    int status = 404;
+    const char* type = "text/plain; charset=utf-8";
+    std::string text = {};                                ///< the body, or
+    std::shared_ptr<const std::string> shared = nullptr;  ///< one that many share
+  };
+  /// Called on the server's thread with the path, never to be taken for the name of a file, and the
+  /// whole number given as `from` or `number`, if any.
+  using Handler = std::function<Answer(std::string_view path, std::optional<std::int64_t> number)>;
+
+  /// Throws InvalidInput when the address is none or cannot be listened at.
+  WatchServer(const WatchAddress& address, Handler handler);
+  WatchServer(const WatchServer&) = delete;
+  WatchServer& operator=(const WatchServer&) = delete;
+  ~WatchServer();
+
+  [[nodiscard]] int port() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace meniscus

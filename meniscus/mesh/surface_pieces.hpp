@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "meniscus/mesh/surface_mesh.hpp"
+
+namespace meniscus {
+
+/// The connected pieces of a surface, each with its vertices and faces in the order they had;
+/// pieces in the order of their first faces. Vertices without a face are left out. Linear.
+[[nodiscard]] std::vector<SurfaceMesh> connected_pieces(const SurfaceMesh& mesh);
+
+/// The pieces as one surface: vertices and faces of one after those of the other.
+[[nodiscard]] SurfaceMesh joined(std::span<const SurfaceMesh> pieces);
+
+/// Turns every face over, so that what was inside is outside.
+void turn_inside_out(SurfaceMesh& mesh);
+
+}  // namespace meniscus

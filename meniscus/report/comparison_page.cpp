@@ -1,0 +1,210 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/io/atomic_file.hpp"
+#include "meniscus/report/comparison.hpp"
+#include "meniscus/report/history_plots.hpp"
+#include "meniscus/report/interface_picture.hpp"
+#include "meniscus/report/page.hpp"
+#include "meniscus/report/page_bundle.hpp"
+#include "meniscus/report/page_data.hpp"
+#include "meniscus/report/report.hpp"
+#include "meniscus/report/text.hpp"
+
+namespace meniscus {
+namespace {
+
+using namespace report;
+namespace fs = std::filesystem;
+
+constexpr double frame_width = 280.0;  // [px]
+constexpr int num_times = 4;
+constexpr std::size_t most_runs =
+    8;                             // as many views as a browser bears, and more than anybody reads
+constexpr int most_faces = 36000;  // of all pictures, 65 bytes each
+
+/// The folders' own names, with as much of their paths before as tells them apart.
+std::vector<std::string> names_of(std::span<const fs::path> folders) {
+  std::vector<fs::path> paths;
+  for (const fs::path& folder : folders)
+    paths.push_back(fs::absolute(folder / ".").lexically_normal().parent_path());
+  std::vector<std::string> names;
+  for (const fs::path& path : paths) {
+    std::string name = path.filename().string();
+    const auto is_same = [&](const fs::path& other) { return other.filename() == path.filename(); };
+    if (std::ranges::count_if(paths, is_same) > 1)
+      name = (path.parent_path().filename() / name).string();
+    names.push_back(name);
+  }
+  return names;
+}
+
+std::string facts_row(const char* label, std::span<const RunData> runs,
+                      const std::function<std::string(const RunData&)>& value) {
+  std::string cells;
+  bool is_empty = true;
+  for (const RunData& run : runs) {
+    const std::string text = value(run);
+    is_empty &= text.empty();
+    cells += fmt::format("<td>{}</td>", escaped(text));
+  }
+  return is_empty ? "" : fmt::format("<tr><th>{}</th>{}</tr>\n", label, cells);
+}
+
+/// What each run is, one beside the other; of the keys of the case, those that differ.
+std::string runs_html(std::span<const RunData> runs, std::span<const std::string> names) {
+  std::string head, rows;
+  for (const std::string& name : names) head += fmt::format("<th>{}</th>", escaped(name));
+  rows += facts_row("Title", runs, [](const RunData& run) { return run.facts.title; });
+  rows += facts_row("Status", runs, [](const RunData& run) { return run.facts.status; });
+  rows += facts_row("Version", runs, [](const RunData& run) {
+    return run.facts.version + (run.facts.commit.empty() ? "" : " (" + run.facts.commit + ")");
+  });
+  rows += facts_row("Steps", runs, [](const RunData& run) { return run.facts.steps; });
+  rows += facts_row("Time reached", runs, [](const RunData& run) { return run.facts.t; });
+  rows += facts_row("Wall time", runs, [](const RunData& run) {
+    return run.facts.wall_seconds > 0.0 ? readable_duration(run.facts.wall_seconds) : "";
+  });
+  std::map<std::string, bool> seen;
+  for (const RunData& run : runs) {
+    for (const auto& [key, ignored] : run.facts.case_values) {
+      if (std::exchange(seen[key], true)) continue;
+      const auto value = [&key = key](const RunData& r) { return r.facts.case_value(key); };
+      const bool is_same = std::ranges::all_of(
+          runs, [&](const RunData& r) { return value(r) == value(runs.front()); });
+      if (!is_same) rows += facts_row(escaped(key).c_str(), runs, value);
+    }
+  }
+  return fmt::format(
+      "<div class=\"card scroll\"><table class=\"runs\"><caption>The runs, and where their cases "
+      "differ</caption><thead><tr><th></th>{}</tr></thead><tbody>{}</tbody></table></div>\n",
+      head, rows);
+}
+
+/// The run against the first one.
+std::string differences_html(const RunData& first, const RunData& run,
+                             const std::string& first_name, const std::string& name, double end) {
+  std::string rows;
+  for (const Difference& d : differences(first, run, end)) {
+    const std::string label = fmt::format("{} of drop {}", escaped(d.quantity), d.drop);
+    rows += fmt::format(
+        "<tr><th>{}</th><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
+        "<td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
+        label, readable(d.first_at_end, 6), readable(d.at_end, 6),
+        readable(d.at_end - d.first_at_end, 3), readable(d.largest, 3),
+        readable(d.t_of_largest, 4));
+  }
+  if (rows.empty()) return {};
+  return fmt::format(
+      "<div class=\"card scroll\"><table class=\"differences\"><caption>{1} against {0}</caption>"
+      "<thead><tr><th></th><th class=\"n\">{0}, t = {2}</th><th class=\"n\">{1}, t = {2}</th>"
+      "<th class=\"n\">difference there</th><th class=\"n\">largest |difference|</th>"
+      "<th class=\"n\">at t</th></tr></thead><tbody>{3}</tbody></table></div>\n",
+      escaped(first_name), escaped(name), readable(end, 4), rows);
+}
+
+/// Shapes at equal times, a row of pictures for each run.
+std::string shapes_html(std::span<RunData> runs, std::span<const std::string> names, double end) {
+  std::vector<double> times;
+  for (int k = 0; k < num_times; ++k) times.push_back(end * k / (num_times - 1));
+  std::vector<std::vector<SurfaceFrame>> frames;
+  std::vector<SurfaceFrame> all;
+  for (RunData& run : runs) {
+    frames.push_back(load_surfaces(run, nearest_frames(run.frames, times)));
+    for (SurfaceFrame& frame : frames.back()) {
+      frame = coarsened(frame, most_faces / num_times / static_cast<int>(runs.size()));
+      all.push_back(frame);
+    }
+  }
+  if (all.empty()) return {};
+  const View view = common_view(all, frame_width);
+  const ValueRange range = curvature_range(all);
+  std::string text = "<h2>Shapes at equal times</h2>\n";
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    text +=
+        fmt::format("<div class=\"card\"><h3>{}</h3><div class=\"frames\">\n", escaped(names[r]));
+    for (const SurfaceFrame& frame : frames[r]) {
+      const std::string time = readable(frame.t, 3);
+      text += fmt::format("<figure>{}<figcaption><i>t</i> = {}</figcaption></figure>\n",
+                          inline_svg(draw_surface(frame, view, range), view.width, view.height,
+                                     names[r] + " at t = " + time),
+                          time);
+    }
+    text += "</div></div>\n";
+  }
+  return text + "<div class=\"key\">" +
+         inline_svg(draw_key(view, range, have_curvature(all)), PictureKey::width,
+                    PictureKey::height, "Scale of colour, length and axes") +
+         "</div>\n";
+}
+
+std::string overlaid_html(std::span<const RunData> runs, std::span<const std::string> names) {
+  std::string text;
+  for (const PlotGroup& group : overlaid_plots(runs, names)) {
+    text += fmt::format("<h2>{}</h2>\n<div class=\"plots\">\n", group.heading);
+    for (const Plot& plot : group.plots) {
+      text += "<figure class=\"card\">" +
+              inline_svg(draw_plot(plot), plot.width, plot.height, plot.title) + "</figure>\n";
+    }
+    text += "</div>\n";
+  }
+  return text;
+}
+
+std::string faults_html(std::span<const RunData> runs, std::span<const std::string> names) {
+  std::string text;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    for (const std::string& fault : runs[r].faults)
+      text += fmt::format("<p>{}: {}</p>", escaped(names[r]), escaped(fault));
+  }
+  return text.empty() ? "" : "<div class=\"notice\">" + text + "</div>\n";
+}
+
+}  // namespace
+
+void write_comparison(std::span<const fs::path> run_directories, const fs::path& out) {
+  if (run_directories.size() < 2 || run_directories.size() > most_runs) {
+    reject_input("{} runs were given to compare; from 2 to {} can be", run_directories.size(),
+                 most_runs);
+  }
+  const std::vector<std::string> names = names_of(run_directories);
+  std::vector<RunData> runs;
+  for (const fs::path& folder : run_directories) runs.push_back(load_run(folder));
+  const double end = common_end(runs);
+
+  PageParts parts{.title = fmt::format("{}", fmt::join(names, ", ")), .content = {}, .data = {}};
+  if (has_page_bundle()) {
+    PageBudget budget;
+    budget.frames /= runs.size();
+    budget.cuts = 0;
+    budget.most_cuts = 0;
+    std::vector<PageRun> pages;
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      pages.push_back(packed_run(runs[r], budget));
+      pages.back().name = names[r];
+    }
+    parts.data = data_elements("comparison", runs, pages, budget);
+  }
+  const std::string stills = "<section class=\"still view\">\n" +
+                             (std::isfinite(end) ? shapes_html(runs, names, end) : "") +
+                             "</section>\n<section class=\"still plots-of-run\">\n" +
+                             overlaid_html(runs, names) + "</section>\n";
+  std::string tables = runs_html(runs, names);
+  for (std::size_t r = 1; r < runs.size(); ++r)
+    tables += differences_html(runs.front(), runs[r], names.front(), names[r], end);
+  parts.content =
+      fmt::format("<header><h1>{} runs compared</h1>\n<p class=\"lead\">{}</p>\n{}</header>\n",
+                  runs.size(), escaped(parts.title), faults_html(runs, names)) +
+      "<div id=\"app\"></div>\n" + stills + "<h2>Differences</h2>\n" + tables;
+  io::write_file(out, whole_page(parts));
+}
+
+}  // namespace meniscus

@@ -1,0 +1,131 @@
+#include "meniscus/report/packed_frames.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include <nlohmann/json.hpp>
+
+#include "meniscus/report/packing.hpp"
+
+namespace meniscus::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The best of all smallest dihedral angles, that of the regular tetrahedron, is 70.5 degrees.
+constexpr double best_quality = 72.0;
+constexpr int most_regions = 255;
+
+std::vector<std::uint16_t> on_grid(std::span<const double> values, const Grid16& grid) {
+  std::vector<std::uint16_t> indices;
+  indices.reserve(values.size());
+  for (const double value : values) indices.push_back(grid.index(value));
+  return indices;
+}
+
+/// One coordinate of all points.
+template <class Points>
+std::vector<double> coordinate(const Points& points, int axis) {
+  std::vector<double> values;
+  for (const auto& x : points) values.push_back(x[axis]);
+  return values;
+}
+
+Json in_json(const Vec3& x) { return Json::array({x.x(), x.y(), x.z()}); }
+
+void add_corners(Package& package, const SurfaceMesh& mesh, bool is_wide) {
+  std::vector<std::uint32_t> corners;
+  for (const FaceVertices& face : mesh.faces) {
+    for (const VertexId v : face) corners.push_back(static_cast<std::uint32_t>(v.value));
+  }
+  if (is_wide) return package.add(corners);
+  package.add(std::vector<std::uint16_t>(corners.begin(), corners.end()));
+}
+
+std::uint8_t quality_byte(double degrees) {
+  const double share = std::isfinite(degrees) ? std::clamp(degrees / best_quality, 0.0, 1.0) : 0.0;
+  return static_cast<std::uint8_t>(std::lround(255.0 * share));
+}
+
+Json header_of(const MeshCut& cut, const std::array<Grid16, 2>& grids) {
+  return {{"axes", cut.axes},
+          {"normal", cut.normal},
+          {"offset", cut.offset},
+          {"polygons", cut.polygons.size()},
+          {"points", cut.points.size()},
+          {"low", {grids[0].low, grids[1].low}},
+          {"high", {grids[0].high, grids[1].high}},
+          {"window", {cut.low[0], cut.low[1], cut.high[0], cut.high[1]}},
+          {"quality", best_quality}};
+}
+
+void add_cut(Package& package, const MeshCut& cut, const std::array<Grid16, 2>& grids) {
+  std::vector<std::uint8_t> corners, regions, qualities;
+  for (const CutPolygon& polygon : cut.polygons) {
+    corners.push_back(static_cast<std::uint8_t>(polygon.num_points));
+    regions.push_back(static_cast<std::uint8_t>(std::clamp(polygon.region, 0, most_regions)));
+    qualities.push_back(quality_byte(polygon.min_dihedral_deg));
+  }
+  package.add(corners);
+  package.add(regions);
+  package.add(qualities);
+  for (int k = 0; k < 2; ++k) {
+    package.add(on_grid(coordinate(cut.points, k), grids[static_cast<std::size_t>(k)]));
+  }
+}
+
+}  // namespace
+
+PackedFrame packed(const SurfaceFrame& frame) {
+  PackedFrame result{.t = frame.t, .bytes = {}};
+  result.num_faces = result.num_faces_of_run = frame.mesh.num_faces();
+  const bool is_wide = frame.mesh.num_vertices() > 65536;
+  std::array<Grid16, 3> grids;
+  for (int k = 0; k < 3; ++k) {
+    Grid16& grid = grids[static_cast<std::size_t>(k)];
+    grid = Grid16::around(coordinate(frame.mesh.x, k));
+    result.low[k] = grid.low;
+    result.high[k] = grid.high;
+  }
+  std::vector<Grid16> field_grids;
+  Json fields = Json::array();
+  for (const SurfaceField& field : frame.fields) {
+    const Grid16& grid = field_grids.emplace_back(Grid16::around(field.values.span()));
+    fields.push_back({{"name", field.name}, {"low", grid.low}, {"high", grid.high}});
+    result.ranges[field.name] = color_range(field.values.span());
+  }
+  const Json header{{"t", frame.t},
+                    {"vertices", frame.mesh.num_vertices()},
+                    {"faces", frame.mesh.num_faces()},
+                    {"wide", is_wide},
+                    {"low", in_json(result.low)},
+                    {"high", in_json(result.high)},
+                    {"fields", fields}};
+  Package package(header.dump());
+  add_corners(package, frame.mesh, is_wide);
+  for (int k = 0; k < 3; ++k) {
+    package.add(on_grid(coordinate(frame.mesh.x, k), grids[static_cast<std::size_t>(k)]));
+  }
+  for (std::size_t i = 0; i < frame.fields.size(); ++i) {
+    package.add(on_grid(frame.fields[i].values.span(), field_grids[i]));
+  }
+  result.bytes = package.bytes();
+  return result;
+}
+
+PackedFrame packed(double t, const std::vector<MeshCut>& cuts) {
+  std::vector<std::array<Grid16, 2>> grids;
+  Json headers = Json::array();
+  for (const MeshCut& cut : cuts) {
+    grids.push_back(
+        {Grid16::around(coordinate(cut.points, 0)), Grid16::around(coordinate(cut.points, 1))});
+    headers.push_back(header_of(cut, grids.back()));
+  }
+  Package package(Json{{"t", t}, {"cuts", headers}}.dump());
+  for (std::size_t i = 0; i < cuts.size(); ++i) add_cut(package, cuts[i], grids[i]);
+  return {.t = t, .bytes = package.bytes()};
+}
+
+}  // namespace meniscus::report

@@ -1,0 +1,44 @@
+#include "meniscus/report/page.hpp"
+
+#include <fmt/format.h>
+
+#include "meniscus/report/page_bundle.hpp"
+#include "meniscus/report/page_style.hpp"
+#include "meniscus/report/svg_plot.hpp"
+#include "meniscus/report/text.hpp"
+
+namespace meniscus::report {
+namespace {
+
+constexpr std::string_view plain_page_note =
+    "<p>This is the plain page. A program built where node and npm are found makes one whose drop "
+    "turns with the mouse and whose plots give their values: install both, then build again and "
+    "run <code>meniscus report</code> on this folder.</p>";
+
+/// What a browser may load: nothing, so that the page is the same wherever it lies. Its own script
+/// stands in it; only a live page may ask, and only where it came from.
+std::string policy(bool is_live) {
+  return fmt::format("default-src 'none'; style-src 'unsafe-inline'{}{}",
+                     has_page_bundle() ? "; script-src 'unsafe-inline'" : "",
+                     is_live ? "; connect-src 'self'" : "");
+}
+
+}  // namespace
+
+std::string whole_page(const PageParts& parts) {
+  const std::string script =
+      has_page_bundle() ? fmt::format("{}<script>{}</script>\n", parts.data, page_script()) : "";
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\"/>\n"
+      "<title>{}</title>\n<style>{}{}{}</style>\n</head>\n"
+      "<body>\n<main>\n{}<footer>Lengths in R₀, times in 1/G, stresses in μG; G is the rate of "
+      "strain or shear, μ the outer viscosity. The figures behind the plots are in history.csv and "
+      "drops.csv beside this page, the meshes in the .pvd files.{}</footer>\n</main>\n{}</body>\n"
+      "</html>\n",
+      policy(parts.is_live), escaped(parts.title), page_style(), plot_style(), page_sheet(),
+      parts.content, has_page_bundle() ? "" : plain_page_note, script);
+}
+
+}  // namespace meniscus::report

@@ -1,0 +1,19 @@
+#include "meniscus/report/page_bundle.hpp"
+
+namespace meniscus::report {
+namespace {
+
+// Made by cmake/PageBundle.cmake: two raw strings, empty where node or npm was not found.
+const char script[] =
+#include "meniscus/report/page_script_generated.inc"
+    ;
+const char sheet[] =
+#include "meniscus/report/page_sheet_generated.inc"
+    ;
+
+}  // namespace
+
+std::string_view page_script() { return {script, sizeof(script) - 1}; }
+std::string_view page_sheet() { return {sheet, sizeof(sheet) - 1}; }
+
+}  // namespace meniscus::report

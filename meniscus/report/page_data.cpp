@@ -1,0 +1,241 @@
+#include "meniscus/report/page_data.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/io/atomic_file.hpp"
+#include "meniscus/report/packing.hpp"
+#include "meniscus/report/plot_catalogue.hpp"
+
+namespace meniscus::report {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::size_t size_in_base64(const PackedFrame& frame) { return (frame.bytes.size() + 2) / 3 * 4; }
+
+std::size_t total_size(const std::vector<PackedFrame>& frames) {
+  std::size_t total = 0;
+  for (const PackedFrame& frame : frames) total += size_in_base64(frame);
+  return total;
+}
+
+/// What `load` makes of each entry; what cannot be read joins the faults.
+std::vector<PackedFrame> load_all(RunData& run, std::span<const io::PvdEntry> entries,
+                                  const std::function<PackedFrame(const fs::path&, double)>& load) {
+  std::vector<PackedFrame> frames;
+  for (const io::PvdEntry& entry : entries) {
+    try {
+      frames.push_back(load(run.folder / entry.file, entry.t));
+    } catch (const InvalidInput& error) {
+      run.faults.emplace_back(error.what());
+    }
+  }
+  return frames;
+}
+
+PackedFrame load_frame(const fs::path& path, double t, int most_faces) {
+  const SurfaceFrame whole = load_surface(path, t);
+  PackedFrame frame = packed(coarsened(whole, most_faces));
+  frame.num_faces_of_run = whole.mesh.num_faces();
+  return frame;
+}
+
+/// The number of faces to which all larger frames must be cut down for all to fit: it fills the
+/// budget if each face takes as much as on average.
+int affordable_faces(const std::vector<PackedFrame>& frames, std::size_t budget) {
+  // The merging of vertices misses the number asked for by some per cent.
+  constexpr double safety = 0.85;
+  std::vector<int> counts;
+  double all = 0.0;
+  for (const PackedFrame& frame : frames) {
+    counts.push_back(frame.num_faces);
+    all += frame.num_faces;
+  }
+  const double available =
+      safety * all * static_cast<double>(budget) / static_cast<double>(total_size(frames));
+  std::ranges::sort(counts);
+  double used = 0.0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const double each = (available - used) / static_cast<double>(counts.size() - i);
+    if (counts[i] >= each) return std::max(64, static_cast<int>(each));
+    used += counts[i];
+  }
+  return counts.back();
+}
+
+void pack_surfaces(PageRun& page, RunData& run, const PageBudget& budget) {
+  const auto entries = spread_frames(run.frames, static_cast<int>(budget.most_frames));
+  if (entries.size() < run.frames.size()) {
+    page.notes.push_back(fmt::format("{} of the run’s {} frames of the interface are shown.",
+                                     entries.size(), run.frames.size()));
+  }
+  const auto load = [](int most_faces) {
+    return [most_faces](const fs::path& path, double t) { return load_frame(path, t, most_faces); };
+  };
+  page.frames = load_all(run, entries, load(std::numeric_limits<int>::max()));
+  if (total_size(page.frames) <= budget.frames) return;
+  const int most_faces = affordable_faces(page.frames, budget.frames);
+  page.frames = load_all(run, entries, load(most_faces));
+  page.notes.push_back(
+      fmt::format("Frames with more than {} triangles are drawn with about as many; the "
+                  "files of the run have them all.",
+                  most_faces));
+}
+
+void pack_cuts(PageRun& page, RunData& run, const PageBudget& budget) {
+  const auto load = [](const fs::path& path, double t) { return packed(t, load_cuts(path)); };
+  const auto entries = spread_frames(run.volume_frames, static_cast<int>(budget.most_cuts));
+  page.cuts = load_all(run, entries, load);
+  std::size_t kept = page.cuts.size();
+  while (total_size(page.cuts) > budget.cuts && page.cuts.size() > 1) {  // every other one goes
+    for (std::size_t i = 1; i < page.cuts.size(); ++i) {
+      page.cuts.erase(page.cuts.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    kept = page.cuts.size();
+  }
+  if (kept < run.volume_frames.size()) {
+    page.notes.push_back(
+        fmt::format("{} of the run’s {} volume meshes are shown.", kept, run.volume_frames.size()));
+  }
+}
+
+/// Every n-th step of a table whose first column is the step.
+std::string thinned_rows(const std::string& text, std::int64_t n) {
+  std::string result;
+  bool is_header = true;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
+    std::int64_t step = 0;
+    std::from_chars(text.data() + at, text.data() + end, step);
+    if (is_header || step % n == 0) result.append(text, at, end - at);
+    is_header = false;
+    at = end;
+  }
+  return result;
+}
+
+/// The bytes of a table of the run for the page, fewer of them if need be.
+std::string packed_table(PageRun& page, const TableFile& table, const fs::path& file,
+                         std::size_t budget) {
+  const std::string text = io::read_file(file);
+  std::string result = base64(deflated(text));
+  if (result.size() <= budget || !text.starts_with("step,")) return result;
+  const auto n = static_cast<std::int64_t>(result.size() / budget + 1);
+  page.notes.push_back(
+      fmt::format("The plots of {} show every {}th step; the file has them all.", table.file, n));
+  return base64(deflated(thinned_rows(text, n)));
+}
+
+std::string text_element(const std::string& id, const std::string& text) {
+  return fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, text);
+}
+
+Json in_json(const Vec3& x) { return Json::array({x.x(), x.y(), x.z()}); }
+
+Json entry(const PackedFrame& frame) {
+  Json ranges = Json::object();
+  for (const auto& [name, range] : frame.ranges) ranges[name] = {range.low, range.high};
+  return {{"t", frame.t},
+          {"faces", frame.num_faces},
+          {"faces_of_run", frame.num_faces_of_run},
+          {"low", in_json(frame.low)},
+          {"high", in_json(frame.high)},
+          {"ranges", ranges}};
+}
+
+Json entries(const std::vector<PackedFrame>& frames) {
+  Json list = Json::array();
+  for (const PackedFrame& frame : frames) list.push_back(entry(frame));
+  return list;
+}
+
+Json fields_json() {
+  Json fields = Json::array();
+  for (const auto& [name, label, unit] : surface_quantities()) {
+    fields.push_back({{"name", name}, {"label", label}, {"unit", unit}});
+  }
+  return fields;
+}
+
+Json run_json(const RunData& run, const PageRun& page) {
+  return {{"name", page.name},
+          {"title", run.facts.title},
+          {"case_file", run.facts.case_file},
+          {"case_text", run.facts.case_text},
+          {"end", run.facts.case_value("time.end")},
+          {"tables", Json::array()},
+          {"frames", entries(page.frames)},
+          {"cuts", entries(page.cuts)},
+          {"notes", page.notes}};
+}
+
+std::string page_data_element(std::string_view kind, const Json& runs) {
+  const Json page{{"kind", kind},
+                  {"runs", runs},
+                  {"fields", fields_json()},
+                  {"plots", Json::parse(plot_catalogue_json())}};
+  std::string text = page.dump(-1, ' ', false, Json::error_handler_t::replace);
+  // In JSON a slash may be escaped; in HTML "</script" must not stand.
+  for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at))
+    text.replace(at, 2, "<\\/");
+  return "<script type=\"application/json\" id=\"page-data\">" + text + "</script>\n";
+}
+
+}  // namespace
+
+std::vector<MeshCut> load_cuts(const fs::path& path) {
+  const io::VolumeFrame mesh = io::read_vtu(path);
+  return {cut_through_drops(mesh, 2), cut_through_drops(mesh, 1)};
+}
+
+PageRun packed_run(RunData& run, const PageBudget& budget) {
+  PageRun page;
+  page.name = fs::absolute(run.folder / ".").parent_path().filename().string();
+  pack_surfaces(page, run, budget);
+  pack_cuts(page, run, budget);
+  return page;
+}
+
+std::string entry_json(const PackedFrame& frame) { return entry(frame).dump(); }
+
+std::string live_data_element(const RunData& run) {
+  return page_data_element("live", Json::array({run_json(run, {})}));
+}
+
+std::string data_elements(std::string_view kind, std::span<const RunData> runs,
+                          std::span<PageRun> pages, const PageBudget& budget) {
+  std::string elements;
+  Json list = Json::array();
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const std::string prefix = fmt::format("run{}-", r);
+    PageRun& page = pages[r];
+    Json tables = Json::array();
+    for (const TableFile& table : table_files()) {
+      const fs::path file = runs[r].folder / table.file;
+      if (!fs::exists(file)) continue;
+      tables.push_back(table.name);
+      // One of the two long tables may take half of what a run may.
+      const std::string text = packed_table(page, table, file, budget.tables / runs.size() / 2);
+      elements += text_element(prefix + table.name, text);
+    }
+    for (std::size_t i = 0; i < page.frames.size(); ++i)
+      elements += text_element(fmt::format("{}frame{}", prefix, i), base64(page.frames[i].bytes));
+    for (std::size_t i = 0; i < page.cuts.size(); ++i)
+      elements += text_element(fmt::format("{}cut{}", prefix, i), base64(page.cuts[i].bytes));
+    Json entry = run_json(runs[r], page);
+    entry["tables"] = tables;
+    list.push_back(entry);
+  }
+  return page_data_element(kind, list) + elements;
+}
+
+}  // namespace meniscus::report

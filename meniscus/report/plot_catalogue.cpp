@@ -1,0 +1,161 @@
+#include "meniscus/report/plot_catalogue.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace meniscus::report {
+namespace {
+
+std::vector<PlotSpec> shape_plots() {
+  const std::string group = "Shape";
+  return {{.group = group,
+           .title = "Deformation D = (L − B)/(L + B)",
+           .unit = "",
+           .table = "drops",
+           .quantities = {{"D", "D"}},
+           .includes_zero = true},
+          {.group = group,
+           .title = "Half lengths",
+           .unit = "R₀",
+           .table = "drops",
+           .quantities = {{"L", "L"}, {"B", "B"}, {"W", "W"}}},
+          {.group = group,
+           .title = "Inclination of L to the flow",
+           .unit = "°",
+           .table = "drops",
+           .quantities = {{"angle_deg", "θ"}}},
+          {.group = group,
+           .title = "Largest mean curvature H",
+           .unit = "1/R₀",
+           .table = "drops",
+           .quantities = {{"H_max", "H"}}},
+          {.group = group,
+           .title = "Volume drift V/V₀ − 1",
+           .unit = "",
+           .table = "drops",
+           .quantities = {{"volume_drift", "V/V₀ − 1"}},
+           .includes_zero = true},
+          {.group = group,
+           .title = "Shift that restores the volume",
+           .unit = "R₀",
+           .table = "drops",
+           .quantities = {{"volume_correction", "shift"}}}};
+}
+
+std::vector<PlotSpec> energy_plots() {
+  const std::string group = "Energy and stress";
+  return {{.group = group,
+           .title = "Power",
+           .unit = "μG²R₀³",
+           .table = "history",
+           .quantities = {{"power_in", "power in"},
+                          {"dissipation", "dissipation"},
+                          {"surface_rate", "rate of surface energy"}}},
+          {.group = group,
+           .title = "Energy residual over power in",
+           .unit = "%",
+           .table = "history",
+           .quantities = {{"power_residual", "residual"}, {"power_in", "power in"}},
+           .includes_zero = true,
+           .derivation = Derivation::percent},
+          {.group = group,
+           .title = "Shear stress (xy) added by the drops",
+           .unit = "μG",
+           .table = "history",
+           .quantities = {{"stress_xy", "xy"}}},
+          {.group = group,
+           .title = "Normal stress differences added by the drops",
+           .unit = "μG",
+           .table = "history",
+           .quantities = {{"N1", "N₁"}, {"N2", "N₂"}}}};
+}
+
+std::vector<PlotSpec> mesh_plots() {
+  const std::string group = "Mesh and solver";
+  return {{.group = group,
+           .title = "Size of the meshes",
+           .unit = "",
+           .table = "history",
+           .quantities = {{"surface_nodes", "surface nodes"},
+                          {"nodes", "nodes"},
+                          {"tetrahedra", "tetrahedra"}},
+           .is_log = true},
+          {.group = group,
+           .title = "Time step Δt",
+           .unit = "1/G",
+           .table = "history",
+           .quantities = {{"dt", "Δt"}},
+           .derivation = Derivation::gap_at_zeros},  // the first row has no step that led to it
+          {.group = group,
+           .title = "Linear iterations per step",
+           .unit = "",
+           .table = "history",
+           .quantities = {{"linear_iterations", "iterations"}},
+           .includes_zero = true},
+          {.group = group,
+           .title = "Smallest dihedral angle",
+           .unit = "°",
+           .table = "history",
+           .quantities = {{"min_dihedral_deg", "angle"}},
+           .includes_zero = true},
+          {.group = group,
+           .title = "Smallest gap",
+           .unit = "R₀",
+           .table = "history",
+           .quantities = {{"min_gap", "gap"}},
+           .is_log = true},
+          {.group = group,
+           .title = "Wall time per step",
+           .unit = "s",
+           .table = "timing",
+           .quantities = {{"", "wall time"}},
+           .includes_zero = true,
+           .derivation = Derivation::sum}};
+}
+
+const char* name_of(Derivation derivation) {
+  switch (derivation) {
+    case Derivation::percent:
+      return "percent";
+    case Derivation::sum:
+      return "sum";
+    case Derivation::gap_at_zeros:
+      return "gap-at-zeros";
+    default:
+      return "none";
+  }
+}
+
+}  // namespace
+
+std::span<const PlotSpec> plot_catalogue() {
+  static const std::vector<PlotSpec> all = [] {
+    std::vector<PlotSpec> plots = shape_plots();
+    for (const auto& group : {energy_plots(), mesh_plots()}) {
+      plots.insert(plots.end(), group.begin(), group.end());
+    }
+    return plots;
+  }();
+  return all;
+}
+
+std::string plot_catalogue_json() {
+  using Json = nlohmann::ordered_json;
+  Json list = Json::array();
+  for (const PlotSpec& plot : plot_catalogue()) {
+    Json quantities = Json::array();
+    for (const auto& [column, label] : plot.quantities) {
+      quantities.push_back({{"column", column}, {"label", label}});
+    }
+    list.push_back({{"group", plot.group},
+                    {"title", plot.title},
+                    {"unit", plot.unit},
+                    {"table", plot.table},
+                    {"quantities", quantities},
+                    {"log", plot.is_log},
+                    {"zero", plot.includes_zero},
+                    {"derivation", name_of(plot.derivation)}});
+  }
+  return list.dump();
+}
+
+}  // namespace meniscus::report

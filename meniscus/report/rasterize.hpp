@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace meniscus::report {
+
+/// A picture of points, four bytes each: blue, green, red, opacity; row after row from the top.
+struct Pixels {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// An .svg file of ours drawn `scale` times as large, on white, without a display. Throws
+/// RunFailure with the library's reason.
+[[nodiscard]] Pixels rasterized(std::string_view svg, double scale);
+/// The same as the bytes of a .png file.
+[[nodiscard]] std::string png_of(std::string_view svg, double scale);
+
+}  // namespace meniscus::report

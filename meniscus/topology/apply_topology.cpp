@@ -1,0 +1,235 @@
+#include "meniscus/topology/apply_topology.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "meniscus/mesh/surface_check.hpp"
+#include "meniscus/surface/remesh.hpp"
+#include "meniscus/topology/bridge_gap.hpp"
+#include "meniscus/topology/cut_neck.hpp"
+#include "meniscus/topology/successors.hpp"
+
+namespace meniscus {
+namespace {
+
+/// Distance from a place dealt with, in neck radii or gaps, within which nothing else is due in the
+/// same call: beyond the band that was cut and the hole that was opened.
+constexpr double kWaiting = 4.0;
+/// Far beyond what one step can bring about: ends a scene of events that make each other.
+constexpr int kMaxEvents = 1000;
+
+std::string text_of(const Vec3& x) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", x.x(), x.y(), x.z());
+}
+
+/// The places that a call has dealt with.
+class DonePlaces {
+ public:
+  void add(const Vec3& place, double size) { places_.emplace_back(place, kWaiting * size); }
+  [[nodiscard]] bool contain(const Vec3& x) const {
+    return std::ranges::any_of(
+        places_, [&](const auto& place) { return (x - place.first).norm() < place.second; });
+  }
+
+ private:
+  std::vector<std::pair<Vec3, double>> places_;
+};
+
+/// One neck of one interface.
+struct DueNeck {
+  std::size_t interface = 0;
+  Side side = Side::inside;
+  Neck neck;
+};
+
+/// Finds the necks of a scene, those of an interface that has not changed only once: an id stands
+/// for one mesh during a call.
+class NeckSearch {
+ public:
+  NeckSearch(const TopologyOptions& options, const SurfaceMotion& motion)
+      : inside_(options.breakup_radius),
+        outside_(options.coalescence ? 0.5 * options.coalescence_gap : 0.0),
+        motion_(motion) {}
+
+  /// The thinnest neck that is due.
+  std::optional<DueNeck> thinnest(const Scene& scene, const DonePlaces& done) {
+    std::optional<DueNeck> best;
+    for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+      for (const auto& [side, neck] : necks_of(scene.interfaces[i])) {
+        if (done.contain(neck.center)) continue;
+        if (!best || rank(neck) < rank(best->neck)) best = DueNeck{i, side, neck};
+      }
+    return best;
+  }
+
+ private:
+  using SidedNecks = std::vector<std::pair<Side, Neck>>;
+
+  static std::tuple<double, double, double, double> rank(const Neck& neck) {
+    return {neck.radius, neck.center.x(), neck.center.y(), neck.center.z()};
+  }
+  const SidedNecks& necks_of(const Interface& interface) {
+    const auto [found, is_new] = known_.try_emplace(interface.drop);
+    if (!is_new || (inside_ == 0.0 && outside_ == 0.0)) return found->second;
+    const SurfaceTree tree(interface.mesh);
+    for (const auto& [side, radius] : {std::pair(Side::inside, inside_), {Side::outside, outside_}})
+      if (radius > 0.0)
+        for (Neck& neck : find_necks(interface.mesh, tree, side, radius, motion_))
+          found->second.emplace_back(side, std::move(neck));
+    return found->second;
+  }
+
+  double inside_, outside_;
+  const SurfaceMotion& motion_;
+  std::map<int, SidedNecks> known_;
+};
+
+std::string cut(Scene& scene, const DueNeck& due, TopologyEvent& event) {
+  event.place = due.neck.center;
+  if (due.side == Side::inside) {
+    event.kind = EventKind::breakup;
+    event.neck_radius = due.neck.radius;
+  } else {
+    event.kind = EventKind::coalescence;
+    event.gap = 2.0 * due.neck.radius;
+  }
+  Surgery surgery = cut_neck(scene.interfaces[due.interface].mesh, due.neck);
+  if (!surgery.failure.empty()) return surgery.failure;
+  return succeed(scene, {{due.interface}, std::move(surgery.pieces)}, event);
+}
+
+void cut_necks(Scene& scene, const TopologyOptions& options, const SurfaceMotion& motion,
+               TopologyReport& report) {
+  NeckSearch search(options, motion);
+  DonePlaces done;
+  for (int i = 0; i < kMaxEvents; ++i) {
+    const std::optional<DueNeck> due = search.thinnest(scene, done);
+    if (!due) return;
+    done.add(due->neck.center, due->neck.radius);
+    TopologyEvent event;
+    const std::string failure = cut(scene, *due, event);
+    if (failure.empty()) {
+      report.events.push_back(std::move(event));
+    } else {
+      report.warnings.push_back(fmt::format(
+          "the neck of radius {:.4g} of drop {} at {} was not cut: {}", due->neck.radius,
+          scene.interfaces[due->interface].drop, text_of(due->neck.center), failure));
+    }
+  }
+}
+
+/// Why two drops may not merge; empty when they may.
+std::string unlikeness(const Scene& scene, const Gap& gap) {
+  if (gap.a == gap.b) return {};
+  const Interface &a = scene.interfaces[gap.a], &b = scene.interfaces[gap.b];
+  const bool is_nested = a.outside != b.outside;
+  const Liquid &first = scene.liquids[is_nested && a.inside == b.outside ? a.outside : a.inside],
+               &second = scene.liquids[is_nested && b.inside == a.outside ? b.outside : b.inside];
+  if (first.viscosity != second.viscosity)
+    return fmt::format("viscosity ratios {:g} and {:g}", first.viscosity, second.viscosity);
+  if (a.tension != b.tension)
+    return fmt::format("surface tensions {:g} and {:g}", a.tension, b.tension);
+  if (first.body_force != second.body_force) return "different body forces";
+  return {};
+}
+
+std::string open_gap(Scene& scene, const Gap& gap, const TopologyOptions& options,
+                     TopologyEvent& event) {
+  event.kind = EventKind::coalescence;
+  event.place = gap.middle();
+  event.gap = gap.width;
+  Surgery surgery = bridge_gap(scene, gap, {options.coalescence_gap, options.edge_floor});
+  if (!surgery.failure.empty()) return surgery.failure;
+  Succession succession{{gap.a}, std::move(surgery.pieces)};
+  if (gap.b != gap.a) succession.parents.push_back(gap.b);
+  return succeed(scene, std::move(succession), event);
+}
+
+void open_gaps(Scene& scene, const TopologyOptions& options, const SurfaceMotion& motion,
+               TopologyReport& report) {
+  DonePlaces done;
+  for (int i = 0; i < kMaxEvents; ++i) {
+    const std::vector<Gap> gaps = find_gaps(scene, options.coalescence_gap, motion);
+    const auto due =
+        std::ranges::find_if(gaps, [&](const Gap& gap) { return !done.contain(gap.middle()); });
+    if (due == gaps.end()) return;
+    done.add(due->middle(), options.coalescence_gap);
+    const int a = scene.interfaces[due->a].drop, b = scene.interfaces[due->b].drop;
+    if (const std::string why = unlikeness(scene, *due); !why.empty()) {
+      report.refusal = fmt::format(
+          "drops {} and {} have come within {:.4g} of each other at {} and would merge, but their "
+          "liquids are unlike ({})",
+          a, b, due->width, text_of(due->middle()), why);
+      return;
+    }
+    TopologyEvent event;
+    const std::string failure = open_gap(scene, *due, options, event);
+    if (failure.empty()) {
+      report.events.push_back(std::move(event));
+    } else {
+      report.warnings.push_back(
+          fmt::format("the gap of {:.4g} between drops {} and {} at {} was not bridged: {}",
+                      due->width, a, b, text_of(due->middle()), failure));
+    }
+  }
+}
+
+int next_id(const Scene& scene) {
+  int id = 0;
+  for (const Interface& interface : scene.interfaces) id = std::max(id, interface.drop + 1);
+  return id;
+}
+
+/// Remeshes the interfaces that have ids from `first_id` on: the seams of surgery give way, and a
+/// small drop gets its vertices. What cannot be remeshed stays as it is: it is sound already.
+void finish_new_interfaces(Scene& scene, int first_id, const TopologyOptions& topology) {
+  constexpr int kRemeshings = 2;  // a density far from the wanted one takes more than one
+  const Scene before = scene;
+  for (Interface& interface : scene.interfaces) {
+    if (interface.drop < first_id) continue;
+    RemeshOptions options;
+    options.C0 = interface.C0;
+    options.volume = interface.volume;
+    options.edge_floor = topology.edge_floor;
+    options.find_fault = find_self_intersection;
+    for (int i = 0; i < kRemeshings; ++i)
+      if (const RemeshReport report = remesh(interface.mesh, options); !report.ok) break;
+  }
+  if (!find_conflict(scene).empty()) scene = before;
+}
+
+}  // namespace
+
+TopologyReport apply_topology(Scene& scene, const TopologyOptions& options,
+                              const SurfaceMotion& motion) {
+  TopologyReport report;
+  if (options.is_off()) return report;
+  const Scene before = scene;
+  const int first_id = next_id(scene);
+  cut_necks(scene, options, motion, report);
+  if (options.coalescence && options.coalescence_gap > 0.0)
+    open_gaps(scene, options, motion, report);
+  if (!report.refusal.empty()) {
+    scene = before;
+    report.events.clear();
+  }
+  if (!report.events.empty()) finish_new_interfaces(scene, first_id, options);
+  return report;
+}
+
+std::string find_touching_drops(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Interface &a = scene.interfaces[j], &b = scene.interfaces[i];
+      const std::string meeting = find_intersection(a.mesh, b.mesh);
+      if (!meeting.empty())
+        return fmt::format("drops {} and {} touch: {}", a.drop, b.drop, meeting);
+    }
+  return {};
+}
+
+}  // namespace meniscus

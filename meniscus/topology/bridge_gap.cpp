@@ -1,0 +1,208 @@
+#include "meniscus/topology/bridge_gap.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+#include "meniscus/mesh/surface_check.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/mesh/surface_pieces.hpp"
+#include "meniscus/surface/remesh.hpp"
+#include "meniscus/topology/face_patch.hpp"
+#include "meniscus/topology/smooth_fill.hpp"
+#include "meniscus/topology/zip.hpp"
+
+namespace meniscus {
+namespace {
+
+/// Radius of the hole, in limits. A tube of length h and radius a has less area than the two discs
+/// it stands for from a = h on; twice that leaves room for a patch that is no circle.
+constexpr double kHole = 2.0;
+/// Edges at the hole, in limits: the rim of the film turns round within one limit.
+constexpr double kEdge = 0.5;
+constexpr int kRefinements = 8;  // remeshings at most: each can make edges four times shorter
+/// A patch of film wider than this many of its edges is refined less: its rim is what matters.
+constexpr double kPatchVertices = 2000.0;
+constexpr int kSmoothRings = 2;  // rings of faces around the tube that are smoothed with it
+
+/// The edge that the surfaces are given around a gap.
+double edge_at(const Gap& gap, const BridgeOptions& options) {
+  double spread = 0.0;
+  for (const Vec3& x : gap.patch) spread = std::max(spread, (x - gap.middle()).norm());
+  const double patch_area = std::numbers::pi * spread * spread;
+  return std::max(
+      {kEdge * options.limit, options.edge_floor, std::sqrt(patch_area / kPatchVertices)});
+}
+
+/// Refines a surface around the gap; it stays as it is where that fails.
+void refine(SurfaceMesh& mesh, const Interface& interface, const Gap& gap, double edge) {
+  RemeshOptions options;
+  options.C0 = interface.C0;
+  options.volume = interface.volume;
+  options.find_fault = find_self_intersection;
+  const double hole = kHole / kEdge * edge;
+  const auto distance = [&](const Vec3& x) {
+    double nearest = std::min((x - gap.from).norm(), (x - gap.to).norm()) - hole;
+    for (const Vec3& p : gap.patch) nearest = std::min(nearest, (x - p).norm());
+    return std::max(0.0, nearest);
+  };
+  options.size_bound = [&](const Vec3& x) { return edge + options.gradation * distance(x); };
+  for (int i = 0; i < kRefinements; ++i) {
+    const RemeshReport report = remesh(mesh, options);
+    if (!report.ok || (report.splits == 0 && report.collapses == 0)) return;
+  }
+}
+
+/// Both surfaces as one, outward from the liquid that the bridge belongs to.
+SurfaceMesh refined_surfaces(const Scene& scene, const Gap& gap, double edge) {
+  const Interface &a = scene.interfaces[gap.a], &b = scene.interfaces[gap.b];
+  std::vector<SurfaceMesh> parts{a.mesh};
+  refine(parts.front(), a, gap, edge);
+  if (gap.a != gap.b) {
+    parts.push_back(b.mesh);
+    refine(parts.back(), b, gap, edge);
+    if (a.inside == b.outside) turn_inside_out(parts.back());
+    if (b.inside == a.outside) turn_inside_out(parts.front());
+  }
+  return joined(parts);
+}
+
+/// The film seen from the surfaces around it.
+struct Film {
+  const SurfaceMesh& mesh;
+  const SurfaceTopology& topology;
+  const FaceNeighbours& neighbours;
+  const SurfaceTree& tree;
+  VertexField<Vec3> into;  // unit normals into the film
+
+  [[nodiscard]] double width(VertexId v, double limit) const {
+    return film_width(mesh, tree, mesh.x[v], into[v], limit);
+  }
+};
+
+/// The vertex nearest to x that looks along `into`.
+VertexId nearest_vertex(const Film& film, const Vec3& x, const Vec3& into) {
+  VertexId best;
+  double best_distance = std::numeric_limits<double>::infinity();
+  for (const VertexId v : film.mesh.x.ids()) {
+    const double distance = (film.mesh.x[v] - x).norm();
+    if (distance >= best_distance || film.into[v].dot(into) <= 0.0) continue;
+    best = v;
+    best_distance = distance;
+  }
+  return best;
+}
+
+/// The faces around the vertices that can be reached from `start` through vertices within `hole` of
+/// it or, with `limit` > 0, on a film thinner than that.
+FacePatch hole_around(const Film& film, VertexId start, double hole, double limit) {
+  VertexField<char> is_seen(film.mesh.num_vertices(), false);
+  std::vector<VertexId> front{start};
+  is_seen[start] = true;
+  FacePatch patch(film.mesh.num_faces(), false);
+  for (std::size_t k = 0; k < front.size(); ++k) {
+    for (const FaceId f : film.topology.faces_around(front[k])) patch[f] = true;
+    for (const VertexId w : film.topology.ring(front[k])) {
+      if (is_seen[w]) continue;
+      is_seen[w] = true;
+      const bool is_close = (film.mesh.x[w] - film.mesh.x[start]).norm() < hole;
+      if (is_close || (limit > 0.0 && film.width(w, limit) < limit)) front.push_back(w);
+    }
+  }
+  return patch;
+}
+
+/// Volume of the film over the faces that making a patch a disc has added to it: half of what is
+/// between the two sides.
+double enclosed_film(const Film& film, const FacePatch& before, const FacePatch& after) {
+  double volume = 0.0;
+  const double far = (film.tree.high() - film.tree.low()).norm();
+  for (const FaceId f : after.ids()) {
+    if (before[f] || !after[f]) continue;
+    const double area = face_area_vector(film.mesh, f).norm();
+    for (const VertexId v : film.mesh.faces[f])
+      volume += area / 3.0 * std::min(far, film.width(v, far));
+  }
+  return 0.5 * volume;
+}
+
+/// The two holes; none when they cannot be made, or when they run into one another.
+std::optional<std::array<FacePatch, 2>> holes(const Film& film, const std::array<VertexId, 2>& at,
+                                              double hole, const BridgeOptions& options) {
+  const double resolved = std::max(2.0 * options.limit, 4.0 * options.edge_floor);
+  for (const double limit : {options.limit, 0.0}) {
+    std::array<FacePatch, 2> patches;
+    double enclosed = 0.0;
+    bool are_discs = true;
+    for (std::size_t k = 0; k < 2; ++k) {
+      patches[k] = hole_around(film, at[k], hole, limit);
+      const FacePatch before = patches[k];
+      are_discs = are_discs && make_disc(film.mesh, film.topology, film.neighbours, patches[k]);
+      enclosed += enclosed_film(film, before, patches[k]);
+    }
+    const double radius = std::cbrt(0.75 * enclosed / std::numbers::pi);
+    if (!are_discs || (limit > 0.0 && radius > resolved)) continue;
+    const bool are_apart = std::ranges::none_of(film.mesh.x.ids(), [&](VertexId v) {
+      const auto faces = film.topology.faces_around(v);
+      return std::ranges::any_of(faces, [&](FaceId f) { return patches[0][f]; }) &&
+             std::ranges::any_of(faces, [&](FaceId f) { return patches[1][f]; });
+    });
+    if (are_apart) return patches;
+  }
+  return std::nullopt;
+}
+
+/// The surface with a tube between two holes in it.
+std::string join(const SurfaceMesh& mesh, const std::array<FacePatch, 2>& patches,
+                 SurfaceMesh& result) {
+  const auto first = boundary_curves(mesh, patches[0]), second = boundary_curves(mesh, patches[1]);
+  FacePatch both = patches[0];
+  for (const FaceId f : both.ids()) both[f] = both[f] || patches[1][f];
+  result = without(mesh, both);
+  const std::int32_t num_kept = result.num_faces();
+  for (const FaceVertices& f : zipped(mesh, first->front(), second->front())) result.faces.add(f);
+  FacePatch tube(result.num_faces(), false);
+  for (std::int32_t f = num_kept; f < result.num_faces(); ++f) tube[FaceId{f}] = true;
+  SurfaceMesh smooth = result;
+  if (smooth_part(smooth, tube, kSmoothRings) && find_self_intersection(smooth).empty()) {
+    result = std::move(smooth);
+    return {};
+  }
+  return find_self_intersection(result);
+}
+
+}  // namespace
+
+Surgery bridge_gap(const Scene& scene, const Gap& gap, const BridgeOptions& options) {
+  const double edge = edge_at(gap, options);
+  const SurfaceMesh mesh = refined_surfaces(scene, gap, edge);
+  // The film lies outside the liquid of the bridge, or is that liquid when it lies inside of a.
+  const Side side = gap.side;
+  const SurfaceTopology topology(mesh);
+  const FaceNeighbours neighbours = face_neighbours(mesh, topology);
+  const SurfaceTree tree(mesh);
+  Film film{mesh, topology, neighbours, tree, vertex_area_vectors(mesh)};
+  const bool is_film_inside =
+      gap.a == gap.b ? side == Side::inside
+                     : scene.interfaces[gap.a].outside != scene.interfaces[gap.b].outside;
+  for (Vec3& n : film.into) n = (is_film_inside ? -1.0 : 1.0) * n.normalized();
+
+  const Vec3 across = gap.to - gap.from;
+  const std::array<VertexId, 2> at{nearest_vertex(film, gap.from, across),
+                                   nearest_vertex(film, gap.to, -across)};
+  if (!at[0].is_valid() || !at[1].is_valid()) return {{}, "the two sides are not to be found"};
+  const auto patches = holes(film, at, kHole / kEdge * edge, options);
+  if (!patches) return {{}, "no two discs can be opened there"};
+  Surgery surgery;
+  SurfaceMesh result;
+  surgery.failure = join(mesh, *patches, result);
+  if (surgery.failure.empty()) surgery.pieces = connected_pieces(result);
+  return surgery;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "meniscus/topology/cut_neck.hpp"
+#include "meniscus/topology/gaps.hpp"
+
+namespace meniscus {
+
+struct BridgeOptions {
+  double limit = 0.01;      ///< film thinner than this is opened [R0]
+  double edge_floor = 0.0;  ///< [R0] no interface edge is asked to be shorter
+};
+
+/// Joins the two sides of a film by a tube at its closest place. Both surfaces are first refined
+/// there to half the limit; then the discs of faces within two limits of the closest place,
+/// together with all of the film around it that is thinner than the limit, are taken out, and the
+/// two holes joined and smoothed. A thicker part of the film that this would enclose is taken out
+/// with it unless it is large enough to be resolved (a sphere of its volume wider than twice the
+/// limit and four times the edge floor); then the disc of two limits alone is opened, where the
+/// film is closest.
+///
+/// The surface of the liquid that the bridge belongs to: for a film inside of a (between a drop in
+/// a drop and the matrix around both), that of the film's liquid.
+Surgery bridge_gap(const Scene& scene, const Gap& gap, const BridgeOptions& options);
+
+}  // namespace meniscus

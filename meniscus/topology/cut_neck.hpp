@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "meniscus/topology/necks.hpp"
+
+namespace meniscus {
+
+/// What surgery leaves of a surface: its pieces, or why it could not be done.
+struct [[nodiscard]] Surgery {
+  std::vector<SurfaceMesh> pieces;
+  std::string failure;
+};
+
+/// Cuts a thread: the band of faces around the neck within 1.5 of its radius from the middle is
+/// taken out and the two ends are rounded off. Pieces come in the order of their first faces, each
+/// with the orientation it had.
+Surgery cut_neck(const SurfaceMesh& mesh, const Neck& neck);
+
+}  // namespace meniscus

@@ -1,0 +1,212 @@
+#include "meniscus/topology/gaps.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <tuple>
+
+#include <Eigen/Geometry>
+
+#include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/mesh/surface_tree.hpp"
+#include "meniscus/topology/face_patch.hpp"
+
+namespace meniscus {
+namespace {
+
+constexpr double kFacing = 0.5;    // cosine of 60°
+constexpr double kSameFilm = 6.0;  // limits: closer places of one film are one
+constexpr double kNearby = 3.0;    // limits: radius of the ball that must not join two parts
+
+/// What is known of one interface while gaps are looked for.
+struct Face {
+  explicit Face(const Interface& of)
+      : interface(&of), tree(of.mesh), area(vertex_area_vectors(of.mesh)) {}
+  const Interface* interface;
+  SurfaceTree tree;
+  VertexField<Vec3> area;
+
+  [[nodiscard]] const SurfaceMesh& mesh() const { return interface->mesh; }
+  [[nodiscard]] Vec3 normal(VertexId v) const { return area[v].normalized(); }
+  [[nodiscard]] Vec3 normal(FaceId f) const { return face_area_vector(mesh(), f).normalized(); }
+  [[nodiscard]] bool is_near(const Face& other, double gap) const {
+    return (tree.low().array() <= other.tree.high().array() + gap).all() &&
+           (other.tree.low().array() <= tree.high().array() + gap).all();
+  }
+};
+
+/// A vertex of a with the nearest point across the film.
+struct Contact {
+  double width;
+  Vec3 from, to;
+  Vec3 into_from, into_to;  // normals into the film
+};
+
+/// The side of each of two interfaces on which they bound the same liquid.
+std::optional<std::array<Side, 2>> common_film(const Interface& a, const Interface& b) {
+  for (const Side s : {Side::outside, Side::inside})
+    for (const Side t : {Side::outside, Side::inside})
+      if ((s == Side::outside ? a.outside : a.inside) ==
+          (t == Side::outside ? b.outside : b.inside))
+        return std::array<Side, 2>{s, t};
+  return std::nullopt;
+}
+
+bool is_facing(const Contact& c) {
+  const Vec3 across = c.to - c.from;
+  return c.into_from.dot(c.into_to) < -kFacing && across.dot(c.into_from) > kFacing * c.width &&
+         across.dot(c.into_to) < -kFacing * c.width;
+}
+
+void add_contacts(const Face& a, Side side_a, const Face& b, Side side_b, double limit,
+                  bool is_swapped, std::vector<Contact>& contacts) {
+  const Vec3 low = b.tree.low().array() - limit, high = b.tree.high().array() + limit;
+  for (const VertexId v : a.mesh().x.ids()) {
+    const Vec3& x = a.mesh().x[v];
+    if ((x.array() < low.array()).any() || (x.array() > high.array()).any()) continue;
+    const SurfaceTree::Hit hit = b.tree.closest(x, limit);
+    if (!hit.face.is_valid()) continue;
+    Contact c{hit.distance, x, hit.point, sign_of(side_a) * a.normal(v),
+              sign_of(side_b) * b.normal(hit.face)};
+    if (!is_facing(c)) continue;
+    if (is_swapped) {
+      std::swap(c.from, c.to);
+      std::swap(c.into_from, c.into_to);
+    }
+    contacts.push_back(c);
+  }
+}
+
+/// The face a ray meets across a film, and how far away.
+std::optional<SurfaceTree::Hit> across_film(const SurfaceMesh& mesh, const SurfaceTree& tree,
+                                            const Vec3& x, const Vec3& into, double limit) {
+  const double skip = 1e-3 * limit;  // leaves the faces at the vertex behind
+  auto hit = tree.first_hit(x + skip * into, into);
+  if (!hit) return std::nullopt;
+  hit->distance += skip;
+  if (hit->distance >= limit) return std::nullopt;
+  // A film's far side is met from within the film, so that its normal into it is opposed.
+  const Vec3 n = face_area_vector(mesh, hit->face).normalized();
+  if (std::abs(n.dot(into)) < kFacing) return std::nullopt;
+  return hit;
+}
+
+std::vector<Contact> own_contacts(const Face& a, Side side, double limit) {
+  std::vector<Contact> contacts;
+  for (const VertexId v : a.mesh().x.ids()) {
+    const Vec3 into = sign_of(side) * a.normal(v);
+    const auto hit = across_film(a.mesh(), a.tree, a.mesh().x[v], into, limit);
+    if (!hit) continue;
+    const Contact c{hit->distance, a.mesh().x[v], hit->point, into,
+                    sign_of(side) * a.normal(hit->face)};
+    if (is_facing(c)) contacts.push_back(c);
+  }
+  return contacts;
+}
+
+/// Whether faces within `radius` of the middle join the two sides of a film.
+bool are_joined_nearby(const Face& face, const FaceNeighbours& neighbours, const Contact& c,
+                       double radius) {
+  const SurfaceMesh& mesh = face.mesh();
+  const Vec3 middle = 0.5 * (c.from + c.to);
+  const FaceId start = face.tree.closest(c.from).face, goal = face.tree.closest(c.to).face;
+  FacePatch is_seen(mesh.num_faces(), false);
+  std::vector<FaceId> front{start};
+  is_seen[start] = true;
+  for (std::size_t k = 0; k < front.size(); ++k) {
+    if (front[k] == goal) return true;
+    for (const FaceId f : neighbours[front[k]]) {
+      if (is_seen[f]) continue;
+      is_seen[f] = true;
+      const FaceVertices& v = mesh.faces[f];
+      const Vec3 nearest = closest_point({mesh.x[v[0]], mesh.x[v[1]], mesh.x[v[2]]}, middle).point;
+      if ((nearest - middle).norm() < radius) front.push_back(f);
+    }
+  }
+  return false;
+}
+
+bool comes_before(const Contact& c, const Contact& d) {
+  const Vec3 m = c.from + c.to, n = d.from + d.to;
+  return std::make_tuple(c.width, m.x(), m.y(), m.z()) <
+         std::make_tuple(d.width, n.x(), n.y(), n.z());
+}
+
+bool approaches(const Contact& c, const SurfaceMotion& motion) {
+  return motion.is_unknown() ||
+         motion.at(c.from).dot(c.into_from) + motion.at(c.to).dot(c.into_to) > 0.0;
+}
+
+/// One gap for each film: its closest place that the surfaces approach at. `is_film` has the last
+/// word on a place.
+template <class IsFilm>
+void collect(std::vector<Contact> contacts, Gap gap, double limit, const SurfaceMotion& motion,
+             const IsFilm& is_film, std::vector<Gap>& gaps) {
+  std::ranges::sort(contacts, comes_before);
+  std::vector<Gap> found;
+  for (const Contact& c : contacts) {
+    gap.width = c.width;
+    gap.from = c.from;
+    gap.to = c.to;
+    const bool is_known = std::ranges::any_of(found, [&](const Gap& other) {
+      return (other.middle() - gap.middle()).norm() < kSameFilm * limit;
+    });
+    if (!is_known && approaches(c, motion) && is_film(c)) found.push_back(gap);
+  }
+  for (Gap& each : found) {
+    for (const Contact& c : contacts) {
+      each.patch.push_back(c.from);
+      each.patch.push_back(c.to);
+    }
+    gaps.push_back(std::move(each));
+  }
+}
+
+}  // namespace
+
+double film_width(const SurfaceMesh& mesh, const SurfaceTree& tree, const Vec3& x,
+                  const Vec3& into_film, double limit) {
+  const auto hit = across_film(mesh, tree, x, into_film, limit);
+  return hit ? hit->distance : std::numeric_limits<double>::infinity();
+}
+
+std::vector<Gap> find_gaps(const Scene& scene, double limit, const SurfaceMotion& motion) {
+  std::vector<Face> faces;
+  for (const Interface& interface : scene.interfaces) faces.emplace_back(interface);
+  std::vector<Gap> gaps;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto film = common_film(*faces[j].interface, *faces[i].interface);
+      if (!film || !faces[i].is_near(faces[j], limit)) continue;
+      std::vector<Contact> contacts;
+      add_contacts(faces[j], film->front(), faces[i], film->back(), limit, false, contacts);
+      add_contacts(faces[i], film->back(), faces[j], film->front(), limit, true, contacts);
+      collect(
+          std::move(contacts), {.a = j, .b = i, .side = film->front()}, limit, motion,
+          [](const Contact&) { return true; }, gaps);
+    }
+    std::optional<FaceNeighbours> neighbours;
+    for (const Side side : {Side::outside, Side::inside}) {
+      std::vector<Contact> contacts = own_contacts(faces[i], side, limit);
+      if (contacts.empty()) continue;
+      if (!neighbours)
+        neighbours = face_neighbours(faces[i].mesh(), SurfaceTopology(faces[i].mesh()));
+      collect(
+          std::move(contacts), {.a = i, .b = i, .side = side}, limit, motion,
+          [&](const Contact& c) {
+            return !are_joined_nearby(faces[i], *neighbours, c, kNearby * limit);
+          },
+          gaps);
+    }
+  }
+  std::ranges::sort(gaps, [](const Gap& a, const Gap& b) {
+    const Vec3 m = a.middle(), n = b.middle();
+    return std::make_tuple(a.width, m.x(), m.y(), m.z()) <
+           std::make_tuple(b.width, n.x(), n.y(), n.z());
+  });
+  return gaps;
+}
+
+}  // namespace meniscus

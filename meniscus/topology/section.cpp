@@ -1,0 +1,133 @@
+#include "meniscus/topology/section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+namespace meniscus {
+namespace {
+
+using EdgeKey = std::pair<VertexId, VertexId>;
+
+/// Where the plane crosses one face: from the edge it enters by to the edge it leaves by, in the
+/// order that keeps the side above the plane on the left. Faces share the points of their edges.
+struct Crossing {
+  EdgeKey to;
+  FaceId face;
+};
+using Crossings = std::map<EdgeKey, Crossing>;
+
+EdgeKey key(VertexId a, VertexId b) { return a < b ? EdgeKey{a, b} : EdgeKey{b, a}; }
+
+struct Plane {
+  Vec3 origin, normal;
+  [[nodiscard]] double height(const Vec3& x) const { return normal.dot(x - origin); }
+};
+
+/// A vertex in the plane counts as above it, so that every curve passes through edges alone.
+Crossings crossings_near(const SurfaceMesh& mesh, const SurfaceTree& tree, const Plane& plane,
+                         double reach) {
+  Crossings result;
+  const Vec3 half = Vec3::Constant(reach);
+  tree.visit_box(plane.origin - half, plane.origin + half, [&](FaceId f, const Triangle&) {
+    const FaceVertices& v = mesh.faces[f];
+    EdgeKey up{}, down{};
+    int num_crossed = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId a = v[k], b = v[(k + 1) % 3];
+      const bool is_a_above = plane.height(mesh.x[a]) >= 0.0,
+                 is_b_above = plane.height(mesh.x[b]) >= 0.0;
+      if (is_a_above == is_b_above) continue;
+      (is_b_above ? up : down) = key(a, b);
+      ++num_crossed;
+    }
+    if (num_crossed == 2) result.emplace(up, Crossing{down, f});
+    return true;
+  });
+  return result;
+}
+
+Vec3 crossing_point(const SurfaceMesh& mesh, const Plane& plane, const EdgeKey& edge) {
+  const Vec3 &a = mesh.x[edge.first], &b = mesh.x[edge.second];
+  const double ha = plane.height(a), hb = plane.height(b);
+  return a + ha / (ha - hb) * (b - a);
+}
+
+/// Follows the curve from one edge; empty when it leaves the faces that were looked at.
+Section followed(const SurfaceMesh& mesh, const Plane& plane, EdgeKey start, Crossings& crossings,
+                 bool& is_closed) {
+  Section section;
+  section.axis = plane.normal;
+  EdgeKey at = start;
+  is_closed = false;
+  for (auto found = crossings.find(at); found != crossings.end(); found = crossings.find(at)) {
+    section.points.push_back(crossing_point(mesh, plane, at));
+    section.faces.push_back(found->second.face);
+    at = found->second.to;
+    crossings.erase(found);
+    if (at == start) {
+      is_closed = true;
+      break;
+    }
+  }
+  return section;
+}
+
+void measure(Section& section) {
+  double perimeter = 0.0;
+  Vec3 moment = Vec3::Zero();
+  for (std::size_t k = 0; k < section.points.size(); ++k) {
+    const Vec3 &a = section.points[k], &b = section.points[(k + 1) % section.points.size()];
+    const double length = (b - a).norm();
+    perimeter += length;
+    moment += 0.5 * length * (a + b);
+  }
+  section.radius = perimeter / (2.0 * std::numbers::pi);
+  section.center = perimeter > 0.0 ? Vec3(moment / perimeter) : section.points.front();
+}
+
+/// Turns that the curve makes around `center`, seen along its axis.
+double turns_around(const Section& section, const Vec3& center) {
+  double angle = 0.0;
+  for (std::size_t k = 0; k < section.points.size(); ++k) {
+    const Vec3 a = section.points[k] - center,
+               b = section.points[(k + 1) % section.points.size()] - center;
+    angle += std::atan2(section.axis.dot(a.cross(b)), a.dot(b));
+  }
+  return angle / (2.0 * std::numbers::pi);
+}
+
+double distance_to(const Section& section, const Vec3& center) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Vec3& x : section.points) nearest = std::min(nearest, (x - center).norm());
+  return nearest;
+}
+
+}  // namespace
+
+SectionResult section_around(const SurfaceMesh& mesh, const SurfaceTree& tree, const Vec3& center,
+                             const Vec3& axis, double reach) {
+  const Plane plane{center, axis};
+  Crossings crossings = crossings_near(mesh, tree, plane, reach);
+  SectionResult best;
+  std::pair<bool, double> best_rank{true, std::numeric_limits<double>::infinity()};
+  while (!crossings.empty()) {
+    bool is_closed = false;
+    Section section = followed(mesh, plane, crossings.begin()->first, crossings, is_closed);
+    const bool goes_around = is_closed && std::abs(turns_around(section, center)) > 0.5;
+    const std::pair<bool, double> rank{!goes_around, distance_to(section, center)};
+    if (rank >= best_rank) continue;
+    best_rank = rank;
+    best.kind = is_closed ? SectionKind::closed : SectionKind::wide;
+    best.section = std::move(section);
+  }
+  if (best.kind == SectionKind::closed) measure(best.section);
+  return best;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "meniscus/mesh/surface_mesh.hpp"
+#include "meniscus/mesh/surface_tree.hpp"
+
+namespace meniscus {
+
+/// The closed curve in which a plane cuts a thread.
+struct Section {
+  Vec3 center = Vec3::Zero();  ///< centroid of the curve
+  Vec3 axis = Vec3::UnitX();   ///< unit normal of the plane
+  double radius = 0.0;         ///< perimeter/2π [R0]
+  std::vector<Vec3> points;    ///< corners of the curve, in order
+  std::vector<FaceId> faces;   ///< the face between each point and the next
+};
+
+enum class SectionKind { closed, wide, none };
+struct SectionResult {
+  SectionKind kind = SectionKind::none;
+  Section section;
+};
+
+/// The curve around (or, where none goes around it, nearest to) `center` in the plane through it
+/// normal to `axis`, looked for within `reach` of it: `wide` when it leaves that cube, `none` when
+/// the plane meets no face there.
+[[nodiscard]] SectionResult section_around(const SurfaceMesh& mesh, const SurfaceTree& tree,
+                                           const Vec3& center, const Vec3& axis, double reach);
+
+}  // namespace meniscus

@@ -1,0 +1,99 @@
+#include "meniscus/topology/smooth_fill.hpp"
+
+#include <set>
+#include <vector>
+
+// CGAL's fairing solves its linear system with Eigen.
+#ifndef CGAL_EIGEN3_ENABLED
+#define CGAL_EIGEN3_ENABLED 1
+#endif
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/fair.h>
+#include <CGAL/Polygon_mesh_processing/refine.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <CGAL/Surface_mesh.h>
+
+namespace meniscus {
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+CgalMesh to_cgal(const SurfaceMesh& mesh) {
+  CgalMesh result;
+  for (const Vec3& x : mesh.x) result.add_vertex({x.x(), x.y(), x.z()});
+  const auto corner = [](VertexId v) {
+    return CgalMesh::Vertex_index(static_cast<std::uint32_t>(v.value));
+  };
+  for (const FaceVertices& f : mesh.faces)
+    result.add_face(corner(f[0]), corner(f[1]), corner(f[2]));
+  return result;
+}
+
+SurfaceMesh from_cgal(CgalMesh& mesh) {
+  mesh.collect_garbage();
+  SurfaceMesh result;
+  for (const auto v : mesh.vertices()) {
+    const Kernel::Point_3& x = mesh.point(v);
+    result.x.add(Vec3(x.x(), x.y(), x.z()));
+  }
+  for (const auto f : mesh.faces()) {
+    FaceVertices corners;
+    std::size_t k = 0;
+    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh))
+      corners[k++] = VertexId{static_cast<std::int32_t>(v.idx())};
+    result.faces.add(corners);
+  }
+  return result;
+}
+
+/// The vertices of faces, and those up to `rings` edges away from them.
+std::vector<CgalMesh::Vertex_index> vertices_within(const CgalMesh& mesh,
+                                                    const std::vector<CgalMesh::Face_index>& faces,
+                                                    int rings) {
+  std::set<CgalMesh::Vertex_index> found;
+  for (const auto f : faces)
+    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh)) found.insert(v);
+  for (int ring = 0; ring < rings; ++ring) {
+    std::set<CgalMesh::Vertex_index> wider = found;
+    for (const auto v : found)
+      for (const auto w : CGAL::vertices_around_target(mesh.halfedge(v), mesh)) wider.insert(w);
+    found = std::move(wider);
+  }
+  return {found.begin(), found.end()};
+}
+
+}  // namespace
+
+bool cap_holes(SurfaceMesh& mesh) {
+  CgalMesh cgal = to_cgal(mesh);
+  std::vector<CgalMesh::Halfedge_index> holes;
+  pmp::extract_boundary_cycles(cgal, std::back_inserter(holes));
+  for (const auto hole : holes) {
+    std::vector<CgalMesh::Face_index> faces;
+    std::vector<CgalMesh::Vertex_index> vertices;
+    const bool is_smooth = std::get<0>(pmp::triangulate_refine_and_fair_hole(
+        cgal, hole, std::back_inserter(faces), std::back_inserter(vertices)));
+    if (faces.empty() || (!is_smooth && !vertices.empty())) return false;
+  }
+  mesh = from_cgal(cgal);
+  return true;
+}
+
+bool smooth_part(SurfaceMesh& mesh, const FacePatch& part, int rings) {
+  CgalMesh cgal = to_cgal(mesh);
+  std::vector<CgalMesh::Face_index> faces;
+  for (const FaceId f : part.ids())
+    if (part[f]) faces.emplace_back(static_cast<std::uint32_t>(f.value));
+  std::vector<CgalMesh::Face_index> new_faces;
+  std::vector<CgalMesh::Vertex_index> new_vertices;
+  pmp::refine(cgal, faces, std::back_inserter(new_faces), std::back_inserter(new_vertices));
+  faces.insert(faces.end(), new_faces.begin(), new_faces.end());
+  if (!pmp::fair(cgal, vertices_within(cgal, faces, rings))) return false;
+  mesh = from_cgal(cgal);
+  return true;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,174 @@
+#include "meniscus/topology/successors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "meniscus/mesh/surface_check.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/mesh/surface_pieces.hpp"
+#include "meniscus/surface/remesh.hpp"
+
+namespace meniscus {
+namespace {
+
+/// A liquid drop's worth of surface that is about to become an interface.
+struct Child {
+  Interface interface;
+  Liquid liquid;
+  bool is_cavity = false;
+};
+
+/// A direction along which no two places of a symmetric scene are the same.
+Vec3 generic_direction() { return {1.0, std::sqrt(2.0) / 2.0, std::sqrt(3.0) / 3.0}; }
+
+/// What all parents enclose of the liquid whose surface the pieces are: one that lies in another
+/// parent counts as taken from it.
+double liquid_volume(const Scene& scene, std::span<const std::size_t> parents) {
+  double volume = 0.0;
+  for (const std::size_t i : parents) {
+    const Interface& one = scene.interfaces[i];
+    const bool is_within = std::ranges::any_of(
+        parents, [&](std::size_t j) { return scene.interfaces[j].inside == one.outside; });
+    volume += is_within ? -one.volume : one.volume;
+  }
+  return volume;
+}
+
+std::size_t largest(const Scene& scene, std::span<const std::size_t> parents) {
+  return *std::ranges::max_element(parents, [&](std::size_t i, std::size_t j) {
+    const Interface &a = scene.interfaces[i], &b = scene.interfaces[j];
+    return a.volume != b.volume ? a.volume < b.volume : a.drop > b.drop;
+  });
+}
+
+/// The parent around the liquid of the pieces: the one that no other encloses.
+const Interface& outermost(const Scene& scene, std::span<const std::size_t> parents) {
+  for (const std::size_t i : parents) {
+    const bool is_within = std::ranges::any_of(parents, [&](std::size_t j) {
+      return scene.interfaces[j].inside == scene.interfaces[i].outside;
+    });
+    if (!is_within) return scene.interfaces[i];
+  }
+  return scene.interfaces[parents.front()];
+}
+
+std::vector<Child> children_of(const Scene& scene, Succession& succession) {
+  const Interface& outer = outermost(scene, succession.parents);
+  const Interface& heir = scene.interfaces[largest(scene, succession.parents)];
+  double C0 = 0.0;
+  for (const std::size_t i : succession.parents) C0 = std::max(C0, scene.interfaces[i].C0);
+  std::vector<Child> children;
+  for (SurfaceMesh& piece : succession.pieces) {
+    Child child;
+    child.interface.parent = heir.drop;
+    child.interface.tension = heir.tension;
+    child.interface.C0 = C0;
+    child.is_cavity = enclosed_volume(piece) < 0.0;
+    child.liquid = scene.liquids[child.is_cavity ? outer.outside : outer.inside];
+    if (child.is_cavity) turn_inside_out(piece);
+    child.interface.volume = enclosed_volume(piece);
+    child.interface.mesh = std::move(piece);
+    children.push_back(std::move(child));
+  }
+  // Not in the order of the faces, which numbering decides.
+  std::ranges::stable_sort(children, {}, [](const Child& child) {
+    return enclosed_centroid(child.interface.mesh).dot(generic_direction());
+  });
+  return children;
+}
+
+/// Signed sum of the children's volumes.
+double enclosed_liquid(std::span<const Child> children) {
+  double sum = 0.0;
+  for (const Child& child : children)
+    sum += child.is_cavity ? -child.interface.volume : child.interface.volume;
+  return sum;
+}
+
+/// Gives what is missing to the children in equal parts, and round-off to the last.
+void share_volume(std::vector<Child>& children, double volume) {
+  const double missing = volume - enclosed_liquid(children);
+  const auto drops = std::ranges::count(children, false, &Child::is_cavity);
+  Child* last = nullptr;
+  for (Child& child : children) {
+    if (child.is_cavity) continue;
+    child.interface.volume += missing / static_cast<double>(drops);
+    last = &child;
+  }
+  if (last != nullptr) last->interface.volume += volume - enclosed_liquid(children);
+}
+
+double energy(std::span<const Interface> interfaces) {
+  double sum = 0.0;
+  for (const Interface& each : interfaces) sum += each.tension * surface_area(each.mesh);
+  return sum;
+}
+
+double area(std::span<const Interface> interfaces) {
+  double sum = 0.0;
+  for (const Interface& each : interfaces) sum += surface_area(each.mesh);
+  return sum;
+}
+
+/// The scene with the children in the place of the parents; they are told their drops' ids.
+Scene with_children(const Scene& scene, std::span<const std::size_t> parents,
+                    std::span<Child> children) {
+  Scene result = scene;
+  result.interfaces.clear();
+  result.liquids.resize(1);
+  int next_id = 0;
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+    const Interface& interface = scene.interfaces[i];
+    next_id = std::max(next_id, interface.drop + 1);
+    if (std::ranges::find(parents, i) != parents.end()) continue;
+    result.interfaces.push_back(interface);
+    result.liquids.add(scene.liquids[interface.inside]);
+  }
+  for (Child& child : children) {
+    child.interface.drop = next_id++;
+    child.interface.initial_volume = child.interface.volume;
+    result.interfaces.push_back(child.interface);
+    result.liquids.add(child.liquid);
+  }
+  assign_regions(result);
+  return result;
+}
+
+}  // namespace
+
+std::string succeed(Scene& scene, Succession succession, TopologyEvent& event) {
+  std::vector<Interface> parents;
+  for (const std::size_t i : succession.parents) parents.push_back(scene.interfaces[i]);
+  const double volume = liquid_volume(scene, succession.parents);
+  std::vector<Child> children = children_of(scene, succession);
+  if (children.empty()) return "nothing is left";
+  event.volume_moved = std::abs(volume - enclosed_liquid(children));
+  share_volume(children, volume);
+  for (Child& child : children) {
+    if (!(child.interface.volume > 0.0)) return "a fragment encloses nothing";
+    restore_volume(child.interface.mesh, child.interface.volume);
+    if (std::string defect = find_defect(child.interface.mesh); !defect.empty()) return defect;
+  }
+  Scene after = with_children(scene, succession.parents, children);
+  if (std::string conflict = find_conflict(after); !conflict.empty()) return conflict;
+
+  std::vector<Interface> born;
+  for (const Interface& parent : parents) event.parents.push_back(parent.drop);
+  for (const Child& child : children) {
+    event.children.push_back(child.interface.drop);
+    born.push_back(child.interface);
+  }
+  event.volume_before = volume;
+  event.volume_after = enclosed_liquid(children);
+  event.area_before = area(parents);
+  event.area_after = area(born);
+  event.energy_before = energy(parents);
+  event.energy_after = energy(born);
+  scene = std::move(after);
+  return {};
+}
+
+}  // namespace meniscus

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "meniscus/scene/scene.hpp"
+#include "meniscus/topology/events.hpp"
+
+namespace meniscus {
+
+/// How interfaces take the place of others.
+struct Succession {
+  std::vector<std::size_t> parents;  ///< of the scene
+  std::vector<SurfaceMesh> pieces;   ///< a cavity is turned inside out
+};
+
+/// Puts pieces in the place of their parents: volumes made to add up, drops given
+/// new ids (the least never used), regions and nesting found again. What the pieces enclose, less
+/// their cavities, is what the parents enclosed (of a drop released from another, less it): what
+/// the surgery took from that is given back to the pieces in equal parts. A cavity becomes an
+/// interface around the liquid of the first parent's other side.
+///
+/// Interfaces that stay keep their order and come first; the event's drops, volumes, areas and
+/// energies are filled in. Not done, with one line that says why, when a piece encloses nothing, is
+/// no sound surface, or meets another interface or the outer boundary; the scene is then as before.
+[[nodiscard]] std::string succeed(Scene& scene, Succession succession, TopologyEvent& event);
+
+}  // namespace meniscus

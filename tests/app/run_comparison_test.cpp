@@ -1,0 +1,141 @@
+#include "meniscus/app/run_comparison.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "meniscus/core/error.hpp"
+
+namespace meniscus {
+namespace {
+
+using Measure = CheckedQuantity::Measure;
+
+/// Two drops, D = f(t) + drop, y = (1 − 2·drop)·t, over t = 0, 0.1 … 2.
+template <class F>
+RunTables made_run(F f, double drift = 0.0) {
+  RunTables run;
+  run.drops.columns = {"step", "t", "drop", "volume_drift", "y", "D"};
+  run.history.columns = {"step", "t", "min_gap"};
+  for (int step = 0; step <= 20; ++step) {
+    const double t = 0.1 * step;
+    const std::string k = std::to_string(step), time = fmt::format("{}", t);
+    for (int drop = 0; drop < 2; ++drop)
+      run.drops.rows.push_back({k, time, std::to_string(drop), fmt::format("{}", drift),
+                                fmt::format("{}", (1 - 2 * drop) * t),
+                                fmt::format("{}", f(t) + drop)});
+    run.history.rows.push_back({k, time, fmt::format("{}", 1.0 + (t - 1.0) * (t - 1.0))});
+  }
+  return run;
+}
+
+CheckedQuantity quantity(const std::string& column) {
+  CheckedQuantity result;
+  result.column = column;
+  result.tolerance = 0.01;
+  return result;
+}
+
+CheckRow only_row(const CheckedQuantity& q, const std::optional<io::Table>& reference = {}) {
+  CheckFile check;
+  check.runs = {{"one", {}, false, {q}}, {"other", {}, false, {}}};
+  const std::map<std::string, RunTables> runs = {
+      {"one", made_run([](double t) { return t * t; })},
+      {"other", made_run([](double t) { return 1.02 * t * t; })}};
+  return compare("a case", check, runs, reference).at(0);
+}
+
+io::Table reference_of(double factor) {
+  return {{"t", "D"},
+          {{"0", "0"},
+           {"0.5", fmt::format("{}", 0.25 * factor)},
+           {"1", fmt::format("{}", factor)},
+           {"3", fmt::format("{}", 9.0 * factor)}}};
+}
+
+TEST(RunComparison, FindsTheWorstPlaceOfACurveWithinTheRun) {
+  const CheckRow row = only_row(quantity("D"), reference_of(1.005));
+  ASSERT_TRUE(row.worst);
+  EXPECT_EQ(row.compared, 2);  // neither t = 0, where D = 0, nor t = 3, which the run never reached
+  EXPECT_NEAR(row.worst->deviation, 1.0 / 1.005 - 1.0, 1e-12);
+  EXPECT_TRUE(row.passes());
+  EXPECT_FALSE(only_row(quantity("D"), reference_of(1.02)).passes());
+}
+
+TEST(RunComparison, TakesADifferenceOfDropsAndAnExtreme) {
+  CheckedQuantity q = quantity("y");
+  q.minus_drop = 1;
+  q.measure = Measure::largest;
+  q.reference = 4.0;
+  const CheckRow row = only_row(q);
+  ASSERT_TRUE(row.worst);
+  EXPECT_DOUBLE_EQ(row.worst->measured, 4.0);
+}
+
+TEST(RunComparison, ReadsTheHistoryWhereDropsHaveNoSuchColumn) {
+  CheckedQuantity q = quantity("min_gap");
+  q.measure = Measure::smallest;
+  q.reference = 1.1;
+  q.is_absolute = true;
+  const CheckRow row = only_row(q);
+  ASSERT_TRUE(row.worst);
+  EXPECT_NEAR(row.worst->deviation, -0.1, 1e-12);
+  EXPECT_FALSE(row.passes());
+}
+
+TEST(RunComparison, ComparesTwoRunsOverTheirCommonRange) {
+  CheckedQuantity q = quantity("D");
+  q.against = "other";
+  const CheckRow row = only_row(q);
+  ASSERT_TRUE(row.worst);
+  EXPECT_EQ(row.compared, 50);  // of 51 places one is t = 0
+  EXPECT_NEAR(row.worst->deviation, 1.0 / 1.02 - 1.0, 1e-9);
+}
+
+TEST(RunComparison, ExtrapolatesAnErrorInInverseNodesAway) {
+  CheckFile check;
+  std::map<std::string, RunTables> runs;
+  CheckedExtrapolation entry;
+  entry.name = "limit";
+  entry.quantity = quantity("D");
+  entry.quantity.at = {1.0};
+  entry.quantity.reference = 0.5;
+  for (const int nodes : {100, 200, 400}) {
+    const std::string name = std::to_string(nodes);
+    check.runs.push_back({name, {}, false, {}});
+    runs[name] = made_run([&](double t) { return 0.5 * t + 3.0 / nodes; });
+    entry.runs.push_back(name);
+    entry.nodes.push_back(nodes);
+  }
+  check.extrapolations = {entry};
+  const std::vector<CheckRow> rows = compare("a case", check, runs, {});
+  ASSERT_EQ(rows.size(), 4U);  // drift of three runs, then the limit
+  ASSERT_TRUE(rows[3].worst);
+  EXPECT_NEAR(rows[3].worst->measured, 0.5, 1e-12);
+  runs.erase("200");
+  EXPECT_FALSE(compare("a case", check, runs, {}).back().worst);
+}
+
+TEST(RunComparison, HoldsTheVolumeOfEveryRun) {
+  CheckFile check;
+  check.runs = {{"one", {}, false, {}}};
+  const auto drifting = [&](double drift) {
+    return compare("a case", check, {{"one", made_run([](double) { return 0.0; }, drift)}}, {});
+  };
+  EXPECT_TRUE(drifting(-1e-7).at(0).passes());
+  EXPECT_FALSE(drifting(-1e-5).at(0).passes());
+}
+
+TEST(RunComparison, InterpolatesAFallingAbscissaToo) {
+  const Series series{{3.0, 2.0, 1.0}, {30.0, 20.0, 10.0}};
+  EXPECT_DOUBLE_EQ(value_at(series, 2.5).value(), 25.0);
+  EXPECT_FALSE(value_at(series, 0.5));
+}
+
+TEST(RunComparison, NamesAColumnThatNoTableHas) {
+  EXPECT_THROW((void)only_row(quantity("Q"), reference_of(1.0)), InvalidInput);
+}
+
+}  // namespace
+}  // namespace meniscus

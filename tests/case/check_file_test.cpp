@@ -1,0 +1,98 @@
+#include "meniscus/case/check_file.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "meniscus/core/error.hpp"
+
+namespace meniscus {
+namespace {
+
+using testing::HasSubstr;
+
+class CheckFileTest : public testing::Test {
+ protected:
+  std::filesystem::path file_ =
+      std::filesystem::path(testing::TempDir()) / ("check-" + std::to_string(getpid()) + ".toml");
+  ~CheckFileTest() override { std::filesystem::remove(file_); }
+
+  CheckFile read(const std::string& text) {
+    std::ofstream(file_) << text;
+    return read_check_file(file_);
+  }
+  std::string refusal(const std::string& text) {
+    try {
+      (void)read(text);
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+};
+
+TEST_F(CheckFileTest, ReadsRunsQuantitiesAndExtrapolations) {
+  const CheckFile check = read(R"(
+[[run]]
+name = "N0 = 200"
+set = ["drop[0].nodes=200"]
+short = true
+  [[run.quantity]]
+  column = "L"
+  tolerance = 0.015
+[[run]]
+name = "N0 = 400"
+  [[run.quantity]]
+  column = "y"
+  drop = 1
+  minus-drop = 0
+  measure = "largest"
+  against = "N0 = 200"
+  absolute = true
+[[extrapolation]]
+name = "limit"
+runs = ["N0 = 200", "N0 = 400"]
+nodes = [200, 400]
+order = 1.4
+column = "L"
+at = [3.25]
+reference = 1.759827
+source = "axisymmetric"
+)");
+  ASSERT_EQ(check.runs.size(), 2U);
+  EXPECT_TRUE(check.runs[0].is_short);
+  EXPECT_EQ(check.runs[0].quantities.at(0).tolerance, 0.015);
+  const CheckedQuantity& y = check.runs[1].quantities.at(0);
+  EXPECT_EQ(y.measure, CheckedQuantity::Measure::largest);
+  EXPECT_EQ(y.minus_drop, 0);
+  EXPECT_TRUE(y.is_absolute);
+  ASSERT_EQ(check.extrapolations.size(), 1U);
+  EXPECT_EQ(check.extrapolations[0].order, 1.4);
+  EXPECT_EQ(check.extrapolations[0].quantity.at, std::vector<double>{3.25});
+}
+
+TEST_F(CheckFileTest, NamesTheLineOfAFault) {
+  EXPECT_THAT(refusal("[[run]]\nnam = \"a\"\n"), HasSubstr(":2: nam: not a key here"));
+  EXPECT_THAT(refusal("[[run]]\nset = []\n"), HasSubstr("name: is missing"));
+  EXPECT_THAT(refusal("[[run]]\nname = 3\n"), HasSubstr(":2: name: a text is wanted"));
+  EXPECT_THAT(
+      refusal("[[run]]\nname = \"a\"\n[[run.quantity]]\ncolumn = \"D\"\nmeasure = \"mean\"\n"),
+      HasSubstr("allowed are curve, largest, smallest, last"));
+  EXPECT_THAT(refusal("[run]\n"), HasSubstr("write [[run]]"));
+  EXPECT_THAT(refusal("[[run]\n"), HasSubstr(":1: "));
+  EXPECT_THAT(refusal(""), HasSubstr("no [[run]]"));
+}
+
+TEST_F(CheckFileTest, WantsASourceAndAPlaceForANumber) {
+  const std::string head = "[[run]]\nname = \"a\"\n[[run.quantity]]\ncolumn = \"D\"\n";
+  EXPECT_THAT(refusal(head + "reference = 1.0\nat = [1.0]\n"), HasSubstr("source"));
+  EXPECT_THAT(refusal(head + "reference = 1.0\nsource = \"s\"\n"), HasSubstr("the one place"));
+  EXPECT_THAT(refusal(head + "measure = \"largest\"\n"), HasSubstr("needs a reference"));
+  EXPECT_THAT(refusal(head + "against = \"b\"\n"), HasSubstr("no run of this file"));
+}
+
+}  // namespace
+}  // namespace meniscus

@@ -1,0 +1,123 @@
+#include "meniscus/report/mesh_cut.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "meniscus/core/error.hpp"
+#include "tests/io/temporary_folder.hpp"
+#include "tests/report/synthetic_run.hpp"
+
+namespace meniscus::report {
+namespace {
+
+using test::message_of;
+using test::put;
+
+double area(const MeshCut& cut, const CutPolygon& polygon) {
+  double sum = 0.0;
+  const auto corner = [&](int k) {
+    return cut.points[polygon.first_point + static_cast<std::size_t>(k % polygon.num_points)];
+  };
+  for (int k = 0; k < polygon.num_points; ++k) {
+    const auto a = corner(k), b = corner(k + 1);
+    sum += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+  }
+  return std::abs(sum);
+}
+
+io::VolumeFrame box_frame(const test::TemporaryFolder& folder) {
+  test::write_synthetic_run(folder.path(), {.num_frames = 1, .num_volume_frames = 1});
+  return io::read_vtu(folder / "volume/volume-0000.vtu");
+}
+
+/// The polygons of a cut through a box tile its section: wherever it lies, also along facets.
+TEST(MeshCut, PolygonsTileTheSection) {
+  const test::TemporaryFolder folder;
+  const io::VolumeFrame mesh = box_frame(folder);
+  EXPECT_EQ(mesh.cells.size(), 12U * 12U * 12U * 6U);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-3.9, 3.9);
+  for (int trial = 0; trial < 12; ++trial) {
+    MeshCut cut;
+    cut.normal = 1 + trial % 2;
+    cut.offset = trial < 2 ? 0.0 : uniform(random);  // 0 is a plane of facets
+    cut.low = {-5.0, -5.0};
+    cut.high = {5.0, 5.0};
+    add_polygons(cut, mesh);
+    double total = 0.0;
+    for (const CutPolygon& polygon : cut.polygons) total += area(cut, polygon);
+    EXPECT_NEAR(total, 64.0, 1e-10) << "offset " << cut.offset;  // roundoff of some 1000 terms
+  }
+}
+
+/// Triangles and quadrangles of tetrahedra at random lie in the plane of their corners' box and are
+/// convex: their area is that of the section, found by adding up thin slices of the volume.
+TEST(MeshCut, AreaIsTheDerivativeOfVolume) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int trial = 0; trial < 50; ++trial) {
+    io::VolumeFrame mesh;
+    for (int k = 0; k < 4; ++k)
+      mesh.points.emplace_back(uniform(random), uniform(random), uniform(random));
+    mesh.cells = {{0, 1, 2, 3}};
+    const auto section = [&](double offset) {
+      MeshCut cut;
+      cut.offset = offset;
+      cut.low = {-2.0, -2.0};
+      cut.high = {2.0, 2.0};
+      add_polygons(cut, mesh);
+      return cut.polygons.empty() ? 0.0 : area(cut, cut.polygons[0]);
+    };
+    double volume = 0.0;
+    constexpr int num_slices = 4000;
+    for (int i = 0; i < num_slices; ++i)
+      volume += section(-1.0 + (i + 0.5) * 2.0 / num_slices) * 2.0 / num_slices;
+    const Vec3 a = mesh.points[1] - mesh.points[0], b = mesh.points[2] - mesh.points[0],
+               c = mesh.points[3] - mesh.points[0];
+    // The midpoint rule errs where the area has a kink: of the order of a slice.
+    EXPECT_NEAR(volume, std::abs(a.cross(b).dot(c)) / 6.0, 2e-3) << "trial " << trial;
+  }
+}
+
+TEST(MeshCut, GoesThroughTheDrop) {
+  const test::TemporaryFolder folder;
+  const io::VolumeFrame mesh = box_frame(folder);
+  const MeshCut cut = cut_through_drops(mesh, 2);
+  EXPECT_NEAR(cut.offset, 0.0, 1e-12);
+  EXPECT_EQ(cut.axes, "xy");
+  EXPECT_EQ(cut_through_drops(mesh, 1).axes, "xz");
+  EXPECT_GT(cut.low[0], -4.0);  // the window is smaller than the box
+  double inside = 0.0;
+  for (const CutPolygon& polygon : cut.polygons) {
+    EXPECT_TRUE(polygon.num_points == 3 || polygon.num_points == 4);
+    if (polygon.region == 1) inside += area(cut, polygon);
+  }
+  EXPECT_NEAR(inside, M_PI, 0.25 * M_PI);  // cells of 0.67 R0 for a disc of radius 1
+}
+
+TEST(MeshCut, PictureHasOnePathPerCell) {
+  const test::TemporaryFolder folder;
+  const MeshCut cut = cut_through_drops(box_frame(folder), 2);
+  for (const CutColors colors : {CutColors::liquid, CutColors::quality}) {
+    const std::string svg = draw_cut(cut, colors, 400.0);
+    std::size_t num_paths = 0;
+    for (std::size_t at = svg.find("<path"); at != std::string::npos;
+         at = svg.find("<path", at + 1))
+      ++num_paths;
+    EXPECT_EQ(num_paths, cut.polygons.size());
+  }
+  EXPECT_GT(cut_height(cut, 400.0), 200.0);
+}
+
+TEST(MeshCut, RefusesWhatIsNoMesh) {
+  const test::TemporaryFolder folder;
+  put(folder / "torn.vtu", "torn");
+  const std::string path = (folder / "torn.vtu").string();
+  EXPECT_EQ(message_of<InvalidInput>([&] { (void)io::read_vtu(path); }),
+            path + ": not a volume mesh file of VTK (.vtu), or corrupt");
+}
+
+}  // namespace
+}  // namespace meniscus::report

@@ -1,0 +1,92 @@
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/sizing.hpp"
+#include "tests/surface/shapes.hpp"
+
+namespace meniscus {
+namespace {
+
+constexpr double kSphereArea = 4.0 * std::numbers::pi;
+
+struct LengthStatistics {
+  double mean, deviation;
+};
+/// Mean and standard deviation of l/l0 over the edges.
+LengthStatistics relative_lengths(const SurfaceMesh& mesh, const RemeshOptions& options) {
+  const SurfaceTopology topology(mesh);
+  const auto l0 = rest_lengths(mesh, topology, osculating_curvature(mesh, topology), options);
+  double sum = 0.0, squares = 0.0;
+  for (const SurfaceEdge& e : topology.edges()) {
+    const double ratio = (mesh.x[e.a] - mesh.x[e.b]).norm() / (0.5 * (l0[e.a] + l0[e.b]));
+    sum += ratio;
+    squares += ratio * ratio;
+  }
+  const auto n = static_cast<double>(topology.edges().size());
+  return {sum / n, std::sqrt(squares / n - sum / n * sum / n)};
+}
+
+struct Journey {
+  double worst_law = 0.0;  // largest |N_S/(C0 ∮⟨κ⟩² dS) − 1|
+  double volume_change = 0.0, shift_over_edge = 0.0;
+};
+/// A sphere, remeshed after each of `steps` exact affine maps that carry the prolate spheroid of
+/// aspect `from` to that of aspect `to`, the volume kept.
+Journey stretch(SurfaceMesh& mesh, double from, double to, int steps,
+                const RemeshOptions& options) {
+  Journey journey;
+  const double factor = std::pow(to / from, 2.0 / 3.0 / steps);
+  for (int step = 1; step <= steps; ++step) {
+    for (Vec3& x : mesh.x)
+      x = x.cwiseProduct(Vec3(factor, 1 / std::sqrt(factor), 1 / std::sqrt(factor)));
+    const RemeshReport report = remesh(mesh, options);
+    EXPECT_TRUE(report.ok) << report.failure;
+    const double aspect = from * std::pow(to / from, static_cast<double>(step) / steps);
+    const double law = options.C0 * test::prolate_curvature_integral(aspect, 1.0);
+    journey.worst_law = std::max(journey.worst_law, std::abs(mesh.num_vertices() / law - 1.0));
+    journey.volume_change = std::max(journey.volume_change, std::abs(report.volume_change));
+    journey.shift_over_edge = std::max(journey.shift_over_edge, report.volume_shift_over_edge);
+  }
+  return journey;
+}
+
+TEST(History, ThereAndBackIsAsBefore) {
+  // A thousand nodes, aspect 6 and back in a hundred remeshed steps. What is compared was made by
+  // the engine at both ends: the first spread of l/l0 is that after a journey too.
+  const RemeshOptions options{.C0 = 1000 / kSphereArea};
+  SurfaceMesh mesh = sphere(1000);
+  for (int trip = 0; trip < 2; ++trip) {
+    const int vertices = mesh.num_vertices();
+    const LengthStatistics before = relative_lengths(mesh, options);
+    const Journey there = stretch(mesh, 1.0, 6.0, 50, options);
+    const int most = mesh.num_vertices();
+    const Journey back = stretch(mesh, 6.0, 1.0, 50, options);
+    const LengthStatistics after = relative_lengths(mesh, options);
+    printf(
+        "N %d %d %d mean %.4f %.4f dev %.4f %.4f law %.3f %.3f volume %.2e %.2e shift %.2e %.2e\n",
+        vertices, most, mesh.num_vertices(), before.mean, after.mean, before.deviation,
+        after.deviation, there.worst_law, back.worst_law, there.volume_change, back.volume_change,
+        there.shift_over_edge, back.shift_over_edge);
+    EXPECT_NEAR(mesh.num_vertices(), vertices, 0.03 * vertices);
+    EXPECT_NEAR(after.mean, before.mean, 0.03 * before.mean);
+    EXPECT_LT(there.worst_law, 0.05);
+    EXPECT_LT(back.worst_law, 0.05);
+  }
+}
+
+TEST(History, CoarseEllipsoidsFollowTheLaw) {
+  for (const int nodes : {110, 200, 400})
+    for (const double aspect : {4.0, 6.0}) {
+      SurfaceMesh mesh = sphere(nodes);
+      const Journey journey = stretch(mesh, 1.0, aspect, 40, {.C0 = nodes / kSphereArea});
+      printf("%d aspect %g: %d vertices, worst %.3f\n", nodes, aspect, mesh.num_vertices(),
+             journey.worst_law);
+      EXPECT_LT(journey.worst_law, 0.05) << nodes << " nodes, aspect " << aspect;
+    }
+}
+
+}  // namespace
+}  // namespace meniscus

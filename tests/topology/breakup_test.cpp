@@ -1,0 +1,132 @@
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "meniscus/mesh/shapes.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "tests/surface/shapes.hpp"
+#include "tests/topology/scenes.hpp"
+
+namespace meniscus {
+namespace {
+
+// That of the meshes: else a remeshing alone would change areas.
+constexpr double kC0 = 14.0;
+
+using test::fault_after, test::scene_of, test::wavy_thread;
+
+TEST(Breakup, CutsADumbbellInTwoEqualDrops) {
+  const std::vector<SurfaceMesh> meshes{wavy_thread(2.0, 0.5, 4, -0.9, 2, kC0)};
+  Scene scene = scene_of(meshes, kC0);
+  const Scene before = scene;
+  const TopologyReport report = apply_topology(scene, {.breakup_radius = 0.06}, {});
+  ASSERT_EQ(report.events.size(), 1U) << (report.warnings.empty() ? "" : report.warnings[0]);
+  EXPECT_EQ(fault_after(before, scene, report), "");
+  const TopologyEvent& event = report.events[0];
+  EXPECT_EQ(event.kind, EventKind::breakup);
+  EXPECT_EQ(event.parents, std::vector<int>{0});
+  EXPECT_EQ(event.children, (std::vector<int>{1, 2}));
+  EXPECT_FALSE(event.gap);
+  ASSERT_EQ(scene.interfaces.size(), 2U);
+  const double V = before.interfaces[0].volume;
+  for (const Interface& drop : scene.interfaces) {
+    EXPECT_EQ(drop.parent, 0);
+    // Half each, but for the irregular mesh at the cut: a slice as long as an edge, half a radius.
+    EXPECT_NEAR(drop.volume, V / 2, 0.5 * std::numbers::pi * std::pow(0.05, 3));
+    EXPECT_EQ(test::euler_characteristic(drop.mesh), 2);
+  }
+  EXPECT_LT(event.volume_moved, 2.0 * std::numbers::pi * std::pow(0.05, 3));
+}
+
+TEST(Breakup, CutsALongThreadInSeveralPlacesAtOnce) {
+  const std::vector<SurfaceMesh> meshes{wavy_thread(4.0, 0.2, 24, -0.8, 3, kC0)};
+  Scene scene = scene_of(meshes, kC0);
+  const Scene before = scene;
+  const TopologyReport report = apply_topology(scene, {.breakup_radius = 0.05}, {});
+  EXPECT_EQ(report.events.size(), 3U) << (report.warnings.empty() ? "" : report.warnings[0]);
+  EXPECT_EQ(fault_after(before, scene, report), "");
+  EXPECT_EQ(scene.interfaces.size(), 4U);
+}
+
+TEST(Breakup, LeavesATorusInOnePiece) {
+  // A torus whose tube thins to 0.05 on one side.
+  SurfaceMesh mesh = test::torus(96, 12, 1.0, 0.3);
+  for (Vec3& x : mesh.x) {
+    const double rho = std::hypot(x.x(), x.y());
+    const Vec3 c(x.x() / rho, x.y() / rho, 0.0);
+    const double thinner = 1.0 - (0.25 / 0.3) * std::exp(-4.0 * (1.0 - c.x()));
+    x = c + thinner * (x - c);
+  }
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(remesh(mesh, {.C0 = kC0}).ok);
+  const std::vector<SurfaceMesh> meshes{mesh};
+  Scene scene = scene_of(meshes, kC0);
+  const Scene before = scene;
+  EXPECT_EQ(test::euler_characteristic(mesh), 0);
+  const TopologyReport report = apply_topology(scene, {.breakup_radius = 0.06}, {});
+  ASSERT_EQ(report.events.size(), 1U) << (report.warnings.empty() ? "" : report.warnings[0]);
+  EXPECT_EQ(fault_after(before, scene, report), "");
+  ASSERT_EQ(scene.interfaces.size(), 1U);
+  EXPECT_EQ(scene.interfaces[0].drop, 1);
+  EXPECT_EQ(test::euler_characteristic(scene.interfaces[0].mesh), 2);
+}
+
+TEST(Breakup, LeavesAnInnerDropInTheFragmentThatHoldsIt) {
+  const std::vector<SurfaceMesh> meshes{wavy_thread(2.0, 0.5, 4, -0.9, 2, kC0),
+                                        sphere(100, 0.2, Vec3(-1.0, 0, 0))};
+  Scene scene = scene_of(meshes, kC0);
+  scene.liquids[RegionId{2}].viscosity = 7.0;
+  const Scene before = scene;
+  const TopologyReport report = apply_topology(scene, {.breakup_radius = 0.06}, {});
+  ASSERT_EQ(report.events.size(), 1U);
+  EXPECT_EQ(fault_after(before, scene, report), "");
+  ASSERT_EQ(scene.interfaces.size(), 3U);
+  EXPECT_EQ(scene.interfaces[0].drop, 1);  // what stays comes first
+  EXPECT_EQ(scene.liquids[scene.interfaces[0].inside].viscosity, 7.0);
+  for (std::size_t i = 1; i < 3; ++i) {
+    const bool is_left = enclosed_centroid(scene.interfaces[i].mesh).x() < 0.0;
+    EXPECT_EQ(scene.interfaces[0].outside == scene.interfaces[i].inside, is_left);
+  }
+}
+
+TEST(Breakup, DoesNotDependOnTheNumberingOfVertices) {
+  const SurfaceMesh mesh = wavy_thread(4.0, 0.2, 24, -0.8, 3, kC0);
+  const auto broken = [](const SurfaceMesh& whole) {
+    const std::vector<SurfaceMesh> meshes{whole};
+    Scene scene = scene_of(meshes, kC0);
+    const TopologyReport report = apply_topology(scene, {.breakup_radius = 0.05}, {});
+    EXPECT_TRUE(report.warnings.empty()) << report.warnings[0];
+    return scene;
+  };
+  const Scene scene = broken(mesh);
+  for (const unsigned seed : {4U, 5U}) {
+    const Scene other = broken(test::shuffled(mesh, seed));
+    ASSERT_EQ(other.interfaces.size(), scene.interfaces.size());
+    // The same cuts; of the caps that CGAL makes, the triangles depend on numbering a little. They
+    // enclose about π r³/3 each.
+    for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+      EXPECT_NEAR(other.interfaces[i].volume, scene.interfaces[i].volume,
+                  0.05 * std::numbers::pi / 3 * std::pow(0.04, 3))
+          << "seed " << seed;
+  }
+}
+
+TEST(Breakup, GivesASatelliteBelowTheEdgeFloorItsVertices) {
+  // Two necks on either side of a bead of radius 0.02, with a floor that would leave it a handful.
+  const auto profile = [](double xi) {
+    const double body = std::sqrt(std::max(0.0, 1.0 - std::pow(xi, 4)));
+    const double bead = 0.02 * std::exp(-std::pow(xi / 0.012, 2));
+    return body * (0.5 * std::pow(std::sin(std::numbers::pi * xi), 2) + 0.008) + bead;
+  };
+  const std::vector<SurfaceMesh> meshes{test::revolved(2.0, profile, kC0)};
+  Scene scene = scene_of(meshes, kC0);
+  const Scene before = scene;
+  const TopologyReport report =
+      apply_topology(scene, {.breakup_radius = 0.015, .edge_floor = 0.02}, {});
+  EXPECT_EQ(report.events.size(), 2U) << (report.warnings.empty() ? "" : report.warnings[0]);
+  EXPECT_EQ(fault_after(before, scene, report), "");
+  EXPECT_EQ(scene.interfaces.size(), 3U);
+}
+
+}  // namespace
+}  // namespace meniscus

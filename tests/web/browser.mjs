@@ -1,0 +1,75 @@
+// A headless Chromium for the tests, with nothing kept from one to the next and no network.
+import assert from "node:assert/strict";
+import { accessSync, constants, mkdtempSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { delimiter, join } from "node:path";
+
+const FLAGS = [
+  "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+  "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
+  "--disable-sync",
+];
+
+/** Ends the test as skipped (77, for ctest) where no browser is installed. */
+export function findChromium() {
+  for (const name of ["chromium", "chromium-browser", "google-chrome"]) {
+    for (const folder of process.env.PATH.split(delimiter)) {
+      try {
+        accessSync(join(folder, name), constants.X_OK);
+        return join(folder, name);
+      } catch {} // not in this folder
+    }
+  }
+  console.log("SKIPPED: there is no chromium here (Debian: apt install chromium)");
+  process.exit(77);
+}
+
+/** `web`: the folder whose node_modules holds playwright-core. */
+export async function openBrowser(web, chromium, options = {}) {
+  const { chromium: driver } = createRequire(join(web, "package.json"))("playwright-core");
+  const profile = mkdtempSync(join(tmpdir(), "meniscus-browser-"));
+  const context = await driver.launchPersistentContext(profile, {
+    executablePath: chromium, headless: true, args: FLAGS, acceptDownloads: true,
+    viewport: { width: 1366, height: 768 }, ...options,
+  });
+  return {
+    context,
+    close: async () => {
+      await context.close();
+      rmSync(profile, { recursive: true, force: true, maxRetries: 5 });
+    },
+  };
+}
+
+/** Opens a page and notes all it complains of and all it asks for. */
+export async function openPage(context, url) {
+  const page = await context.newPage();
+  const complaints = [];
+  const requests = [];
+  page.on("console", (message) => {
+    // The software renderer's remarks on its own speed are no fault of the page.
+    if (["error", "warning"].includes(message.type()) && !message.text().includes("GPU stall"))
+      complaints.push(message.text());
+  });
+  page.on("pageerror", (error) => complaints.push(String(error)));
+  page.on("request", (request) => requests.push(request.url()));
+  await page.goto(url);
+  return { page, complaints, requests };
+}
+
+/** The picture of a canvas, as text that two can be compared by. */
+export function pixels(page, selector) {
+  return page.evaluate(
+    (s) => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() =>
+      resolve(document.querySelector(s).toDataURL())))), selector);
+}
+
+/** Waits until a condition holds in the page; says which one did not. */
+export async function until(page, condition, argument) {
+  try {
+    await page.waitForFunction(condition, argument, { timeout: 20000 });
+  } catch {
+    assert.fail(`never came true: ${condition}`);
+  }
+}

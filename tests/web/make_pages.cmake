@@ -1,0 +1,11 @@
+# Synthetic runs and the pages of them that the browser tests look at.
+file(MAKE_DIRECTORY ${WORK})
+macro(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
+endmacro()
+run(${MAKE_RUN} ${WORK}/long 200 2502 1)
+run(${MAKE_RUN} ${WORK}/short 20 300 1)
+run(${MAKE_RUN} ${WORK}/drops 12 300 2)
+run(${PROGRAM} report ${WORK}/long)
+run(${PROGRAM} report ${WORK}/drops)
+run(${PROGRAM} compare ${WORK}/short ${WORK}/long -o ${WORK}/comparison.html)

@@ -1,0 +1,213 @@
+// What the page shows, out of the texts it carries (or a server sends): tables, frames, cuts.
+
+/** Bytes of a text in base 64. */
+function bytesOfBase64(text) {
+  const binary = atob(text.trim());
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = binary.charCodeAt(i);
+  return bytes;
+}
+
+/** What the program deflated (format zlib). */
+async function inflated(bytes) {
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+export function pageData() {
+  return JSON.parse(document.getElementById("page-data").textContent);
+}
+
+/** Bytes of an element of the page, inflated; the element goes, its text is not needed twice. */
+export async function embedded(id) {
+  const element = document.getElementById(id);
+  if (!element) throw new Error(`the page lacks ${id}`);
+  const text = element.textContent;
+  element.remove();
+  return inflated(bytesOfBase64(text));
+}
+
+export async function fetched(url) {
+  const response = await fetch(url, { cache: "no-store" });
+  if (!response.ok) throw new Error(`${url}: ${response.status}`);
+  return inflated(new Uint8Array(await response.arrayBuffer()));
+}
+
+/** A table: columns by name, numbers where every cell of the column is one or empty, else texts. */
+export class Table {
+  constructor(names = []) {
+    this.names = names;
+    this.cells = names.map(() => []);
+    this.length = 0;
+    this.numbers = new Map();
+  }
+
+  /** Adds the rows of a CSV text; the first line of the first text names the columns. */
+  append(text) {
+    for (const row of rowsOfCsv(text)) {
+      if (this.names.length === 0) {
+        this.names = row;
+        this.cells = row.map(() => []);
+        continue;
+      }
+      if (row.length !== this.names.length) continue; // cut short by a crash
+      row.forEach((cell, k) => this.cells[k].push(cell));
+      ++this.length;
+    }
+    this.numbers.clear();
+    return this;
+  }
+
+  has(name) {
+    return this.names.includes(name) && this.column(name).some(Number.isFinite);
+  }
+
+  texts(name) {
+    return this.cells[this.names.indexOf(name)] ?? [];
+  }
+
+  /** NaN where a cell is empty or no number. */
+  column(name) {
+    if (!this.numbers.has(name)) {
+      this.numbers.set(name, this.texts(name).map((cell) => (cell.trim() === "" ? NaN : Number(cell))));
+    }
+    return this.numbers.get(name);
+  }
+}
+
+/** Rows of a CSV text (RFC 4180); lines that begin with # and empty ones are left out. */
+export function* rowsOfCsv(text) {
+  let row = [""];
+  let isQuoted = false;
+  const isKept = () => !row[0].startsWith("#") && !(row.length === 1 && row[0] === "");
+  for (let i = 0; i < text.length; ++i) {
+    const c = text[i];
+    if (c === '"' && isQuoted && text[i + 1] === '"') {
+      row[row.length - 1] += '"';
+      ++i;
+    } else if (c === '"') {
+      isQuoted = !isQuoted;
+    } else if (c === "," && !isQuoted) {
+      row.push("");
+    } else if (c === "\n" && !isQuoted) {
+      if (isKept()) yield row;
+      row = [""];
+    } else if (c !== "\r") {
+      row[row.length - 1] += c;
+    }
+  }
+  if (isKept()) yield row;
+}
+
+/** Reads a `Package` of the program: its header, then arrays that each begin at a multiple of 4. */
+class Reader {
+  constructor(bytes) {
+    const length = new DataView(bytes.buffer, bytes.byteOffset).getUint32(0, true);
+    this.header = JSON.parse(new TextDecoder().decode(bytes.subarray(4, 4 + length)));
+    this.bytes = bytes;
+    this.at = 4 + length;
+  }
+  take(Type, length) {
+    this.at = Math.ceil(this.at / 4) * 4;
+    const array = new Type(this.bytes.buffer, this.bytes.byteOffset + this.at, length);
+    this.at += array.byteLength;
+    return array;
+  }
+}
+
+const GRID_STEPS = 65534;
+const GRID_NONE = 65535;
+
+function ungridded(indices, low, high) {
+  const step = (high - low) / GRID_STEPS;
+  return Float32Array.from(indices, (i) => (i === GRID_NONE ? NaN : low + step * i));
+}
+
+/** A surface as the 3-D view draws it. */
+export function unpackedFrame(bytes) {
+  const reader = new Reader(bytes);
+  const { t, vertices, faces, wide, low, high, fields } = reader.header;
+  const index = reader.take(wide ? Uint32Array : Uint16Array, 3 * faces);
+  const position = new Float32Array(3 * vertices);
+  for (let axis = 0; axis < 3; ++axis) {
+    const grid = reader.take(Uint16Array, vertices);
+    const step = (high[axis] - low[axis]) / GRID_STEPS;
+    for (let v = 0; v < vertices; ++v) position[3 * v + axis] = low[axis] + step * grid[v];
+  }
+  const values = {};
+  for (const field of fields) {
+    values[field.name] = ungridded(reader.take(Uint16Array, vertices), field.low, field.high);
+  }
+  return { t, index, position, values, low, high };
+}
+
+/** The cuts of one moment, each a list of polygons. */
+export function unpackedCuts(bytes) {
+  const reader = new Reader(bytes);
+  return reader.header.cuts.map((cut) => ({
+    ...cut,
+    t: reader.header.t,
+    corners: reader.take(Uint8Array, cut.polygons),
+    region: reader.take(Uint8Array, cut.polygons),
+    quality: Float32Array.from(reader.take(Uint8Array, cut.polygons), (q) => (q / 255) * cut.quality),
+    x: ungridded(reader.take(Uint16Array, cut.points), cut.low[0], cut.high[0]),
+    y: ungridded(reader.take(Uint16Array, cut.points), cut.low[1], cut.high[1]),
+  }));
+}
+
+/**
+ * The frames (or cuts) of a run, unpacked when first asked for. `entries` says what is known of each
+ * beforehand; `load` gives the bytes of the k-th.
+ */
+export class Frames {
+  constructor(entries, load, unpack) {
+    this.entries = entries;
+    this.load = load;
+    this.unpack = unpack;
+    this.promises = [];
+    this.ready = [];
+  }
+  get length() {
+    return this.entries.length;
+  }
+  get times() {
+    return this.entries.map((entry) => entry.t);
+  }
+  get(k) {
+    this.promises[k] ??= this.load(k).then((bytes) => (this.ready[k] = this.unpack(bytes)));
+    return this.promises[k];
+  }
+  /** The frame if it has been unpacked already. */
+  now(k) {
+    return this.ready[k];
+  }
+  nearest(t) {
+    let best = 0;
+    this.entries.forEach((entry, k) => {
+      if (Math.abs(entry.t - t) < Math.abs(this.entries[best].t - t)) best = k;
+    });
+    return best;
+  }
+  /** Unpacks all, a few at a time, so that the page stays awake. */
+  async prepare() {
+    for (let k = 0; k < this.length; ++k) {
+      await this.get(k).catch(() => {});
+      if (k % 4 === 3) await new Promise((resume) => setTimeout(resume));
+    }
+  }
+}
+
+/** A run of a page that carries all it shows. */
+export async function embeddedRun(run, number) {
+  const prefix = `run${number}-`;
+  const tables = {};
+  for (const name of run.tables) {
+    tables[name] = new Table().append(new TextDecoder().decode(await embedded(prefix + name)));
+  }
+  return {
+    ...run,
+    tables,
+    frames: new Frames(run.frames, (k) => embedded(`${prefix}frame${k}`), unpackedFrame),
+    cuts: new Frames(run.cuts, (k) => embedded(`${prefix}cut${k}`), unpackedCuts),
+  };
+}
