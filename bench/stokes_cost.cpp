@@ -1,8 +1,10 @@
 // CPU seconds of each phase of one Stokes solve on graded meshes around a sphere, by linear solver.
-// Arguments: vertices on the drop, viscosity ratio.
+// Arguments: vertices on the drop, viscosity ratio, elements (P1-P1 or P2-P1), "block" for that
+// solver alone.
 
 #include <cstdlib>
 #include <ctime>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -27,25 +29,32 @@ Scene stretched_drop(int num_vertices, double lambda) {
        .is_linear_flow = true});
 }
 
-StokesProblem instant(const Scene& scene, const TetMesh& mesh) {
-  StokesProblem problem(mesh);
+StokesProblem instant(const Scene& scene, const TetMesh& mesh, const FlowSpace& space) {
+  StokesProblem problem(mesh, space, node_positions(scene, mesh, space));
   for (const CellId c : mesh.cells.ids())
     problem.viscosity[c] = scene.liquids[mesh.region[c]].viscosity;
-  problem.constraints = boundary_conditions(scene.boundary, mesh, 0.0).constraints;
-  const VertexField<Vec3> force =
-      capillary_force(scene.interfaces[0].mesh, scene.interfaces[0].tension, CapillaryForm::weak);
-  for (const VertexId v : force.ids()) problem.load[mesh.interfaces[0].vertex(v)] += force[v];
+  problem.constraints =
+      boundary_conditions(scene.boundary,
+                          face_nodes(space, mesh, scene.boundary.mesh, mesh.boundary),
+                          problem.positions, 0.0)
+          .constraints;
+  add_capillary_force(scene.interfaces[0], CapillaryForm::weak,
+                      face_nodes(space, mesh, scene.interfaces[0].mesh, mesh.interfaces[0]),
+                      problem.positions, problem.load);
   return problem;
 }
 
-void measure(const Scene& scene, const TetMesh& mesh, LinearSolver which, const char* label) {
+void measure(const Scene& scene, const TetMesh& mesh, Elements elements, LinearSolver which,
+             const char* label) {
   Options options;
+  options.elements = elements;
   options.linear = which;
   const double start = cpu_seconds();
-  StokesSolver solver(mesh, options);
+  const FlowSpace space = flow_space(mesh, elements);
+  StokesSolver solver(space, options);
   const double graph = cpu_seconds() - start;
-  const StokesProblem problem = instant(scene, mesh);
-  StokesJacobian jacobian(mesh, solver.pressure_space());
+  const StokesProblem problem = instant(scene, mesh, space);
+  StokesJacobian jacobian(space);
   jacobian.assemble(problem);
   const double before = cpu_seconds();
   jacobian.assemble(problem);
@@ -55,10 +64,11 @@ void measure(const Scene& scene, const TetMesh& mesh, LinearSolver which, const 
   const double begin = cpu_seconds();
   const StokesReport report = solver.solve(problem, state, linear::Preconditioner::fresh, times);
   const double solve = cpu_seconds() - begin - assembly;
-  fmt::print("| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} |\n", label,
-             mesh.num_vertices(), report.ok ? "yes" : report.failure, report.iterations, graph,
-             assembly, solve, graph + assembly + solve,
-             1e6 * (graph + assembly + solve) / mesh.num_vertices());
+  fmt::print("| {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} |\n", label,
+             elements == Elements::p1_p1 ? "P1-P1" : "P2-P1", space.velocity.num_nodes,
+             report.ok ? "yes" : report.failure, report.iterations, graph, assembly, solve,
+             graph + assembly + solve,
+             1e6 * (graph + assembly + solve) / space.velocity.num_nodes);
   std::fflush(stdout);
 }
 
@@ -76,11 +86,15 @@ int main(int count, char** arguments) {
     return EXIT_FAILURE;
   }
   fmt::print(
-      "| solver | vertices | ok | iterations | graph | assembly | solve | total | µs/vertex |"
-      "\n|---|---|---|---|---|---|---|---|---|\n");
-  measure(scene, mesh, LinearSolver::block, "block");
-  measure(scene, mesh, LinearSolver::minres, "minres");
-  measure(scene, mesh, LinearSolver::paper_gmres, "paper-gmres");
-  if (mesh.num_vertices() < 20000) measure(scene, mesh, LinearSolver::mumps, "mumps");
+      "| solver | elements | nodes | ok | iterations | graph | assembly | solve | total | µs/node |"
+      "\n|---|---|---|---|---|---|---|---|---|---|\n");
+  const bool is_quadratic = count > 3 && std::string_view(arguments[3]) == "P2-P1";
+  const Elements elements = is_quadratic ? Elements::p2_p1 : Elements::p1_p1;
+  measure(scene, mesh, elements, LinearSolver::block, "block");
+  const bool has_peers = count <= 4 || std::string_view(arguments[4]) != "block";
+  if (!has_peers) return EXIT_SUCCESS;
+  measure(scene, mesh, elements, LinearSolver::minres, "minres");
+  if (!is_quadratic) measure(scene, mesh, elements, LinearSolver::paper_gmres, "paper-gmres");
+  if (mesh.num_vertices() < 20000) measure(scene, mesh, elements, LinearSolver::mumps, "mumps");
   return EXIT_SUCCESS;
 }

@@ -41,6 +41,11 @@ add_test(NAME remesh COMMAND Python3::Interpreter
   $<TARGET_FILE:meniscus_program> ${CMAKE_CURRENT_BINARY_DIR}/remesh)
 set_tests_properties(remesh PROPERTIES TIMEOUT 900)
 
+add_test(NAME events COMMAND Python3::Interpreter
+  ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/events.py
+  $<TARGET_FILE:meniscus_program> ${CMAKE_CURRENT_BINARY_DIR}/events)
+set_tests_properties(events PROPERTIES TIMEOUT 900)
+
 add_test(NAME variants COMMAND Python3::Interpreter
   ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/variants.py
   $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/variants)

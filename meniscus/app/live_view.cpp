@@ -22,6 +22,12 @@ constexpr const char* json_type = "application/json";
 constexpr const char* binary_type = "application/octet-stream";
 constexpr std::int64_t most_table_bytes = 1 << 22;  // at once; who is behind asks again
 
+// A page asks every second; on a busy machine, or in a tab behind others, less often.
+constexpr auto longest_pause = 5s;
+// Having heard of the end it fetches what is new, one thing after the other.
+constexpr auto settling_time = 1s;
+constexpr auto longest_farewell = 6s;
+
 /// The tables that can be asked for, by the path of the request.
 struct ServedTable {
   std::string_view path;
@@ -92,17 +98,20 @@ void LiveView::update(const RunDirectory& directory) {
 
 void LiveView::end(const std::string& status) {
   const Clock::time_point now = Clock::now();
-  {
+  const auto under_lock = [&](const auto& read) {
     const std::lock_guard lock(mutex_);
-    status_ = status;
-  }
-  const auto last_question = [&] {
-    const std::lock_guard lock(mutex_);
-    return asked_;
+    return read();
   };
-  // A page asks every second and then for what is new: it has all when it has been quiet for
-  // longer.
-  while (Clock::now() - now < 4s && Clock::now() - last_question() < 1500ms)
+  under_lock([&] {
+    status_ = status;
+    is_end_known_ = false;
+    return 0;
+  });
+  const auto is_anybody_waiting = [&] {
+    if (now - asked_ > longest_pause) return false;
+    return !is_end_known_ || Clock::now() - asked_ < settling_time;
+  };
+  while (Clock::now() - now < longest_farewell && under_lock(is_anybody_waiting))
     std::this_thread::sleep_for(50ms);
 }
 
@@ -112,7 +121,10 @@ WatchServer::Answer LiveView::answer(std::string_view path, std::optional<std::i
   if (page_ == nullptr) return {503, "text/plain", "the run is about to begin\n", nullptr};
   asked_ = Clock::now();
   if (path == "/") return {200, "text/html; charset=utf-8", {}, page_};
-  if (path == "/state") return {200, json_type, state(), nullptr};
+  if (path == "/state") {
+    is_end_known_ = true;
+    return {200, json_type, state(), nullptr};
+  }
   if (path == "/frames") return entries_from(frames_, number.value_or(0));
   if (path == "/cuts") return entries_from(cuts_, number.value_or(0));
   if (path == "/frame" && number) return bytes_of(frames_, *number);

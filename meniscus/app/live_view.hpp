@@ -26,7 +26,7 @@ class LiveView {
   void begin(const std::filesystem::path& folder);
   /// Packs the frames that have been written since the last call.
   void update(const RunDirectory& directory);
-  /// Tells how the run ended, and waits for those who look to see it: at most four seconds.
+  /// Tells how the run ended, and waits for those who look to see it: at most six seconds.
   void end(const std::string& status);
 
  private:
@@ -47,6 +47,7 @@ class LiveView {
   std::string status_ = "running";
   std::vector<Part> frames_, cuts_;
   Clock::time_point asked_{};  ///< the last time that anybody asked
+  bool is_end_known_ = false;  ///< somebody has asked since the status was last set
   std::string address_;
   WatchServer server_;  // last: its thread ends before what it reads
 };

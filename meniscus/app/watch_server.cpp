@@ -37,6 +37,12 @@ WatchServer::Answer refusal(int status, std::string reason) {
   return {status, "text/plain; charset=utf-8", std::move(reason) + "\n", nullptr};
 }
 
+/// Nothing that is served has a name that needs escapes: they are left as they are, and found
+/// nowhere.
+std::size_t keep_escapes(void* /*unused*/, MHD_Connection* /*unused*/, char* text) {
+  return std::strlen(text);
+}
+
 void release_shared(void* body) { delete static_cast<std::shared_ptr<const std::string>*>(body); }
 
 MHD_Response* response_of(const WatchServer::Answer& answer) {
@@ -129,11 +135,11 @@ WatchServer::WatchServer(const WatchAddress& address, Handler handler)
   impl_->handler = std::move(handler);
   impl_->is_loopback = (ntohl(where.sin_addr.s_addr) >> 24) == 127;
   errno = 0;
-  impl_->daemon =
-      MHD_start_daemon(MHD_USE_EPOLL_INTERNAL_THREAD, 0, nullptr, nullptr, &Impl::respond,
-                       impl_.get(), MHD_OPTION_SOCK_ADDR, &where, MHD_OPTION_CONNECTION_LIMIT,
-                       most_connections, MHD_OPTION_CONNECTION_MEMORY_LIMIT, connection_memory,
-                       MHD_OPTION_CONNECTION_TIMEOUT, longest_silence, MHD_OPTION_END);
+  impl_->daemon = MHD_start_daemon(
+      MHD_USE_EPOLL_INTERNAL_THREAD, 0, nullptr, nullptr, &Impl::respond, impl_.get(),
+      MHD_OPTION_SOCK_ADDR, &where, MHD_OPTION_CONNECTION_LIMIT, most_connections,
+      MHD_OPTION_CONNECTION_MEMORY_LIMIT, connection_memory, MHD_OPTION_CONNECTION_TIMEOUT,
+      longest_silence, MHD_OPTION_UNESCAPE_CALLBACK, keep_escapes, nullptr, MHD_OPTION_END);
   if (impl_->daemon == nullptr) {
     reject_input("--watch: cannot listen at {}:{}: {}; give another --port", address.address,
                  address.port, std::strerror(errno));

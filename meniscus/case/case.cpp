@@ -77,12 +77,12 @@ Case parse_case(std::string_view text, const std::string& name, const std::files
   c.drops = read_drops(c.settings);
   c.domain = read_domain(c.settings, c.flow);
   require_capillary_time(c);
-  c.evolution = read_evolution(c.settings);
   c.method = read_method(c.settings, c.domain);
   if (c.method == FlowMethod::boundary_integral)
     c.boundary_integral = read_boundary_integrals(c.settings);
   else
     c.flow_solver = read_finite_elements(c.settings);
+  c.evolution = read_evolution(c.settings, c.method, c.flow_solver.elements);
   c.output = read_output(c.settings, c.method);
   read_fixed_keys(c.settings, c.method);
   c.settings.require_all_used();

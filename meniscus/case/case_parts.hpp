@@ -12,7 +12,8 @@ namespace meniscus {
 [[nodiscard]] std::vector<DropCase> read_drops(Settings& settings);
 /// The flow decides the default conditions on a box.
 [[nodiscard]] DomainCase read_domain(Settings& settings, const ImposedFlow& flow);
-[[nodiscard]] EvolutionOptions read_evolution(Settings& settings);
+[[nodiscard]] EvolutionOptions read_evolution(Settings& settings, FlowMethod method,
+                                              fem::Elements elements);
 [[nodiscard]] FlowMethod read_method(Settings& settings, const DomainCase& domain);
 [[nodiscard]] fem::Options read_finite_elements(Settings& settings);
 [[nodiscard]] bem::Options read_boundary_integrals(Settings& settings);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -19,6 +20,7 @@ constexpr std::array<std::string_view, 6> kBoxPatches{"x-", "x+", "y-", "y+", "z
 constexpr std::array<std::string_view, 3> kCylinderPatches{"side", "x-", "x+"};
 constexpr std::string_view kBothEnds = "ends", kWholeSphere = "all";
 constexpr int kFirstZTag = 4;  // z- and z+ of the box
+constexpr int kSideTag = 0;    // of the cylinder
 
 std::vector<std::string_view> names_by_tag(Shape shape) {
   switch (shape) {
@@ -108,6 +110,18 @@ BoundaryCondition default_condition(const Case& c, int tag) {
   return flow_velocity(c.flow);
 }
 
+/// The wall that the faces of a curved patch stand for, through their vertices.
+std::function<Vec3(const Vec3&)> smooth_wall(const DomainCase& domain, int tag) {
+  if (domain.shape == Shape::sphere)
+    return [radius = domain.radius](const Vec3& x) { return Vec3(radius * x.normalized()); };
+  if (domain.shape == Shape::cylinder && tag == kSideTag)
+    return [radius = domain.radius](const Vec3& x) {
+      const double scale = radius / std::hypot(x.y(), x.z());
+      return Vec3(x.x(), scale * x.y(), scale * x.z());
+    };
+  return {};
+}
+
 const PatchCase* find_patch(const DomainCase& domain, int tag) {
   const auto found = std::ranges::find_if(domain.patches, [&](const PatchCase& patch) {
     return std::ranges::find(patch.tags, tag) != patch.tags.end();
@@ -166,7 +180,8 @@ OuterBoundary build_boundary(const Case& c) {
     const PatchCase* given = find_patch(c.domain, tag);
     const PatchId id = boundary.patches.add(
         {patch_name(c.domain, tag),
-         given != nullptr ? condition(c, *given, surface.mesh, faces) : default_condition(c, tag)});
+         given != nullptr ? condition(c, *given, surface.mesh, faces) : default_condition(c, tag),
+         smooth_wall(c.domain, tag)});
     for (const FaceId f : faces) boundary.patch[f] = id;
   }
   boundary.mesh = std::move(surface.mesh);

@@ -37,13 +37,18 @@ TopologyOptions read_topology(Settings& settings, double edge_floor) {
 
 }  // namespace
 
-EvolutionOptions read_evolution(Settings& settings) {
+EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elements elements) {
   EvolutionOptions options;
+  const bool is_curved = method == FlowMethod::finite_element && elements == fem::Elements::p2_p1;
+  options.surface = is_curved ? SurfaceShape::curved : SurfaceShape::faceted;
   options.scheme = settings.choice<TimeScheme>(
       "time.scheme", {{"rk2", TimeScheme::rk2}, {"euler", TimeScheme::euler}});
-  options.motion_normal = settings.choice<MotionNormal>(
-      "interface.motion-normal",
-      {{"area-vector", MotionNormal::area_vector}, {"fit", MotionNormal::fit}});
+  options.motion_normal = settings.choice<MotionNormal>("interface.motion-normal",
+                                                        {{"area-vector", MotionNormal::area_vector},
+                                                         {"fit", MotionNormal::fit},
+                                                         {"smooth", MotionNormal::smooth}});
+  if (is_curved && !settings.is_given("interface.motion-normal"))
+    options.motion_normal = MotionNormal::smooth;
   options.end = settings.number("time.end");
   options.step_factor = settings.number("time.step-factor");
   options.step_edges = settings.choice<StepEdges>(
@@ -82,6 +87,8 @@ bem::Options read_boundary_integrals(Settings& settings) {
 fem::Options read_finite_elements(Settings& settings) {
   using fem::CapillaryForm, fem::LinearSolver;
   fem::Options options;
+  options.elements = settings.choice<fem::Elements>(
+      "solver.elements", {{"P1-P1", fem::Elements::p1_p1}, {"P2-P1", fem::Elements::p2_p1}});
   options.capillary = settings.choice<CapillaryForm>("interface.surface-tension",
                                                      {{"weak", CapillaryForm::weak},
                                                       {"nodal", CapillaryForm::nodal},

@@ -306,10 +306,11 @@ const std::vector<Key> kKeys{
                  "curvature)."},
     {.path = "interface.motion-normal",
      .type = word,
-     .words = {"area-vector", "fit"},
+     .words = {"area-vector", "fit", "smooth"},
      .value = "area-vector"s,
      .sentence = "Normal along which vertices move: area-vector keeps the volume's rate of change "
-                 "at round-off, fit is the paper's paraboloid."},
+                 "at round-off, fit is the paper's paraboloid, smooth that of the fitted surface "
+                 "(what P2-P1 elements take unless told otherwise)."},
     {.path = "interface.volume-motion",
      .type = word,
      .words = {"spines", "lagrangian", "harmonic"},
@@ -373,11 +374,13 @@ const std::vector<Key> kKeys{
      .sentence = "Threads that share the sums; the results do not depend on it."},
     {.path = "solver.elements",
      .type = word,
-     .words = {"P1-P1"},
-     .later = {"P2-P1"},
+     .words = {"P1-P1", "P2-P1"},
      .value = "P1-P1"s,
      .applies = kWithElements,
-     .sentence = "P1-P1: linear velocity and pressure, pressure-stabilised, as in the paper."},
+     .sentence =
+         "P1-P1: linear velocity and pressure, pressure-stabilised, as in the paper. P2-P1: "
+         "quadratic velocity, curved at interfaces and round walls; a drop's volume is then "
+         "that of the curved surface."},
     {.path = "solver.linear",
      .type = word,
      .words = {"block", "paper-gmres", "minres", "mumps"},

@@ -102,12 +102,12 @@ EvolutionReport Evolution::advance() {
       for (const TopologyEvent& event : events_) announce(event, t_);
       return report;
     }
+    scene_ = start;
+    correction_ = correction;
     if (report.is_final) return report;
     warnings_.push_back(
         fmt::format("step {} of length {:.3g} failed: {}", step_ + 1, dt, report.failure));
     log::warning("{}; trying a shorter one", warnings_.back());
-    scene_ = start;
-    correction_ = correction;
     const InterfaceMotion rest(mean_motion(start, start, 1.0));
     if (const FlowReport back = flow_->move_from_mark(start, rest, 0.0); !back.ok)
       return {false, back.failure};
@@ -181,7 +181,7 @@ void Evolution::remesh_interfaces() {
     Interface& interface = scene_.interfaces[i];
     RemeshOptions options;
     options.C0 = interface.C0;
-    options.volume = interface.volume;
+    if (options_.surface == SurfaceShape::faceted) options.volume = interface.volume;
     options.edge_floor = options_.edge_floor;
     options.gap_layers = options_.gap_layers;
     for (std::size_t j = 0; j < trees.size(); ++j)
@@ -189,12 +189,14 @@ void Evolution::remesh_interfaces() {
     options.find_fault = find_self_intersection;
     const RemeshReport report = remesh(interface.mesh, options);
     correction_[i] = report.volume_shift;
+    if (report.ok && options_.surface == SurfaceShape::curved)
+      correction_[i] = std::abs(restore_volume(interface.mesh, interface.volume, options_.surface));
     if (report.ok && i < trees.size()) trees[i] = SurfaceTree(interface.mesh);
     if (report.ok) continue;
     warnings_.push_back(fmt::format("drop {} was not remeshed at t = {:.6g}: {}", interface.drop,
                                     t_, report.failure));
     log::warning("{}", warnings_.back());
-    correction_[i] = std::abs(restore_volume(interface.mesh, interface.volume));
+    correction_[i] = std::abs(restore_volume(interface.mesh, interface.volume, options_.surface));
   }
 }
 
@@ -251,7 +253,7 @@ HistoryRow Evolution::history_row() const {
     row.power_in = power->in;
     row.dissipation = power->dissipation;
   }
-  row.surface_rate = surface_energy_rate(scene_, motion_);
+  row.surface_rate = surface_energy_rate(scene_, motion_, options_.surface);
   row.stress = drop_stress(scene_, flow_->velocity());
   return row;
 }
@@ -264,6 +266,7 @@ std::vector<DropRow> Evolution::drop_rows() const {
     row.drop = interface.drop;
     row.parent = interface.parent;
     row.shape = drop_shape(interface.mesh, scene_.flow.family());
+    row.shape.volume = volume_of(interface.mesh, options_.surface);
     row.volume_drift = row.shape.volume / interface.initial_volume - 1.0;
     row.volume_correction = correction_[i];
   }

@@ -77,8 +77,8 @@ class Evolution {
   InterfaceMotion motion_;          // n n·v at t_k
   std::vector<double> correction_;  // per interface: largest shift that restored its volume
   std::vector<TopologyEvent> events_;
-  int iterations_ = 0;              // linear iterations since the last row
-  mutable PhaseTimes times_;        // the clock is no part of the state
+  int iterations_ = 0;        // linear iterations since the last row
+  mutable PhaseTimes times_;  // the clock is no part of the state
   std::vector<std::string> warnings_;
 };
 

@@ -22,6 +22,13 @@ void move_interfaces(Scene& scene, const InterfaceMotion& motion, double dt);
 
 /// Σ tension · dS/dt over the interfaces, for vertices that move with `motion`: the rate at which
 /// the interfaces' energy grows [μ_out G² R0³].
-[[nodiscard]] double surface_energy_rate(const Scene& scene, const InterfaceMotion& motion);
+[[nodiscard]] double surface_energy_rate(const Scene& scene, const InterfaceMotion& motion,
+                                         SurfaceShape surface = SurfaceShape::faceted);
+
+/// The volume enclosed by what the vertices stand for [R0³].
+[[nodiscard]] double volume_of(const SurfaceMesh& mesh, SurfaceShape surface);
+/// Shifts all vertices by the same length along their area vectors so that this volume becomes the
+/// one given; returns the length [R0].
+double restore_volume(SurfaceMesh& mesh, double volume, SurfaceShape surface);
 
 }  // namespace meniscus

@@ -6,21 +6,26 @@ namespace meniscus {
 
 enum class TimeScheme { rk2, euler };  ///< eqs 22 and 21 of hooper2001
 /// Normal with which an interface vertex moves, ẋ = n n·v (eq. 23): of the area vector A_i (keeps
-/// the volume's rate of change at round-off) or of the paraboloid fit (the paper's).
-enum class MotionNormal { area_vector, fit };
+/// the faceted volume's rate of change at round-off), of the paraboloid fit (the paper's), or of
+/// the smooth surface (O(h³), where that of an area vector on an irregular mesh is O(h)).
+enum class MotionNormal { area_vector, fit, smooth };
+/// The surface that an interface's vertices stand for, whose volume is kept and whose area stores
+/// energy: the flat faces, or the parabolic ones of curved elements.
+enum class SurfaceShape { faceted, curved };
 enum class StepEdges { interface, mesh };  ///< where l_min of the step rule is looked for
 
 struct EvolutionOptions {
   TimeScheme scheme = TimeScheme::rk2;
   MotionNormal motion_normal = MotionNormal::area_vector;
+  SurfaceShape surface = SurfaceShape::faceted;
   double end = 1.0;          ///< the run stops at the first step with t ≥ end
   double step_factor = 0.5;  ///< Δt = step_factor · min(1, Ca) · l_min (eq. 27)
   StepEdges step_edges = StepEdges::interface;
-  double max_step = 0.1;    ///< upper bound on Δt
-  double min_step = 1e-6;   ///< a step that fails at this size ends the run
-  int remesh_every = 1;     ///< steps between remeshings
-  double edge_floor = 0.0;  ///< [R0] no interface edge is asked to be shorter
-  double gap_layers = 0.0;  ///< layers of tetrahedra asked for where sheets are close; 0: none
+  double max_step = 0.1;     ///< upper bound on Δt
+  double min_step = 1e-6;    ///< a step that fails at this size ends the run
+  int remesh_every = 1;      ///< steps between remeshings
+  double edge_floor = 0.0;   ///< [R0] no interface edge is asked to be shorter
+  double gap_layers = 0.0;   ///< layers of tetrahedra asked for where sheets are close; 0: none
   TopologyOptions topology;  ///< when necks are cut and gaps bridged
 };
 

@@ -22,10 +22,24 @@ void with_arrays(Vec from, Vec to, Action action) {
   petsc_check(VecRestoreArrayRead(from, &reading), "VecRestoreArrayRead");
 }
 
-KrylovSolver multigrid_cycle(Mat laplacian) {
+/// Two levels, quadratic over linear functions; what the coarse one does is the options' business.
+void use_interpolation(KSP cycle, const CsrView& interpolation) {
+  PC pc = nullptr;
+  petsc_check(KSPGetPC(cycle, &pc), "KSPGetPC");
+  petsc_check(PCSetType(pc, PCMG), "PCSetType");
+  petsc_check(PCMGSetLevels(pc, 2, nullptr), "PCMGSetLevels");
+  petsc_check(PCMGSetGalerkin(pc, PC_MG_GALERKIN_BOTH), "PCMGSetGalerkin");
+  Matrix copy;
+  petsc_check(MatDuplicate(borrowed_matrix(interpolation).get(), MAT_COPY_VALUES, copy.out()),
+              "MatDuplicate");
+  petsc_check(PCMGSetInterpolation(pc, 1, copy.get()), "PCMGSetInterpolation");
+}
+
+KrylovSolver multigrid_cycle(Mat laplacian, const CsrView* interpolation) {
   KrylovSolver cycle;
   petsc_check(KSPCreate(PETSC_COMM_SELF, cycle.out()), "KSPCreate");
   petsc_check(KSPSetOptionsPrefix(cycle.get(), "v_"), "KSPSetOptionsPrefix");
+  if (interpolation != nullptr) use_interpolation(cycle.get(), *interpolation);
   petsc_check(KSPSetOperators(cycle.get(), laplacian, laplacian), "KSPSetOperators");
   petsc_check(KSPSetFromOptions(cycle.get()), "KSPSetFromOptions");
   petsc_check(KSPSetUp(cycle.get()), "KSPSetUp");
@@ -39,11 +53,13 @@ VelocityMultigrid::VelocityMultigrid(const SaddleSystem& system)
       laplacian_of_(system.laplacian_of),
       component_r_(zero_vector(num_nodes_)),
       component_z_(zero_vector(num_nodes_)) {
-  for (const CsrView& laplacian : system.laplacians) {
+  for (std::size_t k = 0; k < system.laplacians.size(); ++k) {
     Matrix copy;
-    petsc_check(MatDuplicate(borrowed_matrix(laplacian).get(), MAT_COPY_VALUES, copy.out()),
-                "MatDuplicate");
-    cycles_.push_back(multigrid_cycle(copy.get()));
+    petsc_check(
+        MatDuplicate(borrowed_matrix(system.laplacians[k]).get(), MAT_COPY_VALUES, copy.out()),
+        "MatDuplicate");
+    cycles_.push_back(multigrid_cycle(
+        copy.get(), system.interpolations.empty() ? nullptr : &system.interpolations[k]));
     laplacians_.push_back(std::move(copy));
   }
 }

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
 #include "meniscus/linear/petsc_matrix.hpp"
@@ -29,14 +31,26 @@ bool has_hypre() {
   return has == PETSC_TRUE;
 }
 
-/// The choices of each method, as options that the user's own may override.
-std::string method_options(SaddleMethod method) {
+/// One algebraic cycle for a scalar Laplacian, as options.
+std::string algebraic_multigrid(const std::string& prefix) {
+  if (!has_hypre()) return fmt::format(" -{0}pc_type gamg -{0}pc_gamg_threshold 0.02", prefix);
   // HMIS coarsening, ext+i interpolation of at most 4 entries: the fastest of the variants tried on
   // scalar Laplacians of tetrahedral meshes, and as good per iteration as an exact solve.
+  return fmt::format(
+      " -{0}pc_type hypre -{0}pc_hypre_boomeramg_coarsen_type HMIS"
+      " -{0}pc_hypre_boomeramg_interp_type ext+i -{0}pc_hypre_boomeramg_P_max 4",
+      prefix);
+}
+
+/// The choices of each method, as options that the user's own may override; with a multigrid by
+/// degree over the algebraic one, or without.
+std::string method_options(SaddleMethod method, bool is_by_degree) {
   const std::string multigrid =
-      has_hypre() ? " -v_ksp_type preonly -v_pc_type hypre -v_pc_hypre_boomeramg_coarsen_type HMIS"
-                    " -v_pc_hypre_boomeramg_interp_type ext+i -v_pc_hypre_boomeramg_P_max 4"
-                  : " -v_ksp_type preonly -v_pc_type gamg -v_pc_gamg_threshold 0.02";
+      is_by_degree
+          ? " -v_ksp_type preonly -v_mg_levels_ksp_type chebyshev -v_mg_levels_ksp_max_it 2"
+            " -v_mg_levels_pc_type jacobi -v_mg_coarse_ksp_type preonly" +
+                algebraic_multigrid("v_mg_coarse_")
+          : " -v_ksp_type preonly" + algebraic_multigrid("v_");
   switch (method) {
     case SaddleMethod::block:
       return "-ksp_type fgmres -ksp_gmres_restart 60"
@@ -134,8 +148,10 @@ class SaddleSolver::Implementation {
       : communicator_(communicator), options_(std::move(options)) {
     start_petsc();
     petsc_check(PetscOptionsCreate(table_.out()), "PetscOptionsCreate");
-    petsc_check(PetscOptionsInsertString(table_.get(), method_options(options_.method).c_str()),
-                "PetscOptionsInsertString");
+    petsc_check(
+        PetscOptionsInsertString(
+            table_.get(), method_options(options_.method, options_.multigrid_by_degree).c_str()),
+        "PetscOptionsInsertString");
     check_words(options_.petsc_options);
     if (PetscOptionsInsertString(table_.get(), options_.petsc_options.c_str()) != 0)
       reject_input("solver options \"{}\" are not what PETSc can read", options_.petsc_options);

@@ -33,6 +33,9 @@ struct SaddleSystem {
   /// The constant pressure is a null vector (no open boundary). The right-hand side must then sum
   /// to zero over the pressures, and the solution's pressures do.
   bool constant_pressure_is_null = false;
+  /// For quadratic velocities, per Laplacian, the interpolation from the linear functions of the
+  /// same mesh: one level of multigrid by degree above the algebraic ones. Else empty.
+  std::vector<CsrView> interpolations = {};
 
   [[nodiscard]] std::int32_t num_velocities() const { return A.num_rows; }
   [[nodiscard]] std::int32_t num_pressures() const { return B.num_rows; }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -53,6 +54,18 @@ std::string draw_cut(const MeshCut& cut, CutColors colors, double width) {
     text += "z\"/>";
   }
   return text + "</g></svg>";
+}
+
+std::string draw_liquid_key(double x, double y) {
+  std::string text;
+  for (const auto& [color, label] : {std::pair(0, "matrix"), std::pair(1, "drop")}) {
+    text += fmt::format(
+        R"(<rect class="ax" x="{0:.1f}" y="{1:.1f}" width="12" height="12" style="fill:{2}"/>)"
+        R"(<text x="{3:.1f}" y="{4:.1f}">{5}</text>)",
+        x, y - 10.0, liquid_colors[static_cast<std::size_t>(color)], x + 18.0, y, label);
+    x += 80.0;
+  }
+  return text;
 }
 
 }  // namespace meniscus::report

@@ -37,8 +37,7 @@ void add_curves(Plot& plot, const PlotSpec& spec, const std::vector<HistoryCurve
   std::set<int> drops;
   for (const HistoryCurve& curve : curves) drops.insert(curve.drop);
   const bool is_single = drops.size() <= 1;
-  const bool has_quantities =
-      std::ranges::any_of(curves, [](const auto& c) { return c.quantity > 0; });
+  const bool has_quantities = spec.quantities.size() > 1 && spec.derivation != Derivation::percent;
   if (!is_single && spec.quantities.size() == 3) {
     plot.title += fmt::format(": {} solid, {} dashed, {} dotted", spec.quantities[0].label,
                               spec.quantities[1].label, spec.quantities[2].label);

@@ -131,13 +131,13 @@ std::string draw_surface(const SurfaceFrame& frame, const View& view, const Valu
 std::string draw_color_bar(const ValueRange& range, std::string_view label, double x, double y,
                            double width) {
   constexpr int num_strips = 64;  // finer than the eye tells apart on this length
-  constexpr double thickness = 10.0, overlap = 0.5;
+  constexpr double thickness = 10.0, overlap = 1.2;  // no seam shows through
   std::string text;
   for (int i = 0; i < num_strips; ++i) {
     text += fmt::format(
         R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{}" fill="{}"/>)",
-        x + width * i / num_strips, y, width / num_strips + overlap, thickness,
-        hex(range.color(range.low + (i + 0.5) / num_strips * (range.high - range.low))));
+        x + width * i / num_strips, y, width / num_strips + (i + 1 < num_strips ? overlap : 0.0),
+        thickness, hex(range.color(range.low + (i + 0.5) / num_strips * (range.high - range.low))));
   }
   const Ticks ticks = linear_ticks(range.low, range.high, 5, false);
   for (std::size_t i = 0; i < ticks.values.size(); ++i) {

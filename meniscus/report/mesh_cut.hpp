@@ -45,5 +45,7 @@ enum class CutColors { liquid, quality };
 /// The cut as the inside of an `svg` element, `width` px wide; its height is `cut_height`.
 [[nodiscard]] std::string draw_cut(const MeshCut& cut, CutColors colors, double width);
 [[nodiscard]] double cut_height(const MeshCut& cut, double width);
+/// The key to the colours of the liquids, from (x, y) to the right.
+[[nodiscard]] std::string draw_liquid_key(double x, double y);
 
 }  // namespace meniscus::report

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -35,13 +36,65 @@ std::vector<double> coordinate(const Points& points, int axis) {
 
 Json in_json(const Vec3& x) { return Json::array({x.x(), x.y(), x.z()}); }
 
-void add_corners(Package& package, const SurfaceMesh& mesh, bool is_wide) {
-  std::vector<std::uint32_t> corners;
-  for (const FaceVertices& face : mesh.faces) {
-    for (const VertexId v : face) corners.push_back(static_cast<std::uint32_t>(v.value));
+/// The bits of a number of ten bits, each followed by two zeros.
+std::uint32_t spread_bits(std::uint32_t value) {
+  std::uint32_t result = 0;
+  for (unsigned int bit = 0; bit < 10; ++bit) result |= (value >> bit & 1U) << (3 * bit);
+  return result;
+}
+
+/// Vertices along the curve that runs through all cells of a grid of 2^10 per side, near ones
+/// mostly near each other in it: the bits of the three coordinates interleaved.
+std::vector<VertexId> order_along_curve(const VertexField<Vec3>& x,
+                                        const std::array<Grid16, 3>& grids) {
+  VertexField<std::uint32_t> place(x.size(), 0);
+  for (const VertexId v : x.ids()) {
+    for (unsigned int k = 0; k < 3; ++k)
+      place[v] |= spread_bits(grids[k].index(x[v][static_cast<int>(k)]) >> 6U) << k;
   }
-  if (is_wide) return package.add(corners);
-  package.add(std::vector<std::uint16_t>(corners.begin(), corners.end()));
+  const auto ids = x.ids();
+  std::vector<VertexId> order(ids.begin(), ids.end());
+  std::ranges::stable_sort(order, {}, [&](VertexId v) { return place[v]; });
+  return order;
+}
+
+template <class T>
+std::vector<T> reordered(const Field<VertexId, T>& values, const std::vector<VertexId>& order) {
+  std::vector<T> result;
+  for (const VertexId v : order) result.push_back(values[v]);
+  return result;
+}
+
+/// The faces in the new numbers of the vertices, each with its smallest first, sorted.
+std::vector<std::array<std::uint32_t, 3>> sorted_faces(const SurfaceMesh& mesh,
+                                                       const std::vector<VertexId>& order) {
+  VertexField<std::uint32_t> rank(mesh.num_vertices());
+  for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = static_cast<std::uint32_t>(i);
+  std::vector<std::array<std::uint32_t, 3>> faces;
+  for (const FaceVertices& face : mesh.faces) {
+    auto& corners = faces.emplace_back();
+    std::ranges::transform(face, corners.begin(), [&](VertexId v) { return rank[v]; });
+    std::ranges::rotate(corners, std::ranges::min_element(corners));
+  }
+  std::ranges::sort(faces);
+  return faces;
+}
+
+void add_corners(Package& package, const std::vector<std::array<std::uint32_t, 3>>& faces,
+                 bool is_wide) {
+  std::array<std::vector<std::uint32_t>, 3> columns;
+  std::uint32_t before = 0;
+  for (const auto& [a, b, c] : faces) {
+    columns[0].push_back(a - std::exchange(before, a));
+    columns[1].push_back(b - a);
+    columns[2].push_back(c - a);
+  }
+  for (const std::vector<std::uint32_t>& column : columns) {
+    if (is_wide)
+      package.add(column);
+    else
+      package.add(std::vector<std::uint16_t>(column.begin(), column.end()));
+  }
 }
 
 std::uint8_t quality_byte(double degrees) {
@@ -72,7 +125,7 @@ void add_cut(Package& package, const MeshCut& cut, const std::array<Grid16, 2>& 
   package.add(regions);
   package.add(qualities);
   for (int k = 0; k < 2; ++k) {
-    package.add(on_grid(coordinate(cut.points, k), grids[static_cast<std::size_t>(k)]));
+    package.add_differences(on_grid(coordinate(cut.points, k), grids[static_cast<std::size_t>(k)]));
   }
 }
 
@@ -104,12 +157,14 @@ PackedFrame packed(const SurfaceFrame& frame) {
                     {"high", in_json(result.high)},
                     {"fields", fields}};
   Package package(header.dump());
-  add_corners(package, frame.mesh, is_wide);
+  const std::vector<VertexId> order = order_along_curve(frame.mesh.x, grids);
+  add_corners(package, sorted_faces(frame.mesh, order), is_wide);
+  const std::vector<Vec3> points = reordered(frame.mesh.x, order);
   for (int k = 0; k < 3; ++k) {
-    package.add(on_grid(coordinate(frame.mesh.x, k), grids[static_cast<std::size_t>(k)]));
+    package.add_differences(on_grid(coordinate(points, k), grids[static_cast<std::size_t>(k)]));
   }
   for (std::size_t i = 0; i < frame.fields.size(); ++i) {
-    package.add(on_grid(frame.fields[i].values.span(), field_grids[i]));
+    package.add_differences(on_grid(reordered(frame.fields[i].values, order), field_grids[i]));
   }
   result.bytes = package.bytes();
   return result;

@@ -20,15 +20,17 @@ struct PackedFrame {
   std::map<std::string, ValueRange> ranges = {};  ///< of each field, without the wildest values
 };
 
-/// A surface: header {t, vertices, faces, wide, low, high, fields: [{name, low, high}]}; then the
-/// corners of the faces in 16 or (wide) 32 bits, x, y, z of all vertices and the values of each
-/// field, each on a `Grid16`.
+/// A surface: header {t, vertices, faces, wide, low, high, fields: [{name, low, high}]}; then of
+/// every face its corners a < b, c as a less the a of the face before, b − a and c − a, in 16 or
+/// (wide) 32 bits; then x, y, z of all vertices and the values of each field on a `Grid16`, as
+/// differences. The vertices are put in an order in which neighbours follow each other, the faces
+/// in that of their corners.
 [[nodiscard]] PackedFrame packed(const SurfaceFrame& frame);
 
-/// Cuts of one moment: header {t, cuts: [{axes, offset, window, polygons, points, low, high,
-/// quality}]}; then for each cut the corners of every polygon (8 bits), its region (8 bits), its
-/// quality (8 bits, 0 to 255 for 0 to `quality` degrees) and all points, two numbers each on a
-/// `Grid16`.
+/// Cuts of one moment: header {t, cuts: [{axes, normal, offset, window, polygons, points, low,
+/// high, quality}]}; then for each cut the number of corners of every polygon (8 bits), its region
+/// (8 bits), its quality (8 bits, 0 to 255 for 0 to `quality` degrees) and all points, two numbers
+/// each on a `Grid16`, as differences.
 [[nodiscard]] PackedFrame packed(double t, const std::vector<MeshCut>& cuts);
 
 }  // namespace meniscus::report

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <zlib.h>
 
@@ -63,21 +64,25 @@ Package::Package(std::string_view header) {
   bytes_ += header;
 }
 
-void Package::align() { bytes_.resize((bytes_.size() + 3) / 4 * 4, ' '); }
-
-void Package::add(std::span<const std::uint8_t> values) {
-  align();
-  for (const std::uint8_t value : values) bytes_ += static_cast<char>(value);
+template <class T>
+void Package::add_planes(std::span<const T> values) {
+  for (unsigned int shift = 0; shift < 8 * sizeof(T); shift += 8) {
+    for (const T value : values) bytes_ += static_cast<char>((value >> shift) & 0xFFU);
+  }
 }
 
-void Package::add(std::span<const std::uint16_t> values) {
-  align();
-  for (const std::uint16_t value : values) io::store(bytes_, value);
-}
+template void Package::add_planes(std::span<const std::uint8_t>);
+template void Package::add_planes(std::span<const std::uint16_t>);
+template void Package::add_planes(std::span<const std::uint32_t>);
 
-void Package::add(std::span<const std::uint32_t> values) {
-  align();
-  for (const std::uint32_t value : values) io::store(bytes_, value);
+void Package::add_differences(std::span<const std::uint16_t> values) {
+  std::vector<std::uint16_t> differences;
+  std::uint16_t before = 0;
+  for (const std::uint16_t value : values) {
+    differences.push_back(static_cast<std::uint16_t>(value - before));
+    before = value;
+  }
+  add(differences);
 }
 
 }  // namespace meniscus::report

@@ -25,20 +25,24 @@ struct Grid16 {
   [[nodiscard]] std::uint16_t index(double value) const;
 };
 
-/// Binary data for the page: a header in JSON, then arrays of whole numbers with the lowest byte
-/// first. Each part begins at a multiple of four bytes, as typed arrays of JavaScript must:
-///   length of the header in bytes (32 bits), header, arrays in the order added.
+/// Binary data for the page: the length of a header in bytes (32 bits, lowest byte first), the
+/// header in JSON, then arrays in the order added. Those of more than a byte are laid out in
+/// planes, the lowest byte of all numbers first: high bytes are much alike, and deflate well.
 class Package {
  public:
   explicit Package(std::string_view header);
-  void add(std::span<const std::uint8_t> values);
-  void add(std::span<const std::uint16_t> values);
-  void add(std::span<const std::uint32_t> values);
+  void add(std::span<const std::uint8_t> values) { add_planes(values); }
+  void add(std::span<const std::uint16_t> values) { add_planes(values); }
+  void add(std::span<const std::uint32_t> values) { add_planes(values); }
+  /// Each number less the one before it (the first less 0), modulo 2^16: small where neighbours are
+  /// alike.
+  void add_differences(std::span<const std::uint16_t> values);
   /// All of it, deflated.
   [[nodiscard]] std::string bytes() const { return deflated(bytes_); }
 
  private:
-  void align();
+  template <class T>
+  void add_planes(std::span<const T> values);
 
   std::string bytes_;
 };

@@ -92,6 +92,7 @@ void pack_surfaces(PageRun& page, RunData& run, const PageBudget& budget) {
 }
 
 void pack_cuts(PageRun& page, RunData& run, const PageBudget& budget) {
+  if (budget.most_cuts == 0) return;
   const auto load = [](const fs::path& path, double t) { return packed(t, load_cuts(path)); };
   const auto entries = spread_frames(run.volume_frames, static_cast<int>(budget.most_cuts));
   page.cuts = load_all(run, entries, load);

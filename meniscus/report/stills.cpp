@@ -51,6 +51,7 @@ std::string draw_cut_pair(const MeshCut& cut, double t) {
   return draw_cut(cut, CutColors::liquid, cut_width) +
          placed(draw_cut(cut, CutColors::quality, cut_width), cut_width + cut_gap, 0.0) +
          fmt::format(R"(<text x="0" y="{:.1f}">{}</text>)", height + 18.0, where) +
+         draw_liquid_key(0.0, height + 42.0) +
          draw_color_bar(quality_range(), "Smallest dihedral angle of the cells [°]",
                         cut_width + cut_gap, height + 22.0, 260.0);
 }

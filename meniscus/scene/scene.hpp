@@ -45,6 +45,9 @@ using PatchId = Id<struct PatchTag>;
 struct Patch {
   std::string name;
   BoundaryCondition condition;
+  /// The point of the smooth wall near a point between vertices; empty where the faces are the
+  /// wall.
+  std::function<Vec3(const Vec3& x)> on_smooth_wall = {};
 };
 
 /// The closed surface around everything, its faces oriented outward, divided in tagged patches.

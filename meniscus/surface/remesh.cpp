@@ -49,13 +49,21 @@ void equilibrate(RemeshState& state, const RemeshOptions& options, RemeshReport&
   }
 }
 
-SurfaceMesh assembled(const RemeshState& state) {
-  const EditMesh::Compacted compacted = state.mesh.compacted();
+/// The new surface, and where its vertices lie on the old one.
+struct Assembled {
   SurfaceMesh mesh;
-  mesh.faces = compacted.faces;
-  mesh.x.reserve(static_cast<std::int32_t>(compacted.vertices.size()));
-  for (const VertexId v : compacted.vertices) mesh.x.add(state.vertices[v].x);
-  return mesh;
+  VertexField<SurfaceLocation> places;
+};
+Assembled assembled(const RemeshState& state) {
+  const EditMesh::Compacted compacted = state.mesh.compacted();
+  Assembled result;
+  result.mesh.faces = compacted.faces;
+  result.mesh.x.reserve(static_cast<std::int32_t>(compacted.vertices.size()));
+  for (const VertexId v : compacted.vertices) {
+    result.mesh.x.add(state.vertices[v].x);
+    result.places.add(state.vertices[v].place);
+  }
+  return result;
 }
 
 /// Mean length of the edges at each vertex.
@@ -77,6 +85,7 @@ VertexField<double> mean_edges(const SurfaceMesh& mesh) {
 void correct_volume(SurfaceMesh& mesh, double volume_before, const RemeshOptions& options,
                     RemeshReport& report) {
   report.volume_change = enclosed_volume(mesh) / volume_before - 1.0;
+  if (!options.restores_volume) return;
   const VertexField<double> edges = mean_edges(mesh);
   const double fraction =
       restore_volume(mesh, options.volume > 0.0 ? options.volume : volume_before, edges);
@@ -126,6 +135,11 @@ void RemeshOptions::validate() const {
 }
 
 RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options) {
+  SurfaceFields none;
+  return remesh(mesh, options, none);
+}
+
+RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options, SurfaceFields& fields) {
   options.validate();
   RemeshReport report;
   const auto fail = [&](std::string why) {
@@ -146,11 +160,13 @@ RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options) {
     report.expected_vertices = expected_vertices(state);
     if (has_fold(state)) return fail("a face is folded over");
 
-    SurfaceMesh result = assembled(state);
+    auto [result, places] = assembled(state);
     correct_volume(result, volume, options, report);
     report.min_angle_deg = smallest_angle_deg(result);
     std::string fault = find_fault(result, smallest_angle_deg(mesh), options, report);
     if (!fault.empty()) return fail(std::move(fault));
+    fields =
+        transferred(fields, {mesh, topology, reference.surface, reference.walk, result, places});
     mesh = std::move(result);
   } catch (const InvalidInput& invalid) {  // from the topology check, before or after
     return fail(invalid.what());

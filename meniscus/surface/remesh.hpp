@@ -6,12 +6,14 @@
 
 #include "meniscus/mesh/surface_mesh.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
+#include "meniscus/surface/surface_fields.hpp"
 
 namespace meniscus {
 
 struct RemeshOptions {
   double C0 = 8.75;             ///< ρ = C0⟨κ⟩² (eq. 1); C0 = N0/4π
   double volume = 0.0;          ///< volume to restore [R0³]; 0: that of the surface as given
+  bool restores_volume = true;  ///< false: the change is reported and left
   double edge_floor = 0.0;      ///< [R0] no edge is asked to be shorter
   double edge_ceiling = 1e300;  ///< [R0] no edge is asked to be longer
   double gradation = 0.5;       ///< largest |∇l0| of the rest length
@@ -45,6 +47,8 @@ struct [[nodiscard]] RemeshReport {
 /// vertex addition and removal, Delaunay reconnection and spring equilibration (cristini2001), and
 /// restores its volume. Transactional: on failure the mesh is unchanged and the report says why.
 RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options);
+/// The same, and fields follow; on failure they are unchanged as well.
+RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options, SurfaceFields& fields);
 
 /// Shifts every vertex by the same multiple of its unit area vector A_i/|A_i| so that the enclosed
 /// volume becomes `volume` to 1e-13 relative; returns the size of the shift [R0], signed outward.

@@ -28,6 +28,8 @@ constexpr int kMaxSweeps = 60;    // a sweep collapses about a fifth of the vert
 constexpr int kFewestNodes = 12;  // of a piece: the icosahedron's
 /// Of each target: where the search ends. Counts scatter by a percent (the remesher's own band).
 constexpr double kNodesBand = 0.02, kEdgeBand = 0.01, kChordalBand = 0.1, kChordalAim = 0.9;
+constexpr int kMaxFailures = 4;
+constexpr double kOtherKnob = 0.9;  // of the one that failed; the next passes correct for it
 constexpr double kGain = 0.8;       // a pass that leaves more of the miss than that gained little
 constexpr double kOwnShare = 0.02;  // of the tessellated smooth surface's own chordal error
 constexpr double kRoughEdge = 0.5;  // of the target's mean edge
@@ -103,7 +105,7 @@ class TargetSearch {
   std::vector<SurfaceMesh> run(TargetReport& report) {
     std::vector<SurfaceMesh> best;
     double best_miss = std::numeric_limits<double>::infinity();
-    int passes_since_best = 0;
+    int passes_since_best = 0, failures = 0;
     double knob = first_knob(), last_knob = 0.0, last_measure = 0.0;
     const double aim =
         target_.by == By::chordal_error ? kChordalAim * target_.value : target_.value;
@@ -111,9 +113,13 @@ class TargetSearch {
       ++report.passes;
       std::vector<SurfaceMesh> remeshed;
       std::string failure = pass(knob, remeshed);
-      if (!failure.empty()) {
-        if (report.passes == 1) report.failure = std::move(failure);
-        break;
+      if (!failure.empty()) {  // rough surfaces fail at one size and not at another near it
+        if (++failures > kMaxFailures) {
+          report.failure = std::move(failure);
+          break;
+        }
+        knob *= kOtherKnob;
+        continue;
       }
       const double measure = measured(remeshed);
       const double miss = std::abs(std::log(measure / aim));

@@ -76,7 +76,7 @@ VertexCurvature SmoothSurface::curvature(const SurfaceLocation& location) const 
   const Vec3 n = at(location).n;
   Mat3 shape = Mat3::Zero();
   for (int k = 0; k < 3; ++k) {
-    const VertexCurvature& c = curvature_[v[static_cast<std::size_t>(k)]];
+    const VertexCurvature c = patches_[v[static_cast<std::size_t>(k)]].curvature();
     // Directions turned with the normal by the smallest rotation, so that none is foreshortened.
     const auto turned = [&](const Vec3& d) -> Vec3 {
       return d - n.dot(d) / (1.0 + n.dot(c.n)) * (n + c.n);

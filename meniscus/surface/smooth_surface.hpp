@@ -35,7 +35,8 @@ class SmoothSurface {
   [[nodiscard]] Vec3 normal(FaceId f, const Vec3& weights) const { return at({f, weights}).n; }
   /// S over the edge from a (s = 0) to b (s = 1): the same point as from either face.
   [[nodiscard]] Vec3 edge_point(VertexId a, VertexId b, double s) const;
-  /// Principal curvatures: the shape operators of the corners, interpolated linearly.
+  /// Principal curvatures: the shape operators of the corners' patches, interpolated linearly.
+  /// Second order on any mesh, unlike the one-ring fits.
   [[nodiscard]] VertexCurvature curvature(const SurfaceLocation& location) const;
 
   /// The osculating fit at the vertices.

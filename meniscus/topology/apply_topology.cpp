@@ -1,14 +1,20 @@
 #include "meniscus/topology/apply_topology.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <tuple>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "meniscus/mesh/surface_check.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/even_out.hpp"
 #include "meniscus/surface/remesh.hpp"
+#include "meniscus/surface/sizing.hpp"
 #include "meniscus/topology/bridge_gap.hpp"
 #include "meniscus/topology/cut_neck.hpp"
 #include "meniscus/topology/successors.hpp"
@@ -88,7 +94,15 @@ class NeckSearch {
   std::map<int, SidedNecks> known_;
 };
 
-std::string cut(Scene& scene, const DueNeck& due, TopologyEvent& event) {
+/// Whether a cut would take off less than a ball as wide as the neck: the end of a point, no drop.
+bool clips_an_end(const Surgery& surgery, double radius) {
+  const double ball = 4.0 / 3.0 * std::numbers::pi * std::pow(radius, 3);
+  return std::ranges::any_of(surgery.pieces, [&](const SurfaceMesh& piece) {
+    return std::abs(enclosed_volume(piece)) < ball;
+  });
+}
+
+std::string cut(Scene& scene, const DueNeck& due, Surgery surgery, TopologyEvent& event) {
   event.place = due.neck.center;
   if (due.side == Side::inside) {
     event.kind = EventKind::breakup;
@@ -97,21 +111,22 @@ std::string cut(Scene& scene, const DueNeck& due, TopologyEvent& event) {
     event.kind = EventKind::coalescence;
     event.gap = 2.0 * due.neck.radius;
   }
-  Surgery surgery = cut_neck(scene.interfaces[due.interface].mesh, due.neck);
   if (!surgery.failure.empty()) return surgery.failure;
   return succeed(scene, {{due.interface}, std::move(surgery.pieces)}, event);
 }
 
 void cut_necks(Scene& scene, const TopologyOptions& options, const SurfaceMotion& motion,
-               TopologyReport& report) {
+               DonePlaces& done, TopologyReport& report) {
   NeckSearch search(options, motion);
-  DonePlaces done;
   for (int i = 0; i < kMaxEvents; ++i) {
     const std::optional<DueNeck> due = search.thinnest(scene, done);
     if (!due) return;
-    done.add(due->neck.center, due->neck.radius);
+    // The two caps are no film to be opened, nor is what lies between the caps in a closed hole.
+    done.add(due->neck.center, std::max(due->neck.radius, options.coalescence_gap));
+    Surgery surgery = cut_neck(scene.interfaces[due->interface].mesh, due->neck);
+    if (clips_an_end(surgery, due->neck.radius)) continue;
     TopologyEvent event;
-    const std::string failure = cut(scene, *due, event);
+    const std::string failure = cut(scene, *due, std::move(surgery), event);
     if (failure.empty()) {
       report.events.push_back(std::move(event));
     } else {
@@ -150,8 +165,7 @@ std::string open_gap(Scene& scene, const Gap& gap, const TopologyOptions& option
 }
 
 void open_gaps(Scene& scene, const TopologyOptions& options, const SurfaceMotion& motion,
-               TopologyReport& report) {
-  DonePlaces done;
+               DonePlaces& done, TopologyReport& report) {
   for (int i = 0; i < kMaxEvents; ++i) {
     const std::vector<Gap> gaps = find_gaps(scene, options.coalescence_gap, motion);
     const auto due =
@@ -184,6 +198,18 @@ int next_id(const Scene& scene) {
   return id;
 }
 
+/// A small drop that the remesher alone does not bring to its vertices is given even triangles
+/// first.
+void give_vertices(Interface& interface, const RemeshOptions& options) {
+  const double area = surface_area(interface.mesh), volume = enclosed_volume(interface.mesh);
+  SurfaceMesh even = evened_out(
+      interface.mesh, length_of_density(1.5 * static_cast<double>(options.min_vertices) / area));
+  restore_volume(even, volume);
+  if (!find_defect(even).empty()) return;
+  interface.mesh = std::move(even);
+  static_cast<void>(remesh(interface.mesh, options));  // it is fit as it is
+}
+
 /// Remeshes the interfaces that have ids from `first_id` on: the seams of surgery give way, and a
 /// small drop gets its vertices. What cannot be remeshed stays as it is: it is sound already.
 void finish_new_interfaces(Scene& scene, int first_id, const TopologyOptions& topology) {
@@ -193,11 +219,11 @@ void finish_new_interfaces(Scene& scene, int first_id, const TopologyOptions& to
     if (interface.drop < first_id) continue;
     RemeshOptions options;
     options.C0 = interface.C0;
-    options.volume = interface.volume;
     options.edge_floor = topology.edge_floor;
     options.find_fault = find_self_intersection;
     for (int i = 0; i < kRemeshings; ++i)
       if (const RemeshReport report = remesh(interface.mesh, options); !report.ok) break;
+    if (interface.mesh.num_vertices() < options.min_vertices) give_vertices(interface, options);
   }
   if (!find_conflict(scene).empty()) scene = before;
 }
@@ -210,9 +236,10 @@ TopologyReport apply_topology(Scene& scene, const TopologyOptions& options,
   if (options.is_off()) return report;
   const Scene before = scene;
   const int first_id = next_id(scene);
-  cut_necks(scene, options, motion, report);
+  DonePlaces done;
+  cut_necks(scene, options, motion, done, report);
   if (options.coalescence && options.coalescence_gap > 0.0)
-    open_gaps(scene, options, motion, report);
+    open_gaps(scene, options, motion, done, report);
   if (!report.refusal.empty()) {
     scene = before;
     report.events.clear();
@@ -222,8 +249,12 @@ TopologyReport apply_topology(Scene& scene, const TopologyOptions& options,
 }
 
 std::string find_touching_drops(const Scene& scene) {
+  std::vector<Eigen::AlignedBox3d> boxes(scene.interfaces.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (const Vec3& x : scene.interfaces[i].mesh.x) boxes[i].extend(x);
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
+      if (!boxes[i].intersects(boxes[j])) continue;
       const Interface &a = scene.interfaces[j], &b = scene.interfaces[i];
       const std::string meeting = find_intersection(a.mesh, b.mesh);
       if (!meeting.empty())

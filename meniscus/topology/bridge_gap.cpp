@@ -43,7 +43,6 @@ double edge_at(const Gap& gap, const BridgeOptions& options) {
 void refine(SurfaceMesh& mesh, const Interface& interface, const Gap& gap, double edge) {
   RemeshOptions options;
   options.C0 = interface.C0;
-  options.volume = interface.volume;
   options.find_fault = find_self_intersection;
   const double hole = kHole / kEdge * edge;
   const auto distance = [&](const Vec3& x) {

@@ -46,7 +46,7 @@ void open_pinches(const SurfaceMesh& mesh, const SurfaceTopology& topology, Face
       for (const FaceId f : topology.faces_around(v)) patch[f] = true;
 }
 
-/// The connected parts of what a patch leaves of a surface.
+/// The connected parts of what a patch leaves of the piece of the surface that it lies on.
 std::vector<std::vector<FaceId>> complement_parts(const SurfaceMesh& mesh,
                                                   const FaceNeighbours& neighbours,
                                                   const FacePatch& patch) {
@@ -56,12 +56,15 @@ std::vector<std::vector<FaceId>> complement_parts(const SurfaceMesh& mesh,
     if (is_seen[first]) continue;
     std::vector<FaceId>& part = parts.emplace_back(1, first);
     is_seen[first] = true;
+    bool is_beside = false;
     for (std::size_t k = 0; k < part.size(); ++k)
       for (const FaceId f : neighbours[part[k]]) {
+        is_beside = is_beside || patch[f];
         if (is_seen[f]) continue;
         is_seen[f] = true;
         part.push_back(f);
       }
+    if (!is_beside) parts.pop_back();
   }
   return parts;
 }

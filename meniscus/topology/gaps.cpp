@@ -21,8 +21,8 @@ constexpr double kSameFilm = 6.0;  // limits: closer places of one film are one
 constexpr double kNearby = 3.0;    // limits: radius of the ball that must not join two parts
 
 /// What is known of one interface while gaps are looked for.
-struct Face {
-  explicit Face(const Interface& of)
+struct Sheet {
+  explicit Sheet(const Interface& of)
       : interface(&of), tree(of.mesh), area(vertex_area_vectors(of.mesh)) {}
   const Interface* interface;
   SurfaceTree tree;
@@ -31,7 +31,7 @@ struct Face {
   [[nodiscard]] const SurfaceMesh& mesh() const { return interface->mesh; }
   [[nodiscard]] Vec3 normal(VertexId v) const { return area[v].normalized(); }
   [[nodiscard]] Vec3 normal(FaceId f) const { return face_area_vector(mesh(), f).normalized(); }
-  [[nodiscard]] bool is_near(const Face& other, double gap) const {
+  [[nodiscard]] bool is_near(const Sheet& other, double gap) const {
     return (tree.low().array() <= other.tree.high().array() + gap).all() &&
            (other.tree.low().array() <= tree.high().array() + gap).all();
   }
@@ -60,7 +60,7 @@ bool is_facing(const Contact& c) {
          across.dot(c.into_to) < -kFacing * c.width;
 }
 
-void add_contacts(const Face& a, Side side_a, const Face& b, Side side_b, double limit,
+void add_contacts(const Sheet& a, Side side_a, const Sheet& b, Side side_b, double limit,
                   bool is_swapped, std::vector<Contact>& contacts) {
   const Vec3 low = b.tree.low().array() - limit, high = b.tree.high().array() + limit;
   for (const VertexId v : a.mesh().x.ids()) {
@@ -93,7 +93,7 @@ std::optional<SurfaceTree::Hit> across_film(const SurfaceMesh& mesh, const Surfa
   return hit;
 }
 
-std::vector<Contact> own_contacts(const Face& a, Side side, double limit) {
+std::vector<Contact> own_contacts(const Sheet& a, Side side, double limit) {
   std::vector<Contact> contacts;
   for (const VertexId v : a.mesh().x.ids()) {
     const Vec3 into = sign_of(side) * a.normal(v);
@@ -107,11 +107,11 @@ std::vector<Contact> own_contacts(const Face& a, Side side, double limit) {
 }
 
 /// Whether faces within `radius` of the middle join the two sides of a film.
-bool are_joined_nearby(const Face& face, const FaceNeighbours& neighbours, const Contact& c,
+bool are_joined_nearby(const Sheet& sheet, const FaceNeighbours& neighbours, const Contact& c,
                        double radius) {
-  const SurfaceMesh& mesh = face.mesh();
+  const SurfaceMesh& mesh = sheet.mesh();
   const Vec3 middle = 0.5 * (c.from + c.to);
-  const FaceId start = face.tree.closest(c.from).face, goal = face.tree.closest(c.to).face;
+  const FaceId start = sheet.tree.closest(c.from).face, goal = sheet.tree.closest(c.to).face;
   FacePatch is_seen(mesh.num_faces(), false);
   std::vector<FaceId> front{start};
   is_seen[start] = true;
@@ -164,6 +164,33 @@ void collect(std::vector<Contact> contacts, Gap gap, double limit, const Surface
   }
 }
 
+void collect_between(const std::vector<Sheet>& sheets, std::size_t a, std::size_t b, double limit,
+                     const SurfaceMotion& motion, std::vector<Gap>& gaps) {
+  const auto film = common_film(*sheets[a].interface, *sheets[b].interface);
+  if (!film) return;
+  std::vector<Contact> contacts;
+  add_contacts(sheets[a], film->front(), sheets[b], film->back(), limit, false, contacts);
+  add_contacts(sheets[b], film->back(), sheets[a], film->front(), limit, true, contacts);
+  collect(
+      std::move(contacts), {.a = a, .b = b, .side = film->front()}, limit, motion,
+      [](const Contact&) { return true; }, gaps);
+}
+
+void collect_within(const Sheet& sheet, std::size_t index, double limit,
+                    const SurfaceMotion& motion, std::vector<Gap>& gaps) {
+  std::optional<FaceNeighbours> neighbours;
+  for (const Side side : {Side::outside, Side::inside}) {
+    std::vector<Contact> contacts = own_contacts(sheet, side, limit);
+    if (contacts.empty()) continue;
+    if (!neighbours) neighbours = face_neighbours(sheet.mesh(), SurfaceTopology(sheet.mesh()));
+    const auto is_film = [&](const Contact& c) {
+      return !are_joined_nearby(sheet, *neighbours, c, kNearby * limit);
+    };
+    collect(std::move(contacts), {.a = index, .b = index, .side = side}, limit, motion, is_film,
+            gaps);
+  }
+}
+
 }  // namespace
 
 double film_width(const SurfaceMesh& mesh, const SurfaceTree& tree, const Vec3& x,
@@ -173,33 +200,15 @@ double film_width(const SurfaceMesh& mesh, const SurfaceTree& tree, const Vec3& 
 }
 
 std::vector<Gap> find_gaps(const Scene& scene, double limit, const SurfaceMotion& motion) {
-  std::vector<Face> faces;
-  for (const Interface& interface : scene.interfaces) faces.emplace_back(interface);
+  std::vector<Sheet> sheets;
+  for (const Interface& interface : scene.interfaces) sheets.emplace_back(interface);
   std::vector<Gap> gaps;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const auto film = common_film(*faces[j].interface, *faces[i].interface);
-      if (!film || !faces[i].is_near(faces[j], limit)) continue;
-      std::vector<Contact> contacts;
-      add_contacts(faces[j], film->front(), faces[i], film->back(), limit, false, contacts);
-      add_contacts(faces[i], film->back(), faces[j], film->front(), limit, true, contacts);
-      collect(
-          std::move(contacts), {.a = j, .b = i, .side = film->front()}, limit, motion,
-          [](const Contact&) { return true; }, gaps);
+      if (!sheets[i].is_near(sheets[j], limit)) continue;
+      collect_between(sheets, j, i, limit, motion, gaps);
     }
-    std::optional<FaceNeighbours> neighbours;
-    for (const Side side : {Side::outside, Side::inside}) {
-      std::vector<Contact> contacts = own_contacts(faces[i], side, limit);
-      if (contacts.empty()) continue;
-      if (!neighbours)
-        neighbours = face_neighbours(faces[i].mesh(), SurfaceTopology(faces[i].mesh()));
-      collect(
-          std::move(contacts), {.a = i, .b = i, .side = side}, limit, motion,
-          [&](const Contact& c) {
-            return !are_joined_nearby(faces[i], *neighbours, c, kNearby * limit);
-          },
-          gaps);
-    }
+    collect_within(sheets[i], i, limit, motion, gaps);
   }
   std::ranges::sort(gaps, [](const Gap& a, const Gap& b) {
     const Vec3 m = a.middle(), n = b.middle();

@@ -20,6 +20,9 @@ constexpr double kProminence = 1.1;
 /// Threads are followed to this multiple of the radius below which necks are cut: beyond
 /// kProminence times it, so that a neck at the limit is still seen to be one.
 constexpr double kWidest = 1.5;
+/// Faces that a section must cross at least: five edges around and five up or down. With fewer its
+/// perimeter is no measure of a thread, and what seems a neck may be the corner of an edge.
+constexpr std::size_t kFewestFaces = 10;
 constexpr double kApart = 4.0;  // radii between two cuts: what lies between is a drop, not a slice
 
 /// A place where the liquid is thin: half-way from a vertex to the surface opposite.
@@ -159,7 +162,7 @@ std::vector<Neck> find_necks(const SurfaceMesh& mesh, const SurfaceTree& tree, S
       const Section& section = thread.sections[static_cast<std::size_t>(k)];
       if (section.radius >= radius || !widens(thread, k, 1) || !widens(thread, k, -1)) continue;
       const Section thinnest = refined(mesh, tree, section);
-      if (is_around_vertex(mesh, thinnest)) continue;
+      if (thinnest.faces.size() < kFewestFaces || is_around_vertex(mesh, thinnest)) continue;
       const double rate = widening_rate(thinnest, motion);
       if (rate < 0.0 || motion.is_unknown())
         necks.push_back({thinnest.center, thinnest.axis, thinnest.radius, rate, thinnest.faces});

@@ -26,13 +26,19 @@ Vec3 generic_direction() { return {1.0, std::sqrt(2.0) / 2.0, std::sqrt(3.0) / 3
 
 /// What all parents enclose of the liquid whose surface the pieces are: one that lies in another
 /// parent counts as taken from it.
-double liquid_volume(const Scene& scene, std::span<const std::size_t> parents) {
-  double volume = 0.0;
+struct LiquidVolume {
+  double kept = 0.0;      ///< the volumes that remeshing restores
+  double of_faces = 0.0;  ///< that of the triangulations: less, where the surface kept is curved
+};
+LiquidVolume liquid_volume(const Scene& scene, std::span<const std::size_t> parents) {
+  LiquidVolume volume;
   for (const std::size_t i : parents) {
     const Interface& one = scene.interfaces[i];
     const bool is_within = std::ranges::any_of(
         parents, [&](std::size_t j) { return scene.interfaces[j].inside == one.outside; });
-    volume += is_within ? -one.volume : one.volume;
+    const double sign = is_within ? -1.0 : 1.0;
+    volume.kept += sign * one.volume;
+    volume.of_faces += sign * enclosed_volume(one.mesh);
   }
   return volume;
 }
@@ -101,6 +107,17 @@ void share_volume(std::vector<Child>& children, double volume) {
   if (last != nullptr) last->interface.volume += volume - enclosed_liquid(children);
 }
 
+/// Gives what the volumes kept exceed those of the triangulations by to the children in proportion.
+void add_curved_part(std::vector<Child>& children, const LiquidVolume& volume) {
+  const double factor = volume.kept / volume.of_faces;
+  Child* last = nullptr;
+  for (Child& child : children) {
+    child.interface.volume *= factor;
+    if (!child.is_cavity) last = &child;
+  }
+  if (last != nullptr) last->interface.volume += volume.kept - enclosed_liquid(children);
+}
+
 double energy(std::span<const Interface> interfaces) {
   double sum = 0.0;
   for (const Interface& each : interfaces) sum += each.tension * surface_area(each.mesh);
@@ -142,16 +159,17 @@ Scene with_children(const Scene& scene, std::span<const std::size_t> parents,
 std::string succeed(Scene& scene, Succession succession, TopologyEvent& event) {
   std::vector<Interface> parents;
   for (const std::size_t i : succession.parents) parents.push_back(scene.interfaces[i]);
-  const double volume = liquid_volume(scene, succession.parents);
+  const LiquidVolume volume = liquid_volume(scene, succession.parents);
   std::vector<Child> children = children_of(scene, succession);
   if (children.empty()) return "nothing is left";
-  event.volume_moved = std::abs(volume - enclosed_liquid(children));
-  share_volume(children, volume);
+  event.volume_moved = std::abs(volume.of_faces - enclosed_liquid(children));
+  share_volume(children, volume.of_faces);
   for (Child& child : children) {
     if (!(child.interface.volume > 0.0)) return "a fragment encloses nothing";
     restore_volume(child.interface.mesh, child.interface.volume);
     if (std::string defect = find_defect(child.interface.mesh); !defect.empty()) return defect;
   }
+  add_curved_part(children, volume);
   Scene after = with_children(scene, succession.parents, children);
   if (std::string conflict = find_conflict(after); !conflict.empty()) return conflict;
 
@@ -161,7 +179,7 @@ std::string succeed(Scene& scene, Succession succession, TopologyEvent& event) {
     event.children.push_back(child.interface.drop);
     born.push_back(child.interface);
   }
-  event.volume_before = volume;
+  event.volume_before = volume.kept;
   event.volume_after = enclosed_liquid(children);
   event.area_before = area(parents);
   event.area_after = area(born);

@@ -52,10 +52,16 @@ SectionResult first_section(const SurfaceMesh& mesh, const SurfaceTree& tree, co
   return middle;
 }
 
+/// What lies where no further section is found. A drop's thread ends there; the hole of a shell
+/// that bends away on both sides opens there, unless it has become narrower before.
+ThreadEnd end_without_section(Side side, double radius, double first_radius) {
+  return side == Side::outside && radius > 0.9 * first_radius ? ThreadEnd::wide : ThreadEnd::tip;
+}
+
 /// Sections from the first one on in the direction of `axis`, the first left out; returns what
 /// ended them.
-ThreadEnd follow(const SurfaceMesh& mesh, const SurfaceTree& tree, const Section& first, Vec3 axis,
-                 double widest, std::vector<Section>& sections) {
+ThreadEnd follow(const SurfaceMesh& mesh, const SurfaceTree& tree, Side side, const Section& first,
+                 Vec3 axis, double widest, std::vector<Section>& sections) {
   const Vec3 start = first.center;
   Vec3 center = first.center;
   double radius = first.radius;
@@ -63,12 +69,13 @@ ThreadEnd follow(const SurfaceMesh& mesh, const SurfaceTree& tree, const Section
     const double step = kStep * radius;
     SectionResult next = section_around(mesh, tree, center + step * axis, axis, kCube * widest);
     if (next.kind == SectionKind::wide) return ThreadEnd::wide;
-    if (next.kind == SectionKind::none) return ThreadEnd::tip;
+    if (next.kind == SectionKind::none) return end_without_section(side, radius, first.radius);
     Section& section = next.section;
     if (section.radius > widest) return ThreadEnd::wide;
     const Vec3 along = section.center - center;
     // A curve that is not the thread's next one: what was followed has ended.
-    if (along.norm() > radius + step || along.dot(axis) <= 0.0) return ThreadEnd::tip;
+    if (along.norm() > radius + step || along.dot(axis) <= 0.0)
+      return end_without_section(side, radius, first.radius);
     if (section.radius < 0.05 * first.radius) return ThreadEnd::tip;
     axis = along.normalized();
     center = section.center;
@@ -88,7 +95,7 @@ Thread traced_thread(const SurfaceMesh& mesh, const SurfaceTree& tree, const Vec
   if (first.kind != SectionKind::closed || first.section.radius > widest) return thread;
   std::vector<Section> backward;
   const Vec3 axis = first.section.axis;
-  thread.front = follow(mesh, tree, first.section, -axis, widest, backward);
+  thread.front = follow(mesh, tree, side, first.section, -axis, widest, backward);
   std::ranges::reverse(backward);
   thread.sections = std::move(backward);
   thread.sections.push_back(first.section);
@@ -96,7 +103,7 @@ Thread traced_thread(const SurfaceMesh& mesh, const SurfaceTree& tree, const Vec
     thread.back = ThreadEnd::ring;
     return thread;
   }
-  thread.back = follow(mesh, tree, first.section, axis, widest, thread.sections);
+  thread.back = follow(mesh, tree, side, first.section, axis, widest, thread.sections);
   return thread;
 }
 

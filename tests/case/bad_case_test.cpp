@@ -84,11 +84,10 @@ const std::vector<BadCase> kValues{
     {"threads of finite elements", shear_with("[solver]\nthreads = 2\n"),
      "case.toml:7: solver.threads has no effect here: it applies with method = "
      "\"boundary-integral\""},
-    {"coalescence", shear_with("[topology]\ncoalescence = \"on\"\n"),
-     "case.toml:7: topology.coalescence = \"on\" is not available in this version; available: "
-     "\"off\""},
-    {"breakup", shear_with("[topology]\nbreakup-radius = 0.01\n"),
-     "case.toml:7: topology.breakup-radius = 0.01 is not available in this version; only 0.0 is"},
+    {"coalescence", shear_with("[topology]\ncoalescence = \"sometimes\"\n"),
+     "case.toml:7: topology.coalescence = \"sometimes\" must be one of \"on\", \"off\""},
+    {"breakup", shear_with("[topology]\nbreakup-radius = -0.01\n"),
+     "case.toml:7: topology.breakup-radius = -0.01 must be at least 0"},
     {"gap layers", shear_with("[interface]\ngap-layers = 101\n"),
      "case.toml:7: interface.gap-layers = 101 must be between 0 and 100"},
     {"Ca = 0", flow("kind = \"simple-shear\"\ncapillary-number = 0\n"),

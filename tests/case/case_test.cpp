@@ -44,7 +44,7 @@ TEST(Case, DefaultOptionsAreThoseOfTheRooms) {
   EXPECT_EQ(c.evolution.max_step, evolution.max_step);
   EXPECT_EQ(c.evolution.min_step, evolution.min_step);
   EXPECT_EQ(c.evolution.remesh_every, evolution.remesh_every);
-  EXPECT_EQ(c.evolution.edge_floor, evolution.edge_floor);
+  EXPECT_EQ(c.evolution.edge_floor, 0.5 * c.evolution.topology.breakup_radius);
   const fem::Options solver;
   EXPECT_EQ(c.flow_solver.capillary, solver.capillary);
   EXPECT_EQ(c.flow_solver.linear, solver.linear);
@@ -234,7 +234,7 @@ TEST(Case, JsonHasEveryValueInItsPlace) {
   EXPECT_EQ(json["drop"][1]["center"], nlohmann::json({0.0, 0.0, 3.0}));
   EXPECT_EQ(json["drop"][1]["nodes"], 110);
   EXPECT_EQ(json["time"]["scheme"], "rk2");
-  EXPECT_EQ(json["topology"]["coalescence"], "off");
+  EXPECT_EQ(json["topology"]["coalescence"], "on");
   EXPECT_EQ(json["output"]["volume"], true);
   EXPECT_FALSE(json["domain"].contains("radius"));  // of another shape
 }

@@ -16,15 +16,17 @@ namespace {
 
 /// An ellipsoid of half-axes 1.5, 0.8, 0.83, its long axis 30° above the flow direction, in a
 /// simple shear inside a sphere of radius 3: so near that the drop's share of the power is visible.
-Scene sheared_ellipsoid(int N0) {
+/// Each `sample` is another triangulation of it, of a sphere turned before it is stretched.
+Scene sheared_ellipsoid(int N0, int sample) {
   Scene scene;
   scene.Ca = 0.3;
   scene.flow = ImposedFlow(FlowFamily::planar, ImposedFlow::simple_shear());
   scene.liquids = Field<RegionId, Liquid>(2, Liquid{});
   Interface drop;
-  drop.mesh = stretched_sphere(N0, Vec3(1.5, 0.8, 0.83));
-  const Eigen::AngleAxisd turn(std::numbers::pi / 6.0, Vec3::UnitZ());
-  for (Vec3& x : drop.mesh.x) x = turn * x;
+  drop.mesh = sphere(N0, 1.0);
+  const Eigen::AngleAxisd other(1.0 * sample, Vec3(1.0, 2.0, 3.0).normalized()),
+      turn(std::numbers::pi / 6.0, Vec3::UnitZ());
+  for (Vec3& x : drop.mesh.x) x = turn * Vec3(1.5, 0.8, 0.83).cwiseProduct(other * x);
   drop.C0 = N0 / (4.0 * std::numbers::pi);
   drop.inside = RegionId{1};
   drop.outside = RegionId{0};
@@ -47,8 +49,8 @@ struct Books {
   }
 };
 
-Books books(int N0, fem::CapillaryForm form) {
-  const Scene scene = sheared_ellipsoid(N0);
+Books books(int N0, int sample, fem::CapillaryForm form) {
+  const Scene scene = sheared_ellipsoid(N0, sample);
   fem::Options options;
   options.capillary = form;
   const auto flow = fem::make_finite_element_flow(options);
@@ -58,33 +60,45 @@ Books books(int N0, fem::CapillaryForm form) {
   return {*flow->power(), surface_energy_rate(scene, motion)};
 }
 
+/// What the books of one triangulation miss scatters by a third of itself at N0 = 200 and less with
+/// more vertices: the mean of three, over the power and over the rate of the surface.
+struct Residual {
+  double of_power = 0.0, of_surface_rate = 0.0;
+};
+Residual mean_residual(int N0, fem::CapillaryForm form) {
+  constexpr int kSamples = 3;
+  Residual mean;
+  for (int sample = 0; sample < kSamples; ++sample) {
+    const Books of = books(N0, sample, form);
+    mean.of_power += of.residual() / of.power.in / kSamples;
+    mean.of_surface_rate += of.residual() / of.surface_rate / kSamples;
+  }
+  std::printf("N0 = %d: residual %.4f %% of power_in, %.2f %% of surface_rate\n", N0,
+              100.0 * mean.of_power, 100.0 * mean.of_surface_rate);
+  return mean;
+}
+
 // The books close to second order in h, the accuracy of the velocity: of the drop's own share, the
 // rate of its surface, the weak and balanced forms miss 0.5 % and 0.2 % at N0 = 800 and the nodal
 // form, whose force is not the gradient of the triangulation's area, 4 %.
 TEST(Energy, BooksOfADropInShearCloseToSecondOrder) {
   for (const auto& [form, largest_share] :
        {std::pair(fem::CapillaryForm::weak, 0.01), std::pair(fem::CapillaryForm::nodal, 0.05)}) {
-    std::vector<Books> of;
-    for (const int N0 : {110, 200, 400, 800}) of.push_back(books(N0, form));
-    for (std::size_t i = 1; i < of.size(); ++i)
-      EXPECT_LT(of[i].residual(), of[i - 1].residual()) << i;
-    EXPECT_LT(of[2].residual(), 0.02 * of[2].power.in);
-    EXPECT_LT(of[3].residual(), largest_share * of[3].surface_rate);
+    std::vector<Residual> of;
+    for (const int N0 : {110, 200, 400, 800}) of.push_back(mean_residual(N0, form));
+    for (std::size_t i = 1; i < of.size(); ++i) EXPECT_LT(of[i].of_power, of[i - 1].of_power) << i;
+    EXPECT_LT(of[2].of_power, 0.02);
+    EXPECT_LT(of[3].of_surface_rate, largest_share);
     // 1/h² ~ N0: from 200 to 800 by a factor of 4.
-    EXPECT_NEAR(std::log2(of[1].residual() / of[3].residual()), 2.0, 0.2);
-    for (const Books& each : of)
-      std::printf("residual %.3f %% of power_in, %.2f %% of surface_rate\n",
-                  100.0 * each.residual() / each.power.in,
-                  100.0 * each.residual() / each.surface_rate);
+    EXPECT_NEAR(std::log2(of[1].of_power / of[3].of_power), 2.0, 0.2);
   }
 }
 
-// The balanced form's residual is below 1 % of the drop's share from the coarsest mesh on.
+// The balanced form's residual is small beside the drop's share from the coarsest mesh on: 1.3 % in
+// the mean at N0 = 110 (six triangulations gave 0.9 to 2.1 %), 0.3 % at 400.
 TEST(Energy, BooksOfTheBalancedFormCloseOnCoarseMeshes) {
-  for (const int N0 : {110, 400}) {
-    const Books of = books(N0, fem::CapillaryForm::balanced);
-    EXPECT_LT(of.residual(), 0.01 * of.surface_rate) << N0;
-  }
+  EXPECT_LT(mean_residual(110, fem::CapillaryForm::balanced).of_surface_rate, 0.02);
+  EXPECT_LT(mean_residual(400, fem::CapillaryForm::balanced).of_surface_rate, 0.005);
 }
 
 }  // namespace

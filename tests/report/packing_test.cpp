@@ -1,5 +1,7 @@
 #include "meniscus/report/packing.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -75,23 +77,41 @@ TEST(Packing, GridBearsWhatIsNoNumber) {
 }
 
 /// Reads a package as the page's script does.
-struct Package32 {
+struct PackageReader {
   nlohmann::json header;
   std::string bytes;
   std::size_t at = 0;
 
-  explicit Package32(const std::string& packed) : bytes(inflated(packed)) {
+  explicit PackageReader(const std::string& packed) : bytes(inflated(packed)) {
     const auto length = io::load<std::uint32_t>(bytes, std::endian::little);
     header = nlohmann::json::parse(bytes.substr(4, length));
     at = 4 + length;
   }
   template <class T>
   std::vector<T> take(std::size_t count) {
-    at = (at + 3) / 4 * 4;
-    std::vector<T> values;
-    for (std::size_t i = 0; i < count; ++i, at += sizeof(T))
-      values.push_back(io::load<T>(std::string_view(bytes).substr(at), std::endian::little));
+    std::vector<T> values(count);
+    for (unsigned int plane = 0; plane < sizeof(T); ++plane) {
+      for (T& value : values)
+        value = static_cast<T>(value | T{static_cast<unsigned char>(bytes.at(at++))} << 8 * plane);
+    }
     return values;
+  }
+  std::vector<std::uint16_t> take_sums(std::size_t count) {
+    std::vector<std::uint16_t> values = take<std::uint16_t>(count);
+    for (std::size_t i = 1; i < count; ++i)
+      values[i] = static_cast<std::uint16_t>(values[i] + values[i - 1]);
+    return values;
+  }
+  template <class T>
+  std::vector<std::array<T, 3>> take_faces(std::size_t count) {
+    const std::vector<T> a = take<T>(count), b = take<T>(count), c = take<T>(count);
+    std::vector<std::array<T, 3>> faces;
+    T first = 0;
+    for (std::size_t f = 0; f < count; ++f) {
+      first = static_cast<T>(first + a[f]);
+      faces.push_back({first, static_cast<T>(first + b[f]), static_cast<T>(first + c[f])});
+    }
+    return faces;
   }
 };
 
@@ -104,43 +124,78 @@ SurfaceFrame sphere_frame(int num_vertices) {
   return frame;
 }
 
+/// A face from its smallest corner on.
+std::array<int, 3> turned(std::array<int, 3> corners) {
+  std::ranges::rotate(corners, std::ranges::min_element(corners));
+  return corners;
+}
+
+VertexId nearest_vertex(const SurfaceMesh& mesh, const Vec3& point) {
+  VertexId nearest{0};
+  for (const VertexId v : mesh.x.ids()) {
+    if ((mesh.x[v] - point).norm() < (mesh.x[nearest] - point).norm()) nearest = v;
+  }
+  return nearest;
+}
+
+/// Vertices and faces come in another order: the triangles are the same ones, turned the same way.
 TEST(PackedFrames, SurfaceIsReadBack) {
-  const SurfaceFrame frame = sphere_frame(301);  // odd: arrays of 16 bits must be aligned
+  const SurfaceFrame frame = sphere_frame(301);
   const PackedFrame packed_frame = packed(frame);
-  Package32 package(packed_frame.bytes);
+  PackageReader package(packed_frame.bytes);
   EXPECT_EQ(package.header["t"], 1.5);
   EXPECT_EQ(package.header["vertices"], 301);
   EXPECT_EQ(package.header["wide"], false);
-  const auto corners =
-      package.take<std::uint16_t>(3 * static_cast<std::size_t>(frame.mesh.num_faces()));
-  std::size_t k = 0;
-  for (const FaceVertices& face : frame.mesh.faces) {
-    for (const VertexId v : face) EXPECT_EQ(corners[k++], v.value);
-  }
-  const double half_step = 0.5 * 2.0 / Grid16::steps + 1e-12;
+  const auto num_faces = static_cast<std::size_t>(frame.mesh.num_faces());
+  const auto faces = package.take_faces<std::uint16_t>(num_faces);
+  std::vector<Vec3> points(301);
   for (int axis = 0; axis < 3; ++axis) {
-    const auto grid = package.take<std::uint16_t>(301);
+    const auto grid = package.take_sums(301);
     const double low = package.header["low"][axis], high = package.header["high"][axis];
-    for (const VertexId v : frame.mesh.x.ids()) {
-      const double x = low + (high - low) / Grid16::steps * grid[static_cast<std::size_t>(v.value)];
-      EXPECT_NEAR(x, frame.mesh.x[v][axis], 1.1 * half_step);  // the sphere's radius is above 1
-    }
+    for (std::size_t v = 0; v < 301; ++v)
+      points[v][axis] = low + (high - low) / Grid16::steps * grid[v];
   }
-  const auto values = package.take<std::uint16_t>(301);
+  const auto values = package.take_sums(301);
   EXPECT_EQ(package.at, package.bytes.size());
-  EXPECT_EQ(package.header["fields"][0]["name"], "curvature");
+
+  // Half a step in each direction, of a grid over a sphere somewhat larger than 1.
+  const double tolerance = 0.5 * std::sqrt(3.0) * 2.1 / Grid16::steps;
+  std::vector<int> original;
+  for (const Vec3& point : points) {
+    const VertexId v = nearest_vertex(frame.mesh, point);
+    EXPECT_LT((frame.mesh.x[v] - point).norm(), tolerance);
+    original.push_back(v.value);
+  }
+  std::vector<std::array<int, 3>> expected, read;
+  for (const FaceVertices& f : frame.mesh.faces)
+    expected.push_back(turned({f[0].value, f[1].value, f[2].value}));
+  for (const auto& [a, b, c] : faces)
+    read.push_back(turned({original[a], original[b], original[c]}));
+  std::ranges::sort(expected);
+  std::ranges::sort(read);
+  EXPECT_EQ(read, expected);
+
+  EXPECT_EQ(package.header["fields"][0]["name"], "curvature");  // here: the height
+  const double low = package.header["fields"][0]["low"], high = package.header["fields"][0]["high"];
+  for (std::size_t v = 0; v < 301; ++v)
+    EXPECT_NEAR(low + (high - low) / Grid16::steps * values[v], points[v].z(), tolerance);
   EXPECT_EQ(packed_frame.ranges.count("curvature"), 1U);
   EXPECT_EQ(packed(frame).bytes, packed_frame.bytes);
 }
 
 TEST(PackedFrames, ManyVerticesHaveWideCorners) {
   SurfaceFrame frame = sphere_frame(100);
-  for (int i = 0; i < 65500; ++i) frame.mesh.x.add(Vec3::UnitX());
+  for (int i = 0; i < 65500; ++i) frame.mesh.x.add(Vec3(1.0 + 1e-6 * i, 0.0, 0.0));
   frame.mesh.faces[FaceId{0}][2] = VertexId{65599};
   frame.fields.clear();
-  Package32 package(packed(frame).bytes);
+  PackageReader package(packed(frame).bytes);
   EXPECT_EQ(package.header["wide"], true);
-  EXPECT_EQ(package.take<std::uint32_t>(3)[2], 65599U);
+  std::uint32_t largest = 0;
+  for (const auto& face :
+       package.take_faces<std::uint32_t>(static_cast<std::size_t>(frame.mesh.num_faces())))
+    largest = std::max(largest, std::ranges::max(face));
+  EXPECT_EQ(largest,
+            65599U);  // the last along the curve is one of the sphere, above all the others
 }
 
 TEST(SurfaceFrames, CoarseOnesKeepTheirFields) {

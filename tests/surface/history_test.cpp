@@ -54,36 +54,32 @@ Journey stretch(SurfaceMesh& mesh, double from, double to, int steps,
 }
 
 TEST(History, ThereAndBackIsAsBefore) {
-  // A thousand nodes, aspect 6 and back in a hundred remeshed steps. What is compared was made by
-  // the engine at both ends: the first spread of l/l0 is that after a journey too.
+  // A thousand nodes, aspect 6 and back in a hundred remeshed steps of 2.4 %.
   const RemeshOptions options{.C0 = 1000 / kSphereArea};
   SurfaceMesh mesh = sphere(1000);
-  for (int trip = 0; trip < 2; ++trip) {
-    const int vertices = mesh.num_vertices();
-    const LengthStatistics before = relative_lengths(mesh, options);
-    const Journey there = stretch(mesh, 1.0, 6.0, 50, options);
-    const int most = mesh.num_vertices();
-    const Journey back = stretch(mesh, 6.0, 1.0, 50, options);
-    const LengthStatistics after = relative_lengths(mesh, options);
-    printf(
-        "N %d %d %d mean %.4f %.4f dev %.4f %.4f law %.3f %.3f volume %.2e %.2e shift %.2e %.2e\n",
-        vertices, most, mesh.num_vertices(), before.mean, after.mean, before.deviation,
-        after.deviation, there.worst_law, back.worst_law, there.volume_change, back.volume_change,
-        there.shift_over_edge, back.shift_over_edge);
-    EXPECT_NEAR(mesh.num_vertices(), vertices, 0.03 * vertices);
-    EXPECT_NEAR(after.mean, before.mean, 0.03 * before.mean);
-    EXPECT_LT(there.worst_law, 0.05);
-    EXPECT_LT(back.worst_law, 0.05);
+  const int vertices = mesh.num_vertices();
+  const LengthStatistics before = relative_lengths(mesh, options);
+  const Journey there = stretch(mesh, 1.0, 6.0, 50, options);
+  const Journey back = stretch(mesh, 6.0, 1.0, 50, options);
+  const LengthStatistics after = relative_lengths(mesh, options);
+  EXPECT_NEAR(mesh.num_vertices(), vertices, 0.03 * vertices);
+  EXPECT_NEAR(after.mean, before.mean, 0.03 * before.mean);
+  EXPECT_NEAR(after.deviation, before.deviation, 0.03);  // of l0
+  for (const Journey& journey : {there, back}) {
+    EXPECT_LT(journey.worst_law, 0.05);
+    EXPECT_LT(journey.shift_over_edge, 1e-3);
+    // On the way back up to 40 vertices of 2000 go in a step: what the faces lie lower than the
+    // surface, 5.4/N of the volume of a sphere, is lost faster than the 1e-4 of ordinary steps.
+    EXPECT_LT(journey.volume_change, 4e-4);
   }
 }
 
 TEST(History, CoarseEllipsoidsFollowTheLaw) {
+  // Stretched step by step as in a run: a coarse sphere stretched at once does not show its tips.
   for (const int nodes : {110, 200, 400})
     for (const double aspect : {4.0, 6.0}) {
       SurfaceMesh mesh = sphere(nodes);
       const Journey journey = stretch(mesh, 1.0, aspect, 40, {.C0 = nodes / kSphereArea});
-      printf("%d aspect %g: %d vertices, worst %.3f\n", nodes, aspect, mesh.num_vertices(),
-             journey.worst_law);
       EXPECT_LT(journey.worst_law, 0.05) << nodes << " nodes, aspect " << aspect;
     }
 }

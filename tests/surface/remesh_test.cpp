@@ -289,6 +289,8 @@ TEST(RemeshOptions, NamesWhatIsWrong) {
             "remesh: gradation = 0 must be positive");
   EXPECT_EQ(message([](RemeshOptions& o) { o.min_vertices = 3; }),
             "remesh: min_vertices = 3 must be at least 4");
+  EXPECT_EQ(message([](RemeshOptions& o) { o.gap_layers = -1; }),
+            "remesh: gap_layers = -1 must be between 0 and 100");
   EXPECT_EQ(message([](RemeshOptions& o) { o.max_sweeps = 0; }),
             "remesh: max_sweeps = 0 must be at least 1");
   EXPECT_EQ(message([](RemeshOptions& o) { o.equilibrium = 1; }),

@@ -46,29 +46,28 @@ double integral_of_density(const SurfaceMesh& mesh, const VertexField<double>& l
   return sum;
 }
 
-/// By how much gaps raise the number of vertices, by the engine's own rule on its own mesh.
-double gap_factor(const Subject& subject) {
-  const SurfaceTopology topology(subject.mesh);
-  const auto curvature = osculating_curvature(subject.mesh, topology);
+/// By how much gaps raise the number of vertices, by the engine's own rule on the surface that it
+/// was given.
+double gap_factor(const Subject& subject, const SurfaceMesh& given) {
+  const SurfaceTopology topology(given);
+  const auto curvature = osculating_curvature(given, topology);
   RemeshOptions without = subject.options;
   without.gap_layers = 0.0;
-  return integral_of_density(subject.mesh,
-                             rest_lengths(subject.mesh, topology, curvature, subject.options)) /
-         integral_of_density(subject.mesh,
-                             rest_lengths(subject.mesh, topology, curvature, without));
+  return integral_of_density(given, rest_lengths(given, topology, curvature, subject.options)) /
+         integral_of_density(given, rest_lengths(given, topology, curvature, without));
 }
 
 /// ∮ρ dS of eq. 2: the rule of docs/surface-remeshing.md with the exact curvature of the shape
 /// under the map, which nothing averages, on a mesh that has nothing to do with the remeshed one.
-/// (That mesh does not resolve a gap, whose share comes from the remeshed one.)
-double law(const Subject& subject, const Mat3& map) {
+/// (That mesh does not resolve a gap, whose share comes from the given one.)
+double law(const Subject& subject, const SurfaceMesh& given, const Mat3& map) {
   SurfaceMesh mesh = subject.shape.mesh;
   for (Vec3& x : mesh.x) x = map * x;
   auto length = subject.curvature.squared_rms(map);
   for (double& l : length)
     l = std::max(length_of_density(subject.options.C0 * l), subject.options.edge_floor);
   limit_gradation(length, mesh, SurfaceTopology(mesh), subject.options.gradation);
-  return gap_factor(subject) * integral_of_density(mesh, length);
+  return gap_factor(subject, given) * integral_of_density(mesh, length);
 }
 
 SmoothShape random_shape(std::mt19937& random, bool is_chain) {
@@ -137,6 +136,7 @@ void record_angles(const SurfaceMesh& mesh, SoakResult& result) {
 }
 
 void remesh_and_judge(Subject& subject, const Mat3& map, int round, SoakResult& result) {
+  const SurfaceMesh given = subject.mesh;
   const std::clock_t start = std::clock();
   const RemeshReport report = remesh(subject.mesh, subject.options);
   result.remesh_seconds += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -154,7 +154,7 @@ void remesh_and_judge(Subject& subject, const Mat3& map, int round, SoakResult& 
   record_angles(subject.mesh, result);
   const double n = subject.mesh.num_vertices();
   const double count_error = std::abs(n / report.expected_vertices - 1.0);
-  const double asked = law(subject, map);
+  const double asked = law(subject, given, map);
   const double law_error = std::abs(n / asked - 1.0);
   if (law_error > 0.05 || report.min_angle_deg < 5.0)
     result.log.push_back(fmt::format(

@@ -13,20 +13,20 @@ namespace {
 
 using test::wavy_thread;
 
-constexpr double kC0 = 14.0;
+constexpr double kC0 = 9.0;
 
 std::vector<Neck> necks_of(const SurfaceMesh& mesh, double radius,
                            const SurfaceMotion& motion = {}) {
   return find_necks(mesh, SurfaceTree(mesh), Side::inside, radius, motion);
 }
 
-// r = 0.5 √(1 − ξ⁴)(1 − 0.9 cos 2πξ): thinnest at x = 0, r = 0.05.
-SurfaceMesh dumbbell() { return wavy_thread(2.0, 0.5, 4, -0.9, 2, kC0); }
+// r = 0.5 √(1 − ξ⁴)(1 − 0.9 cos πξ): thinnest at x = 0, r = 0.05.
+SurfaceMesh dumbbell() { return wavy_thread(2.0, 0.5, 4, -0.9, 1, kC0); }
 
 TEST(Necks, AreFoundAtTheThinnestSectionOfADumbbell) {
   const auto necks = necks_of(dumbbell(), 0.06);
   ASSERT_EQ(necks.size(), 1U);
-  // A ring of n edges has a perimeter less by π²/6n²; the remesh leaves eight edges or more: 2.6 %.
+  // A ring of n edges has a perimeter less by π²/6n²; the remesh leaves ten edges or so: 1.6 %.
   EXPECT_NEAR(necks[0].radius, 0.05, 0.026 * 0.05);
   EXPECT_NEAR(std::abs(necks[0].axis.x()), 1.0, 0.01);
   EXPECT_NEAR(necks[0].center.norm(), 0.0, 0.05 * 0.5);
@@ -59,14 +59,27 @@ TEST(Necks, AreNoPointedEndsNoSmallSpheresNoSheets) {
 }
 
 TEST(Necks, OfAWavyThreadAreFoundOneAndAll) {
-  // Thinnest at ξ = 0, ±0.4 and ±0.8, where r = 0.04 or 0.2 % less.
-  const auto necks = necks_of(wavy_thread(4.0, 0.2, 24, -0.8, 5, kC0), 0.05);
-  ASSERT_EQ(necks.size(), 5U);
-  for (const Neck& neck : necks) EXPECT_NEAR(neck.radius, 0.04, 0.03 * 0.04);
+  // Thinnest at ξ = 0 and ±2/3, where r = 0.04.
+  const SurfaceMesh mesh = wavy_thread(4.0, 0.2, 24, -0.8, 3, kC0);
+  const auto necks = necks_of(mesh, 0.05);
+  ASSERT_EQ(necks.size(), 3U);
+  // The remeshings that made the surface have moved it a little: its own vertices tell its radius.
+  for (const Neck& neck : necks) {
+    double sum = 0.0;
+    int count = 0;
+    for (const Vec3& x : mesh.x) {
+      if (std::abs(x.x() - neck.center.x()) > 0.3 * neck.radius) continue;
+      sum += std::hypot(x.y(), x.z());
+      ++count;
+    }
+    ASSERT_GT(count, 0);
+    EXPECT_NEAR(neck.radius, sum / count, 0.03 * neck.radius);
+    EXPECT_NEAR(neck.radius, 0.04, 0.1 * 0.04);
+  }
 }
 
 TEST(Necks, DoNotDependOnTheNumberingOfVertices) {
-  const SurfaceMesh mesh = wavy_thread(4.0, 0.2, 24, -0.8, 5, kC0);
+  const SurfaceMesh mesh = wavy_thread(4.0, 0.2, 24, -0.8, 3, kC0);
   const auto necks = necks_of(mesh, 0.05);
   for (const unsigned seed : {1U, 2U, 3U}) {
     const auto others = necks_of(test::shuffled(mesh, seed), 0.05);

@@ -43,10 +43,9 @@ SurfaceMesh revolved(double a, const Profile& profile, double C0) {
     };
     const double s = static_cast<double>(k) / kSteps;
     for (Vec3& x : mesh.x) {
-      const double xi = x.x() / a, r = std::hypot(x.y(), x.z());
-      if (std::abs(xi) >= 1.0 || r == 0.0) continue;
-      const double wanted = at_step(xi, s);
-      x = Vec3(x.x(), x.y() / r * wanted, x.z() / r * wanted);
+      const double xi = x.x() / a, before = at_step(xi, s - 1.0 / kSteps);
+      if (before > 0.0)
+        x = Vec3(x.x(), x.y() * at_step(xi, s) / before, x.z() * at_step(xi, s) / before);
     }
     const auto now = [&](double xi) { return at_step(xi, s); };
     const RemeshReport report = remesh(mesh, {.C0 = C0, .volume = exact_volume(a, now)});

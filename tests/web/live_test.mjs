@@ -21,7 +21,7 @@ after(async () => {
   await browser.close();
 });
 
-test("the page follows a run to its end", { timeout: 120000 }, async () => {
+test("the page follows a run to its end", { timeout: 240000 }, async () => {
   const url = await new Promise((resolve, reject) => {
     let text = "";
     run.stdout.on("data", (part) => {
@@ -36,9 +36,9 @@ test("the page follows a run to its end", { timeout: 120000 }, async () => {
   const first = await pixels(page, ".stage canvas");
   const frames = () => page.evaluate(() => window.meniscus.timeline.times.length);
   const before = await frames();
-  await until(page, (n) => window.meniscus.timeline.times.length > n, before);
+  await until(page, (n) => window.meniscus.timeline.times.length > n, before, 60);
   await page.evaluate(() => window.meniscus.timeline.set(window.meniscus.timeline.times.length - 1));
-  await until(page, () => document.querySelector(".live").textContent.includes("The run is done"));
+  await until(page, () => document.querySelector(".live").textContent.includes("The run is done"), null, 90);
   assert.equal(await ended, 0);
   assert.notEqual(await pixels(page, ".stage canvas"), first);
   // All that the run has written has come.

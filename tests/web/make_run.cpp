@@ -1,4 +1,5 @@
-// Writes the files of a synthetic run, for the tests of the page: make_run DIR FRAMES VERTICES DROPS
+// Writes the files of a synthetic run, for the tests of the page: make_run DIR FRAMES VERTICES
+// DROPS
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -21,6 +22,7 @@ int main(int argc, char** argv) {
          "energy_before,energy_after,neck_radius,gap\n"
          "150,1.51,breakup,0.5,0.25,0,0,1;2,4.18,4.18,12.6,12.5,33,32,0.01,\n"
          "420,4.2,coalescence,-0.5,-0.25,0,1;2,3,4.18,4.18,12.5,12.4,32,31,,0.01\n";
-  std::ofstream(folder / "reference.csv") << "# Made up for a test.\nt,D\n0,0\n1,0.21\n3,0.33\n6,0.37\n";
+  std::ofstream(folder / "reference.csv")
+      << "# Made up for a test.\nt,D\n0,0\n1,0.21\n3,0.33\n6,0.37\n";
   return 0;
 }

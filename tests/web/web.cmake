@@ -4,7 +4,7 @@ set(WEB_WORK ${CMAKE_CURRENT_BINARY_DIR}/web)
 
 meniscus_static_check(lockfile Python3::Interpreter ${WEB_TESTS}/lockfile.py ${PROJECT_SOURCE_DIR})
 
-if(TARGET meniscus_page AND MENISCUS_PAGE AND NODE AND NPM)
+if(MENISCUS_HAS_PAGE)
   add_test(NAME watch_misuse COMMAND Python3::Interpreter ${WEB_TESTS}/watch_misuse.py
     $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR}/examples/shear-subcritical.toml
     ${WEB_WORK}/misuse)
@@ -12,7 +12,7 @@ if(TARGET meniscus_page AND MENISCUS_PAGE AND NODE AND NPM)
 endif()
 
 # Pages are the same whatever the program was built with, and a browser is slow enough.
-if(NOT MENISCUS_PAGE OR NOT NODE OR NOT NPM OR MENISCUS_SANITIZE OR MENISCUS_COVERAGE)
+if(NOT MENISCUS_HAS_PAGE OR MENISCUS_SANITIZE OR MENISCUS_COVERAGE)
   return()
 endif()
 

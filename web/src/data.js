@@ -99,7 +99,7 @@ export function* rowsOfCsv(text) {
   if (isKept()) yield row;
 }
 
-/** Reads a `Package` of the program: its header, then arrays that each begin at a multiple of 4. */
+/** Reads a `Package` of the program: its header, then arrays, their bytes in planes. */
 class Reader {
   constructor(bytes) {
     const length = new DataView(bytes.buffer, bytes.byteOffset).getUint32(0, true);
@@ -108,10 +108,31 @@ class Reader {
     this.at = 4 + length;
   }
   take(Type, length) {
-    this.at = Math.ceil(this.at / 4) * 4;
-    const array = new Type(this.bytes.buffer, this.bytes.byteOffset + this.at, length);
-    this.at += array.byteLength;
+    const array = new Type(length);
+    for (let shift = 0; shift < 8 * Type.BYTES_PER_ELEMENT; shift += 8) {
+      for (let i = 0; i < length; ++i) array[i] |= this.bytes[this.at + i] << shift;
+      this.at += length;
+    }
     return array;
+  }
+  /** Numbers of 16 bits that were packed as differences. */
+  takeSums(length) {
+    const array = this.take(Uint16Array, length);
+    for (let i = 1; i < length; ++i) array[i] += array[i - 1];
+    return array;
+  }
+  /** The corners of faces: the first less that of the face before, the others less the first. */
+  takeFaces(Type, count) {
+    const [a, b, c] = [this.take(Type, count), this.take(Type, count), this.take(Type, count)];
+    const index = new Type(3 * count);
+    let first = 0;
+    for (let f = 0; f < count; ++f) {
+      first += a[f];
+      index[3 * f] = first;
+      index[3 * f + 1] = first + b[f];
+      index[3 * f + 2] = first + c[f];
+    }
+    return index;
   }
 }
 
@@ -127,16 +148,16 @@ function ungridded(indices, low, high) {
 export function unpackedFrame(bytes) {
   const reader = new Reader(bytes);
   const { t, vertices, faces, wide, low, high, fields } = reader.header;
-  const index = reader.take(wide ? Uint32Array : Uint16Array, 3 * faces);
+  const index = reader.takeFaces(wide ? Uint32Array : Uint16Array, faces);
   const position = new Float32Array(3 * vertices);
   for (let axis = 0; axis < 3; ++axis) {
-    const grid = reader.take(Uint16Array, vertices);
+    const grid = reader.takeSums(vertices);
     const step = (high[axis] - low[axis]) / GRID_STEPS;
     for (let v = 0; v < vertices; ++v) position[3 * v + axis] = low[axis] + step * grid[v];
   }
   const values = {};
   for (const field of fields) {
-    values[field.name] = ungridded(reader.take(Uint16Array, vertices), field.low, field.high);
+    values[field.name] = ungridded(reader.takeSums(vertices), field.low, field.high);
   }
   return { t, index, position, values, low, high };
 }
@@ -150,8 +171,8 @@ export function unpackedCuts(bytes) {
     corners: reader.take(Uint8Array, cut.polygons),
     region: reader.take(Uint8Array, cut.polygons),
     quality: Float32Array.from(reader.take(Uint8Array, cut.polygons), (q) => (q / 255) * cut.quality),
-    x: ungridded(reader.take(Uint16Array, cut.points), cut.low[0], cut.high[0]),
-    y: ungridded(reader.take(Uint16Array, cut.points), cut.low[1], cut.high[1]),
+    x: ungridded(reader.takeSums(cut.points), cut.low[0], cut.high[0]),
+    y: ungridded(reader.takeSums(cut.points), cut.low[1], cut.high[1]),
   }));
 }
 

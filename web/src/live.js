@@ -14,6 +14,7 @@ export class LiveRun {
       cuts: new Frames([], (k) => fetched(`/cut?number=${k}`), unpackedCuts),
     };
     this.bytes = Object.fromEntries(TABLES.map((name) => [name, 0]));
+    this.phases = make("section", { class: "dynamic" });
     this.status = make("p", { class: "dynamic live", role: "status" }, "waiting for the first step …");
   }
 
@@ -61,6 +62,25 @@ export class LiveRun {
     }
     this.isOver = state.status !== "running";
     this.setStatus(this.isOver ? `The run is ${state.status}` : "Running", parts);
+  }
+
+  /** Wall time by phase, as the report tells it at the end. */
+  showPhases() {
+    const { timing } = this.run.tables;
+    const spent = timing.names.filter((name) => name !== "step" && name !== "t").map((name) => [
+      name.replaceAll("_", " "), timing.column(name).reduce((sum, s) => sum + (Number.isFinite(s) ? s : 0), 0),
+    ]);
+    const longest = Math.max(...spent.map(([, seconds]) => seconds), 1e-9);
+    const total = spent.reduce((sum, [, seconds]) => sum + seconds, 0) || 1;
+    const row = ([name, seconds]) => make(
+      "tr", {}, make("th", {}, name),
+      make("td", { class: "phase" }, make("span", { style: `width:${((100 * seconds) / longest).toFixed(1)}%` })),
+      make("td", { class: "n" }, `${readable(seconds, 3)} s`),
+      make("td", { class: "n" }, `${Math.round((100 * seconds) / total)} %`),
+    );
+    this.phases.replaceChildren(
+      make("h2", {}, "Time by phase"), make("div", { class: "card" }, make("table", {}, make("tbody", {}, ...spent.map(row)))),
+    );
   }
 
   setStatus(word, parts = []) {

@@ -103,8 +103,8 @@ async function showRuns({ runs: entries, fields, plots }) {
   app.append(page.cutPlace, page.historyPlace);
   page.timeline.set(page.timeline.times.length - 1); // how it ended is what most want to see first
   await page.explorer?.show();
+  await Promise.all(page.explorer?.views.map((view) => view.frame && view.drawn) ?? []);
   performance.mark("first-picture");
-  await new Promise((resume) => setTimeout(resume));
   addHistory(page, plots, runs);
   if (runs.length === 1) {
     await addCut(page, runs[0]);
@@ -121,7 +121,7 @@ async function showLive({ runs: [entry], fields, plots }) {
   const { run } = live;
   const page = newPage([run]);
   const viewPlace = make("div");
-  app.append(live.status, viewPlace, page.cutPlace, page.historyPlace);
+  app.append(live.status, viewPlace, page.cutPlace, page.historyPlace, live.phases);
   window.meniscus = page;
   addCaseButtons(entry);
   await live.follow(async (news) => {
@@ -135,6 +135,7 @@ async function showLive({ runs: [entry], fields, plots }) {
     } else if (news.frames) {
       page.explorer?.extend();
     }
+    if (news.rows) live.showPhases();
     if (news.cuts && page.cut) page.cut.extend();
     else if (news.cuts) await addCut(page, run);
     if (news.rows && page.history) page.history.extend();

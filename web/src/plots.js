@@ -33,15 +33,20 @@ function styledCurves(plot, runs) {
   return [...styled, ...references];
 }
 
-/** One axis of times for all curves: rows [t, values of curve 0, …], null where a curve has none. */
-function joined(curves) {
-  return uPlot.join(curves.map(({ t, values }) => [t, values.map((v) => (Number.isFinite(v) ? v : null))]));
+/**
+ * One axis of times for all curves: rows [t, values of curve 0, …], null where a curve has none that can
+ * be drawn.
+ */
+function joined(curves, isLog) {
+  const isDrawable = (v) => Number.isFinite(v) && (v > 0 || !isLog);
+  return uPlot.join(curves.map(({ t, values }) => [t, values.map((v) => (isDrawable(v) ? v : null))]));
 }
 
 class HistoryPlot {
   constructor(spec, runs, timeline, events) {
     Object.assign(this, { spec, runs, timeline, events, isLog: spec.log });
     this.curves = styledCurves(spec, runs);
+    this.isLog &&= this.canBeLog();
     this.isDrawable = this.curves.some(({ values }) => values.some(Number.isFinite));
     if (!this.isDrawable) return;
     this.body = make("div", { class: "plot-body" });
@@ -74,7 +79,7 @@ class HistoryPlot {
   draw() {
     const zoom = this.uplot && this.isZoomed ? { ...this.uplot.scales.x } : null;
     this.uplot?.destroy();
-    this.data = joined(this.curves);
+    this.data = joined(this.curves, this.isLog);
     this.uplot = new uPlot(this.options(), this.data, this.body);
     this.uplot.over.addEventListener("click", () => this.jump());
     this.now = make("div", { class: "now" });
@@ -98,9 +103,9 @@ class HistoryPlot {
         points: { size: 7 },
         dataIdx: (u, series, nearest) => this.nearestValue(series, nearest),
       },
-      scales: { x: { time: false }, y: { distr: this.canBeLog() && this.isLog ? 3 : 1, range: this.range() } },
+      scales: { x: { time: false }, y: { distr: this.isLog ? 3 : 1, range: this.range() } },
       axes: [
-        { ...axis, values, label: "time t [1/G]", labelSize: 18, size: 30, gap: 4 },
+        { ...axis, values, label: "time t [1/G]", labelSize: 16, labelGap: 0, size: 26, gap: 3 },
         { ...axis, values: this.isLog ? undefined : values, size: (u, labels) => this.axisSize(labels) },
       ],
       series: [{}, ...this.curves.map((curve) => this.series(curve))],
@@ -115,7 +120,7 @@ class HistoryPlot {
 
   /** At least from 0 where the quantity is one of those; a constant gets some room. */
   range() {
-    if (this.canBeLog() && this.isLog) return undefined;
+    if (this.isLog) return undefined;
     return (u, low, high) => {
       const least = this.spec.zero ? Math.min(0, low) : low;
       const most = this.spec.zero ? Math.max(0, high) : high;
@@ -139,7 +144,7 @@ class HistoryPlot {
   }
 
   canBeLog() {
-    return this.curves.every(({ values }) => values.every((v) => !(v <= 0))) || this.spec.log;
+    return this.curves.some(({ values }) => values.some((v) => v > 0));
   }
 
   /** The row nearest to the mouse in which the curve has a value. */
@@ -238,7 +243,7 @@ class HistoryPlot {
   extend() {
     this.curves = styledCurves(this.spec, this.runs);
     if (this.uplot?.series.length !== this.curves.length + 1) return this.draw();
-    this.data = joined(this.curves);
+    this.data = joined(this.curves, this.isLog);
     this.uplot.setData(this.data, !this.isZoomed);
     this.showValues();
   }

@@ -87,6 +87,7 @@ export class View3D {
     });
     this.canvas.addEventListener("keydown", (event) => this.onKey(event));
     this.makeSurface();
+    this.drawn = new Promise((resolve) => (this.noteDrawn = resolve)); // for the first time
     new ResizeObserver(() => this.resize()).observe(this.element);
   }
 
@@ -204,7 +205,7 @@ export class View3D {
     this.draw();
   }
 
-  /** Zooms so that the box fills the stage but for a margin. */
+  /** Zooms so that the box fills the stage; what is in it rarely reaches its corners. */
   fit(low, high) {
     const right = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 0);
     const up = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 1);
@@ -212,16 +213,15 @@ export class View3D {
       const size = high.clone().sub(low);
       return 0.5 * (Math.abs(axis.x) * size.x + Math.abs(axis.y) * size.y + Math.abs(axis.z) * size.z);
     };
-    const margin = 1.12;
-    const { width, height } = this.size();
-    this.halfHeight = margin * Math.max(half(up), (half(right) * height) / width, 1e-9);
+    this.half = { right: half(right), up: half(up) };
     this.camera.zoom = 1;
     this.project();
   }
 
   project() {
-    if (!this.halfHeight) return;
+    if (!this.half) return;
     const { width, height } = this.size();
+    this.halfHeight = Math.max(this.half.up, (this.half.right * height) / width, 1e-9);
     const halfWidth = (this.halfHeight * width) / height;
     Object.assign(this.camera, {
       left: -halfWidth, right: halfWidth, top: this.halfHeight, bottom: -this.halfHeight,
@@ -238,7 +238,7 @@ export class View3D {
     const { width, height } = this.size();
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     this.renderer.setSize(width, height, false);
-    if (this.halfHeight) this.project();
+    if (this.half) this.project();
     else this.lookFrom();
     this.draw();
   }
@@ -250,7 +250,7 @@ export class View3D {
     this.camera.up.copy(other.camera.up);
     this.camera.zoom = other.camera.zoom;
     this.controls.target.copy(other.controls.target);
-    this.halfHeight = other.halfHeight;
+    this.half = other.half;
     this.reach = other.reach;
     this.project();
     this.draw();
@@ -291,9 +291,11 @@ export class View3D {
   }
 
   drawNow() {
+    if (!this.half) return; // not on the page yet
     this.lineMaterial.color = new Color(variable("--edge"));
     this.renderer.render(this.scene, this.camera);
     this.drawOverlay();
+    if (this.frame) this.noteDrawn();
     this.onDrawn?.();
   }
 

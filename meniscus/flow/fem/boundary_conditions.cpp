@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "meniscus/core/error.hpp"
+#include <fmt/format.h>
+
+#include "meniscus/flow/fem/face_elements.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 
 namespace meniscus::fem {
@@ -22,31 +24,33 @@ struct Piece {
   Vec3 area_vector;
 };
 
-/// The lowest patch with an imposed velocity at each vertex; invalid where there is none.
-VertexField<PatchId> imposing_patch(const OuterBoundary& boundary) {
-  VertexField<PatchId> result(boundary.mesh.num_vertices());
+/// The lowest patch with an imposed velocity at each node; invalid where there is none.
+Field<NodeId, PatchId> imposing_patch(const OuterBoundary& boundary, const FaceNodeTable& faces,
+                                      std::int32_t num_nodes) {
+  Field<NodeId, PatchId> result(num_nodes);
   for (const FaceId f : boundary.mesh.faces.ids()) {
     const PatchId patch = boundary.patch[f];
     if (!std::holds_alternative<ImposedVelocity>(boundary.patches[patch].condition)) continue;
-    for (const VertexId v : boundary.mesh.faces[f])
-      if (!result[v].is_valid() || patch < result[v]) result[v] = patch;
+    for (const NodeId i : faces.of(f))
+      if (!result[i].is_valid() || patch < result[i]) result[i] = patch;
   }
   return result;
 }
 
-/// The prescribed velocities, and the free flux of those that are not the linear flow removed.
+/// The prescribed velocities by node.
 struct ImposedValues {
-  VertexField<PatchId> patch;
-  VertexField<Vec3> velocity;
+  Field<NodeId, PatchId> patch;
+  Field<NodeId, Vec3> velocity;
 };
 
-ImposedValues imposed_values(const OuterBoundary& boundary, double t) {
-  ImposedValues values{imposing_patch(boundary),
-                       VertexField<Vec3>(boundary.mesh.num_vertices(), Vec3::Zero())};
-  for (const VertexId v : boundary.mesh.x.ids())
-    if (values.patch[v].is_valid())
-      values.velocity[v] = std::get<ImposedVelocity>(boundary.patches[values.patch[v]].condition)
-                               .velocity(boundary.mesh.x[v], t);
+ImposedValues imposed_values(const OuterBoundary& boundary, const FaceNodeTable& faces,
+                             const NodePositions& positions, double t) {
+  ImposedValues values{imposing_patch(boundary, faces, positions.x.size()),
+                       Field<NodeId, Vec3>(positions.x.size(), Vec3::Zero())};
+  for (const NodeId i : positions.x.ids())
+    if (values.patch[i].is_valid())
+      values.velocity[i] = std::get<ImposedVelocity>(boundary.patches[values.patch[i]].condition)
+                               .velocity(positions.x[i], t);
   return values;
 }
 
@@ -54,38 +58,40 @@ bool is_linear(const OuterBoundary& boundary, PatchId patch) {
   return std::get<ImposedVelocity>(boundary.patches[patch].condition).is_linear_flow;
 }
 
-/// Makes Σ A_i·v_i zero by v_i ← v_i − A_i (Σ A·v)/(Σ A²) over the vertices that are not of the
-/// linear flow; returns why it cannot, or nothing.
-std::string remove_net_flux(const OuterBoundary& boundary, ImposedValues& values) {
-  const VertexField<Vec3> area = vertex_area_vectors(boundary.mesh);
+/// Makes Σ A_i·v_i zero by v_i ← v_i − A_i (Σ A·v)/(Σ A²) over the nodes that are not of the linear
+/// flow; returns why it cannot, or nothing.
+std::string remove_net_flux(const OuterBoundary& boundary, const Field<NodeId, Vec3>& area,
+                            ImposedValues& values) {
+  const auto is_free = [&](NodeId i) {
+    return values.patch[i].is_valid() && !is_linear(boundary, values.patch[i]);
+  };
   double flux = 0.0, gross = 0.0, squared = 0.0;
-  for (const VertexId v : boundary.mesh.x.ids()) {
-    const double through = area[v].dot(values.velocity[v]);
+  for (const NodeId i : area.ids()) {
+    const double through = area[i].dot(values.velocity[i]);
     flux += through;
     gross += std::abs(through);
-    if (values.patch[v].is_valid() && !is_linear(boundary, values.patch[v]))
-      squared += area[v].squaredNorm();
+    if (is_free(i)) squared += area[i].squaredNorm();
   }
   const double allowed = squared > 0.0 ? most_interpolated_flux : most_linear_flux;
   if (std::abs(flux) > allowed * gross)
     return fmt::format(
         "the imposed velocities have a net flux of {:.3g} out of a boundary without an open patch",
         flux);
-  for (const VertexId v : boundary.mesh.x.ids())
-    if (squared > 0.0 && values.patch[v].is_valid() && !is_linear(boundary, values.patch[v]))
-      values.velocity[v] -= flux / squared * area[v];
+  for (const NodeId i : area.ids())
+    if (squared > 0.0 && is_free(i)) values.velocity[i] -= flux / squared * area[i];
   return {};
 }
 
-void add_tractions(const OuterBoundary& boundary, const EmbeddedSurface& embedded,
-                   BoundaryConditions& conditions) {
+void add_tractions(const OuterBoundary& boundary, const FaceNodeTable& faces,
+                   const NodePositions& positions, BoundaryConditions& conditions) {
   for (const FaceId f : boundary.mesh.faces.ids()) {
     const auto* open = std::get_if<ImposedTraction>(&boundary.patches[boundary.patch[f]].condition);
     if (open == nullptr) continue;
     conditions.has_open_patch = true;
-    const double third = face_area_vector(boundary.mesh, f).norm() / 3.0;
-    for (const VertexId v : boundary.mesh.faces[f])
-      conditions.traction[embedded.vertex(v)] += third * open->traction;
+    const auto nodes = faces.of(f);
+    for (const FacePoint& point : face_points(positions.x, nodes))
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        conditions.traction[nodes[i]] += point.value[i] * point.area.norm() * open->traction;
   }
 }
 
@@ -99,47 +105,47 @@ std::vector<PatchId> impenetrable_patches(const OuterBoundary& boundary) {
 
 }  // namespace
 
-VertexField<std::vector<Vec3>> piece_normals(const SurfaceMesh& mesh,
-                                             const FaceField<PatchId>& patch,
-                                             const std::vector<PatchId>& wanted) {
-  VertexField<std::vector<Piece>> pieces(mesh.num_vertices());
-  for (const FaceId f : mesh.faces.ids()) {
-    if (std::ranges::find(wanted, patch[f]) == wanted.end()) continue;
-    const Vec3 area = face_area_vector(mesh, f);
-    for (const VertexId v : mesh.faces[f]) {
-      const auto same = std::ranges::find_if(pieces[v], [&](const Piece& piece) {
-        return piece.patch == patch[f] &&
+Field<NodeId, std::vector<Vec3>> piece_normals(const OuterBoundary& boundary,
+                                               const std::vector<PatchId>& wanted,
+                                               const FaceNodeTable& faces, std::int32_t num_nodes) {
+  Field<NodeId, std::vector<Piece>> pieces(num_nodes);
+  for (const FaceId f : boundary.mesh.faces.ids()) {
+    const PatchId patch = boundary.patch[f];
+    if (std::ranges::find(wanted, patch) == wanted.end()) continue;
+    const Vec3 area = face_area_vector(boundary.mesh, f);
+    for (const NodeId i : faces.of(f)) {
+      const auto same = std::ranges::find_if(pieces[i], [&](const Piece& piece) {
+        return piece.patch == patch &&
                piece.area_vector.normalized().dot(area.normalized()) > same_piece;
       });
-      if (same != pieces[v].end())
+      if (same != pieces[i].end())
         same->area_vector += area;
       else
-        pieces[v].push_back({patch[f], area});
+        pieces[i].push_back({patch, area});
     }
   }
-  VertexField<std::vector<Vec3>> normals(mesh.num_vertices());
-  for (const VertexId v : mesh.x.ids())
-    for (const Piece& piece : pieces[v]) normals[v].push_back(piece.area_vector.normalized());
+  Field<NodeId, std::vector<Vec3>> normals(num_nodes);
+  for (const NodeId i : pieces.ids())
+    for (const Piece& piece : pieces[i]) normals[i].push_back(piece.area_vector.normalized());
   return normals;
 }
 
-BoundaryConditions boundary_conditions(const OuterBoundary& boundary, const TetMesh& mesh,
-                                       double t) {
-  BoundaryConditions conditions{Constraints(mesh.num_vertices()),
-                                Field<TetVertexId, Vec3>(mesh.num_vertices(), Vec3::Zero()),
-                                false,
-                                {}};
-  add_tractions(boundary, mesh.boundary, conditions);
-  ImposedValues values = imposed_values(boundary, t);
-  if (!conditions.has_open_patch) conditions.failure = remove_net_flux(boundary, values);
-  const VertexField<std::vector<Vec3>> normals =
-      piece_normals(boundary.mesh, boundary.patch, impenetrable_patches(boundary));
-  for (const VertexId v : boundary.mesh.x.ids()) {
-    const TetVertexId at = mesh.boundary.vertex(v);
-    if (values.patch[v].is_valid())
-      conditions.constraints.fix(at, values.velocity[v]);
-    else if (!normals[v].empty())
-      conditions.constraints.forbid_penetration(at, normals[v]);
+BoundaryConditions boundary_conditions(const OuterBoundary& boundary, const FaceNodeTable& faces,
+                                       const NodePositions& positions, double t) {
+  const std::int32_t num_nodes = positions.x.size();
+  BoundaryConditions conditions{
+      Constraints(num_nodes), Field<NodeId, Vec3>(num_nodes, Vec3::Zero()), false, {}};
+  add_tractions(boundary, faces, positions, conditions);
+  ImposedValues values = imposed_values(boundary, faces, positions, t);
+  if (!conditions.has_open_patch)
+    conditions.failure = remove_net_flux(boundary, node_area_vectors(faces, positions.x), values);
+  const Field<NodeId, std::vector<Vec3>> normals =
+      piece_normals(boundary, impenetrable_patches(boundary), faces, num_nodes);
+  for (const NodeId i : positions.x.ids()) {
+    if (values.patch[i].is_valid())
+      conditions.constraints.fix(i, values.velocity[i]);
+    else if (!normals[i].empty())
+      conditions.constraints.forbid_penetration(i, normals[i]);
   }
   return conditions;
 }

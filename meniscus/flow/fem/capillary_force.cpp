@@ -1,57 +1,86 @@
 #include "meniscus/flow/fem/capillary_force.hpp"
 
+#include "meniscus/core/error.hpp"
+#include "meniscus/flow/fem/face_elements.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/curvature.hpp"
 
 namespace meniscus::fem {
 namespace {
 
-VertexField<Vec3> weak_force(const SurfaceMesh& mesh, double tension) {
-  VertexField<Vec3> force = area_gradient(mesh);
-  for (Vec3& f : force) f *= -tension;
-  return force;
+void add_nodal_force(const Interface& interface, const FaceNodeTable& faces,
+                     Field<NodeId, Vec3>& load) {
+  MENISCUS_ASSERT(faces.nodes_per_face == 3, "{}", faces.nodes_per_face);
+  const SurfaceMesh& mesh = interface.mesh;
+  const VertexField<VertexCurvature> fit = fitted_curvature(mesh, SurfaceTopology(mesh));
+  for (const FaceId f : mesh.faces.ids()) {
+    const double third = face_area_vector(mesh, f).norm() / 3.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexCurvature& at = fit[mesh.faces[f][k]];
+      load[faces.of(f)[k]] -= interface.tension * third * at.sum() * at.n;
+    }
+  }
 }
 
-VertexField<Vec3> nodal_force(const SurfaceMesh& mesh, double tension) {
-  const VertexField<VertexCurvature> fit = fitted_curvature(mesh, SurfaceTopology(mesh));
-  const VertexField<double> area = vertex_areas(mesh);
-  VertexField<Vec3> force(mesh.num_vertices(), Vec3::Zero());
-  for (const VertexId v : mesh.x.ids()) force[v] = -tension * area[v] * fit[v].sum() * fit[v].n;
-  return force;
-}
-
-VertexField<double> fitted_kappa(const SurfaceMesh& mesh) {
-  const VertexField<VertexCurvature> fit = fitted_curvature(mesh, SurfaceTopology(mesh));
-  VertexField<double> kappa(mesh.num_vertices());
-  for (const VertexId v : mesh.x.ids()) kappa[v] = fit[v].sum();
+/// κ at the vertices, and half way between them at the middles of edges.
+Field<NodeId, double> fitted_kappa(const SurfaceMesh& mesh, const FaceNodeTable& faces,
+                                   std::int32_t num_nodes) {
+  const SurfaceTopology topology(mesh);
+  // The paraboloid is too curved by O(h²), which quadratic elements would notice.
+  const VertexField<VertexCurvature> fit = faces.nodes_per_face == 3
+                                               ? fitted_curvature(mesh, topology)
+                                               : osculating_curvature(mesh, topology);
+  Field<NodeId, double> kappa(num_nodes, 0.0);
+  for (const FaceId f : mesh.faces.ids()) {
+    const auto nodes = faces.of(f);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double here = fit[mesh.faces[f][k]].sum();
+      kappa[nodes[k]] = here;
+      if (nodes.size() == 6)
+        kappa[nodes[3 + k]] = 0.5 * (here + fit[mesh.faces[f][(k + 1) % 3]].sum());
+    }
+  }
   return kappa;
 }
 
 }  // namespace
 
-VertexField<Vec3> balanced_force(const SurfaceMesh& mesh, double tension,
-                                 const VertexField<double>& kappa) {
-  VertexField<Vec3> force(mesh.num_vertices(), Vec3::Zero());
-  for (const FaceId f : mesh.faces.ids()) {
-    const Vec3 area = face_area_vector(mesh, f);
-    const auto& [a, b, c] = mesh.faces[f];
-    const double sum = kappa[a] + kappa[b] + kappa[c];
-    // ∫φ_i φ_j over a triangle is its area over 12, twice that for i = j.
-    for (const VertexId v : mesh.faces[f]) force[v] -= tension / 12.0 * (sum + kappa[v]) * area;
+void add_weak_force(double tension, const FaceNodeTable& faces, const NodePositions& positions,
+                    Field<NodeId, Vec3>& load) {
+  for (const FaceId f : faces.faces()) {
+    const auto nodes = faces.of(f);
+    for (const FacePoint& point : face_points(positions.x, nodes))
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        load[nodes[i]] -= tension * point.area.norm() * point.gradient[i];
   }
-  return force;
 }
 
-VertexField<Vec3> capillary_force(const SurfaceMesh& mesh, double tension, CapillaryForm form) {
+void add_balanced_force(double tension, const Field<NodeId, double>& kappa,
+                        const FaceNodeTable& faces, const NodePositions& positions,
+                        Field<NodeId, Vec3>& load) {
+  for (const FaceId f : faces.faces()) {
+    const auto nodes = faces.of(f);
+    for (const FacePoint& point : face_points(positions.x, nodes)) {
+      double here = 0.0;
+      for (std::size_t i = 0; i < nodes.size(); ++i) here += point.value[i] * kappa[nodes[i]];
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        load[nodes[i]] -= tension * here * point.value[i] * point.area;
+    }
+  }
+}
+
+void add_capillary_force(const Interface& interface, CapillaryForm form, const FaceNodeTable& faces,
+                         const NodePositions& positions, Field<NodeId, Vec3>& load) {
   switch (form) {
     case CapillaryForm::weak:
-      return weak_force(mesh, tension);
+      return add_weak_force(interface.tension, faces, positions, load);
     case CapillaryForm::nodal:
-      return nodal_force(mesh, tension);
+      return add_nodal_force(interface, faces, load);
     case CapillaryForm::balanced:
       break;
   }
-  return balanced_force(mesh, tension, fitted_kappa(mesh));
+  add_balanced_force(interface.tension, fitted_kappa(interface.mesh, faces, load.size()), faces,
+                     positions, load);
 }
 
 }  // namespace meniscus::fem

@@ -1,17 +1,23 @@
 #pragma once
 
+#include "meniscus/flow/fem/node_positions.hpp"
 #include "meniscus/flow/fem/options.hpp"
 #include "meniscus/scene/scene.hpp"
 
 namespace meniscus::fem {
 
-/// The force −σ∫κ n φ_i dS with which a surface of the given tension pulls on the fluid at each of
-/// its vertices (inward on a sphere) [μ_out G R0²]; eqs 15–17 of hooper2001.
-[[nodiscard]] VertexField<Vec3> capillary_force(const SurfaceMesh& mesh, double tension,
-                                                CapillaryForm form);
-/// −σ∫κ_h n φ_i dS for a given P1 field κ_h and the normals of the faces. For constant κ_h it is a
-/// discrete pressure gradient: no flow.
-[[nodiscard]] VertexField<Vec3> balanced_force(const SurfaceMesh& mesh, double tension,
-                                               const VertexField<double>& kappa);
+/// Adds the force −σ∫κ n φ_i dS with which an interface pulls on the fluid at each of its nodes
+/// (inward on a sphere) [μ_out G R0²]; eqs 15–17 of hooper2001. Balanced: κ by the paraboloid fit
+/// (P1), or by the osculating one (P2). The nodal form, a lumped rule, exists for P1 alone.
+void add_capillary_force(const Interface& interface, CapillaryForm form, const FaceNodeTable& faces,
+                         const NodePositions& positions, Field<NodeId, Vec3>& load);
+/// −σ∫(I − nn):∇φ_i dS: the rate at which −σ times the area of the elements' surface grows.
+void add_weak_force(double tension, const FaceNodeTable& faces, const NodePositions& positions,
+                    Field<NodeId, Vec3>& load);
+/// −σ∫κ_h n φ_i dS for a field κ_h of the velocity's degree, given at the nodes. For constant κ_h
+/// it is a discrete pressure gradient: no flow.
+void add_balanced_force(double tension, const Field<NodeId, double>& kappa,
+                        const FaceNodeTable& faces, const NodePositions& positions,
+                        Field<NodeId, Vec3>& load);
 
 }  // namespace meniscus::fem

@@ -73,26 +73,26 @@ Vec3 NodeConstraint::fixed_part(const Vec3& x) const {
   return frame * local;
 }
 
-NodeConstraint& Constraints::at(TetVertexId v) {
-  if (index_[v] < 0) {
-    index_[v] = static_cast<std::int32_t>(constraints_.size());
+NodeConstraint& Constraints::at(NodeId i) {
+  if (index_[i] < 0) {
+    index_[i] = static_cast<std::int32_t>(constraints_.size());
     constraints_.push_back({});
   }
-  NodeConstraint& constraint = constraints_[static_cast<std::size_t>(index_[v])];
+  NodeConstraint& constraint = constraints_[static_cast<std::size_t>(index_[i])];
   constraint = NodeConstraint{};
-  constraint.vertex = v;
+  constraint.node = i;
   return constraint;
 }
 
-void Constraints::fix(TetVertexId v, const Vec3& value) {
-  NodeConstraint& constraint = at(v);
+void Constraints::fix(NodeId i, const Vec3& value) {
+  NodeConstraint& constraint = at(i);
   constraint.is_fixed = {true, true, true};
   constraint.value = value;
 }
 
-void Constraints::forbid_penetration(TetVertexId v, std::span<const Vec3> normals) {
+void Constraints::forbid_penetration(NodeId i, std::span<const Vec3> normals) {
   const std::vector<Vec3> basis = orthonormalized(normals);
-  NodeConstraint& constraint = at(v);
+  NodeConstraint& constraint = at(i);
   if (basis.size() == 3) {
     constraint.is_fixed = {true, true, true};
     return;
@@ -106,9 +106,9 @@ void Constraints::forbid_penetration(TetVertexId v, std::span<const Vec3> normal
   if (!is_aligned) complete(constraint.frame, constraint.is_fixed);
 }
 
-void Constraints::impose(Field<TetVertexId, Vec3>& v) const {
+void Constraints::impose(Field<NodeId, Vec3>& v) const {
   for (const NodeConstraint& constraint : constraints_)
-    v[constraint.vertex] += constraint.fixed_part(constraint.value - v[constraint.vertex]);
+    v[constraint.node] += constraint.fixed_part(constraint.value - v[constraint.node]);
 }
 
 }  // namespace meniscus::fem

@@ -6,6 +6,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/boundary_conditions.hpp"
 #include "meniscus/flow/fem/capillary_force.hpp"
+#include "meniscus/flow/fem/face_elements.hpp"
 #include "meniscus/flow/fem/mesh_archive.hpp"
 #include "meniscus/flow/fem/stokes_residual.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
@@ -19,50 +20,86 @@ FlowReport failure(std::string text) { return {false, std::move(text), 0}; }
 /// The problem's coefficients and forces; its tractions apart, as their power is paid for outside.
 struct InstantProblem {
   StokesProblem stokes;
-  Field<TetVertexId, Vec3> traction;
+  Field<NodeId, Vec3> traction;
   std::string failure;
 };
 
-InstantProblem instant_problem(const Scene& scene, const TetMesh& mesh, CapillaryForm form,
-                               double t) {
-  InstantProblem problem{StokesProblem(mesh), {}, {}};
+/// The nodes of the faces of every embedded surface.
+struct SurfaceNodes {
+  std::vector<FaceNodeTable> interfaces;
+  FaceNodeTable boundary;
+};
+
+SurfaceNodes surface_nodes(const Scene& scene, const TetMesh& mesh, const FlowSpace& space) {
+  SurfaceNodes nodes;
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+    nodes.interfaces.push_back(
+        face_nodes(space, mesh, scene.interfaces[i].mesh, mesh.interfaces[i]));
+  nodes.boundary = face_nodes(space, mesh, scene.boundary.mesh, mesh.boundary);
+  return nodes;
+}
+
+InstantProblem instant_problem(const Scene& scene, const TetMesh& mesh, const FlowSpace& space,
+                               NodePositions positions, CapillaryForm form, double t) {
+  InstantProblem problem{StokesProblem(mesh, space, std::move(positions)), {}, {}};
+  const NodePositions& at = problem.stokes.positions;
+  const SurfaceNodes nodes = surface_nodes(scene, mesh, space);
   for (const CellId c : mesh.cells.ids()) {
     const Liquid& liquid = scene.liquids[mesh.region[c]];
     problem.stokes.viscosity[c] = liquid.viscosity;
     problem.stokes.body_force[c] = liquid.body_force;
   }
-  BoundaryConditions conditions = boundary_conditions(scene.boundary, mesh, t);
+  BoundaryConditions conditions = boundary_conditions(scene.boundary, nodes.boundary, at, t);
   problem.failure = std::move(conditions.failure);
   problem.stokes.constraints = std::move(conditions.constraints);
   problem.stokes.has_open_boundary = conditions.has_open_patch;
   problem.traction = std::move(conditions.traction);
   problem.stokes.load = problem.traction;
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
-    const Interface& interface = scene.interfaces[i];
-    if (interface.tension == 0.0) continue;
-    const VertexField<Vec3> force = capillary_force(interface.mesh, interface.tension, form);
-    for (const VertexId v : force.ids())
-      problem.stokes.load[mesh.interfaces[i].vertex(v)] += force[v];
-  }
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+    if (scene.interfaces[i].tension != 0.0)
+      add_capillary_force(scene.interfaces[i], form, nodes.interfaces[i], at, problem.stokes.load);
   return problem;
 }
 
-/// The pressures of its inside let no liquid through an interface, Σ A_i·v_i = 0, exactly but for
-/// the linear solver's residual: what that leaves goes along the area vectors, so that no volume is
-/// lost to a loose tolerance.
-void remove_net_flux(const SurfaceMesh& surface, VertexField<Vec3>& velocity) {
+/// The pressures of its inside let no liquid through an interface, Σ A_i·v_i = 0 over its nodes,
+/// exactly but for the linear solver's residual: what that leaves goes along the area vectors of
+/// the faces, so that no volume is lost to a loose tolerance.
+void remove_net_flux(const SurfaceMesh& surface, double flux, VertexField<Vec3>& velocity) {
   const VertexField<Vec3> area = vertex_area_vectors(surface);
-  double flux = 0.0, squared = 0.0;
-  for (const VertexId v : area.ids()) {
-    flux += area[v].dot(velocity[v]);
-    squared += area[v].squaredNorm();
-  }
+  double squared = 0.0;
+  for (const Vec3& each : area) squared += each.squaredNorm();
   for (const VertexId v : area.ids()) velocity[v] -= flux / squared * area[v];
+}
+
+/// Σ A_i·v_i over the nodes of a surface.
+double net_flux(const FaceNodeTable& faces, const NodePositions& positions,
+                const Field<NodeId, Vec3>& v) {
+  const Field<NodeId, Vec3> area = node_area_vectors(faces, positions.x);
+  double flux = 0.0;
+  for (const NodeId i : area.ids()) flux += area[i].dot(v[i]);
+  return flux;
+}
+
+Field<TetVertexId, Vec3> at_vertices(const Field<NodeId, Vec3>& v, std::int32_t num_vertices) {
+  const auto vertices = v.span().first(static_cast<std::size_t>(num_vertices));
+  return Field<TetVertexId, Vec3>(std::vector<Vec3>(vertices.begin(), vertices.end()));
+}
+
+FlowReport straightened_report(const NodePositions& positions) {
+  FlowReport report;
+  if (positions.num_straightened > 0)
+    report.warnings.push_back(fmt::format("{} edges of surfaces stay straight in the elements",
+                                          positions.num_straightened));
+  return report;
 }
 
 class FiniteElementFlow final : public FlowSolver {
  public:
   explicit FiniteElementFlow(const Options& options) : options_(options) {
+    if (options.elements == Elements::p2_p1 && options.capillary == CapillaryForm::nodal)
+      reject_input("the nodal form of surface tension needs P1-P1 elements");
+    if (options.elements == Elements::p2_p1 && options.linear == LinearSolver::paper_gmres)
+      reject_input("the paper's GMRES scales by a diagonal that P2-P1 elements lack");
     check_linear_options(options);
   }
 
@@ -89,14 +126,15 @@ class FiniteElementFlow final : public FlowSolver {
   double shortest_mesh_edge() const override { return shortest_edge(mesh_); }
   const TetMesh* volume_mesh() const override { return &mesh_; }
   std::span<const Vec3> mesh_velocity() const override {
-    return state_ ? state_->v.span() : std::span<const Vec3>{};
+    return state_ ? state_->v.span().first(static_cast<std::size_t>(mesh_.num_vertices()))
+                  : std::span<const Vec3>{};
   }
   std::span<const double> corner_pressure() const override { return corner_pressure_; }
 
   void save(Archive& archive) const override {
     fem::save(mesh_, archive, "flow/mesh");
     if (state_) fem::save(*state_, archive, "flow/guess");
-    if (!prepared_at_.empty()) save_positions(prepared_at_, archive, "flow/preconditioner/x");
+    if (prepared_at_) save_positions(*prepared_at_, archive, "flow/preconditioner");
   }
   void load(const Archive& archive, const Scene& scene) override;
 
@@ -104,9 +142,11 @@ class FiniteElementFlow final : public FlowSolver {
 
  private:
   void use_topology() {
-    stokes_.emplace(mesh_, options_);
+    stokes_.reset();
+    space_ = flow_space(mesh_, options_.elements);
+    stokes_.emplace(space_, options_);
     state_.reset();
-    prepared_at_ = {};
+    prepared_at_.reset();
   }
   void follow_interfaces(const Scene& scene);
   void take_solution(const Scene& scene, const InstantProblem& problem);
@@ -116,12 +156,13 @@ class FiniteElementFlow final : public FlowSolver {
   Options options_;
   TetMesh mesh_;
   Field<TetVertexId, Vec3> marked_;
+  FlowSpace space_;
   std::optional<StokesSolver> stokes_;
   /// The last solution: the next solve's first guess while the topology stands.
   std::optional<StokesState> state_;
-  /// Where the vertices were when the preconditioner was made that the next solve will keep; empty
-  /// when it is to make its own. Every preconditioner serves two solves: the stages of a step.
-  Field<TetVertexId, Vec3> prepared_at_;
+  /// Where the nodes were when the preconditioner was made that the next solve will keep; none when
+  /// it is to make its own. Every preconditioner serves two solves: the stages of a step.
+  std::optional<NodePositions> prepared_at_;
   std::vector<VertexField<Vec3>> velocity_;
   std::vector<double> corner_pressure_;
   Power power_;
@@ -148,23 +189,31 @@ FlowReport FiniteElementFlow::solve(const Scene& scene, double t) {
   std::optional<InstantProblem> problem;
   {
     const PhaseTimer timer(times_, "assemble");
-    problem.emplace(instant_problem(scene, mesh_, options_.capillary, t));
+    problem.emplace(instant_problem(scene, mesh_, space_, node_positions(scene, mesh_, space_),
+                                    options_.capillary, t));
   }
   if (!problem->failure.empty()) return failure(problem->failure);
   if (!state_) {
     state_ = stokes_->state_at_rest();
-    for (const TetVertexId v : mesh_.x.ids()) state_->v[v] = scene.flow.velocity(mesh_.x[v], t);
+    const NodePositions& positions = problem->stokes.positions;
+    for (const NodeId i : positions.x.ids()) state_->v[i] = scene.flow.velocity(positions.x[i], t);
   }
-  const bool is_kept = !prepared_at_.empty();
+  const bool is_kept = prepared_at_.has_value();
   const StokesReport report = stokes_->solve(
       problem->stokes, *state_,
       is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh, times_);
   const bool was_made =
       !is_kept && report.ok && report.solver == options_.linear && report.iterations > 0;
-  prepared_at_ = was_made ? mesh_.x : Field<TetVertexId, Vec3>();
-  if (!report.ok) return {false, report.failure, report.iterations, report.failed_solvers};
-  take_solution(scene, *problem);
-  return {true, {}, report.iterations, report.failed_solvers};
+  prepared_at_.reset();
+  if (was_made) prepared_at_ = problem->stokes.positions;
+  FlowReport result = straightened_report(problem->stokes.positions);
+  result.ok = report.ok;
+  result.failure = report.failure;
+  result.iterations = report.iterations;
+  result.warnings.insert(result.warnings.end(), report.failed_solvers.begin(),
+                         report.failed_solvers.end());
+  if (report.ok) take_solution(scene, *problem);
+  return result;
 }
 
 void FiniteElementFlow::take_solution(const Scene& scene, const InstantProblem& problem) {
@@ -173,24 +222,27 @@ void FiniteElementFlow::take_solution(const Scene& scene, const InstantProblem& 
   velocity_.clear();
   for (std::size_t i = 0; i < mesh_.interfaces.size(); ++i) {
     const EmbeddedSurface& surface = mesh_.interfaces[i];
+    const SurfaceMesh& triangles = scene.interfaces[i].mesh;
     VertexField<Vec3> v(surface.num_vertices);
-    for (const VertexId at : v.ids()) v[at] = state_->v[surface.vertex(at)];
-    remove_net_flux(scene.interfaces[i].mesh, v);
+    for (const VertexId at : v.ids()) v[at] = state_->v[node_at(surface.vertex(at))];
+    remove_net_flux(triangles,
+                    net_flux(face_nodes(space_, mesh_, triangles, surface),
+                             problem.stokes.positions, state_->v),
+                    v);
     velocity_.push_back(std::move(v));
   }
-  const StokesPower power = fem::power(problem.stokes, stokes_->pressure_space(), *state_);
+  const StokesPower power = fem::power(problem.stokes, *state_);
   double traction = 0.0;
-  for (const TetVertexId v : problem.traction.ids())
-    traction += problem.traction[v].dot(state_->v[v]);
+  for (const NodeId i : problem.traction.ids()) traction += problem.traction[i].dot(state_->v[i]);
   power_ = {power.reaction + traction + power.body_force, power.dissipation};
   corner_pressure_.clear();
-  for (const std::int32_t node : stokes_->pressure_space().nodes.cell_nodes)
+  for (const std::int32_t node : space_.pressure.nodes.cell_nodes)
     corner_pressure_.push_back(state_->p[static_cast<std::size_t>(node)]);
 }
 
 /// Where no boundary is open the pressure is given relative to its mean over the matrix's nodes.
 void FiniteElementFlow::level_pressure() {
-  const std::vector<RegionId>& region = stokes_->pressure_space().region;
+  const std::vector<RegionId>& region = space_.pressure.region;
   double sum = 0.0;
   int count = 0;
   for (std::size_t i = 0; i < region.size(); ++i)
@@ -207,8 +259,8 @@ FlowReport FiniteElementFlow::move_from_mark(const Scene& marked,
   if (!state_) return failure("there is no velocity to move the mesh with");
   const PhaseTimer timer(times_, "move mesh");
   mesh_.x = marked_;
-  const VolumeVelocity velocity =
-      volume_velocity(marked, mesh_, motion, state_->v, options_.volume_motion);
+  const VolumeVelocity velocity = volume_velocity(
+      marked, mesh_, motion, at_vertices(state_->v, mesh_.num_vertices()), options_.volume_motion);
   for (const TetVertexId v : mesh_.x.ids()) mesh_.x[v] += dt * velocity.w[v];
   for (const CellId c : mesh_.cells.ids())
     if (!(signed_volume(mesh_, c) > 0.0)) {
@@ -221,13 +273,13 @@ FlowReport FiniteElementFlow::move_from_mark(const Scene& marked,
 /// A resumed run must do the same arithmetic: it gets the preconditioner that the saved one had.
 void FiniteElementFlow::restore_preconditioner(const Archive& archive, const Scene& scene) {
   if (!archive.reals.contains("flow/preconditioner/x")) return;
-  prepared_at_ = load_positions(archive, "flow/preconditioner/x");
-  if (prepared_at_.size() != mesh_.num_vertices())
+  prepared_at_ = load_positions(archive, "flow/preconditioner");
+  if (prepared_at_->x.size() != space_.velocity.num_nodes ||
+      prepared_at_->is_curved.size() != mesh_.num_cells())
     reject_input("checkpoint: flow/preconditioner/x does not fit the volume mesh");
-  TetMesh then = mesh_;
-  then.x = prepared_at_;
-  // The time matters to the values of the boundary's velocities alone.
-  stokes_->prepare(instant_problem(scene, then, options_.capillary, 0.0).stokes);
+  // Time and surface tension matter to the right-hand side alone.
+  stokes_->prepare(
+      instant_problem(scene, mesh_, space_, *prepared_at_, CapillaryForm::weak, 0.0).stokes);
 }
 
 void FiniteElementFlow::load(const Archive& archive, const Scene& scene) {

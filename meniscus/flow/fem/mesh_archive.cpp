@@ -19,14 +19,16 @@ const typename Map::mapped_type& array(const Map& arrays, const std::string& nam
   return found->second;
 }
 
-Reals flat(const Field<TetVertexId, Vec3>& field) {
+template <class IdType>
+Reals flat(const Field<IdType, Vec3>& field) {
   Reals values;
   for (const Vec3& x : field) values.insert(values.end(), {x[0], x[1], x[2]});
   return values;
 }
 
-Field<TetVertexId, Vec3> vectors(const Reals& values) {
-  Field<TetVertexId, Vec3> field;
+template <class IdType>
+Field<IdType, Vec3> vectors(const Reals& values) {
+  Field<IdType, Vec3> field;
   for (std::size_t i = 0; i < values.size(); i += 3)
     field.add(Vec3(values[i], values[i + 1], values[i + 2]));
   return field;
@@ -79,7 +81,7 @@ void save(const TetMesh& mesh, Archive& archive, const std::string& prefix) {
 
 TetMesh load_mesh(const Archive& archive, const std::string& prefix) {
   TetMesh mesh;
-  mesh.x = vectors(array(archive.reals, prefix + "/x", 3));
+  mesh.x = vectors<TetVertexId>(array(archive.reals, prefix + "/x", 3));
   const Integers& cells = array(archive.integers, prefix + "/cells", 4);
   const Integers& regions = array(archive.integers, prefix + "/regions", 1);
   if (cells.size() != 4 * regions.size())
@@ -97,12 +99,18 @@ TetMesh load_mesh(const Archive& archive, const std::string& prefix) {
   return mesh;
 }
 
-void save_positions(const Field<TetVertexId, Vec3>& x, Archive& archive, const std::string& name) {
-  archive.reals[name] = flat(x);
+void save_positions(const NodePositions& positions, Archive& archive, const std::string& prefix) {
+  archive.reals[prefix + "/x"] = flat(positions.x);
+  archive.integers[prefix + "/is-curved"] =
+      Integers(positions.is_curved.begin(), positions.is_curved.end());
 }
 
-Field<TetVertexId, Vec3> load_positions(const Archive& archive, const std::string& name) {
-  return vectors(array(archive.reals, name, 3));
+NodePositions load_positions(const Archive& archive, const std::string& prefix) {
+  NodePositions positions;
+  positions.x = vectors<NodeId>(array(archive.reals, prefix + "/x", 3));
+  for (const std::int64_t is_curved : array(archive.integers, prefix + "/is-curved", 1))
+    positions.is_curved.add(is_curved != 0);
+  return positions;
 }
 
 void save(const StokesState& state, Archive& archive, const std::string& prefix) {
@@ -111,7 +119,7 @@ void save(const StokesState& state, Archive& archive, const std::string& prefix)
 }
 
 StokesState load_state(const Archive& archive, const std::string& prefix) {
-  return {vectors(array(archive.reals, prefix + "/velocity", 3)),
+  return {vectors<NodeId>(array(archive.reals, prefix + "/velocity", 3)),
           array(archive.reals, prefix + "/pressure", 1)};
 }
 

@@ -12,9 +12,8 @@ void save(const TetMesh& mesh, Archive& archive, const std::string& prefix);
 /// Throws InvalidInput when arrays are missing or do not fit each other.
 [[nodiscard]] TetMesh load_mesh(const Archive& archive, const std::string& prefix);
 
-void save_positions(const Field<TetVertexId, Vec3>& x, Archive& archive, const std::string& name);
-[[nodiscard]] Field<TetVertexId, Vec3> load_positions(const Archive& archive,
-                                                      const std::string& name);
+void save_positions(const NodePositions& positions, Archive& archive, const std::string& prefix);
+[[nodiscard]] NodePositions load_positions(const Archive& archive, const std::string& prefix);
 
 void save(const StokesState& state, Archive& archive, const std::string& prefix);
 [[nodiscard]] StokesState load_state(const Archive& archive, const std::string& prefix);

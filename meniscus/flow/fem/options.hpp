@@ -7,6 +7,12 @@
 
 namespace meniscus::fem {
 
+/// The pairs of spaces: velocity, then pressure.
+enum class Elements {
+  p1_p1,  ///< linear and linear, stabilised (PSPG): the paper's
+  p2_p1,  ///< quadratic and linear (Taylor–Hood), isoparametric: curved at curved surfaces
+};
+
 /// Discrete forms of the capillary force Ca⁻¹∫κ n·φ dS (§4.2 of hooper2001).
 enum class CapillaryForm {
   weak,      ///< ∫(I − nn):∇φ dS, eq. 15
@@ -18,6 +24,7 @@ enum class CapillaryForm {
 enum class LinearSolver { block, paper_gmres, minres, mumps };
 
 struct Options {
+  Elements elements = Elements::p1_p1;
   CapillaryForm capillary = CapillaryForm::weak;
   LinearSolver linear = LinearSolver::block;
   double rtol = 1e-6;  ///< relative residual of the linear solve

@@ -36,13 +36,73 @@ RegionsAtVertices regions_at_vertices(const TetMesh& mesh) {
   return result;
 }
 
+/// Numbers the edges of a mesh in the order in which the cells meet them, and appends the middle of
+/// each to the cells' nodes.
+void add_edge_nodes(const TetMesh& mesh, FlowSpace& space) {
+  // Per lower end, the edges that begin there: a dozen at most.
+  std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> from(
+      static_cast<std::size_t>(mesh.num_vertices()));
+  const auto node_between = [&](TetVertexId a, TetVertexId b) {
+    if (b < a) std::swap(a, b);
+    auto& known = from[static_cast<std::size_t>(a.value)];
+    const auto found =
+        std::ranges::find(known, b.value, &std::pair<std::int32_t, std::int32_t>::first);
+    if (found != known.end()) return found->second;
+    const std::int32_t node = mesh.num_vertices() + static_cast<std::int32_t>(space.edges.size());
+    space.edges.push_back({a, b});
+    known.emplace_back(b.value, node);
+    return node;
+  };
+  for (const CellVertices& cell : mesh.cells) {
+    for (const TetVertexId v : cell) space.velocity.cell_nodes.push_back(v.value);
+    for (const auto& [a, b] : kCellEdges)
+      space.velocity.cell_nodes.push_back(node_between(cell[a], cell[b]));
+  }
+  space.velocity.num_nodes += static_cast<std::int32_t>(space.edges.size());
+}
+
 }  // namespace
 
-NodeTable velocity_nodes(const TetMesh& mesh) {
-  NodeTable table{mesh.num_vertices(), 4, {}};
-  table.cell_nodes.reserve(static_cast<std::size_t>(mesh.num_cells()) * 4);
-  for (const CellVertices& cell : mesh.cells)
-    for (const TetVertexId v : cell) table.cell_nodes.push_back(v.value);
+std::size_t edge_node(std::size_t a, std::size_t b) {
+  const std::array<std::size_t, 2> ends = {std::min(a, b), std::max(a, b)};
+  return 4 + static_cast<std::size_t>(std::ranges::find(kCellEdges, ends) - kCellEdges.begin());
+}
+
+FlowSpace flow_space(const TetMesh& mesh, Elements elements) {
+  FlowSpace space;
+  space.elements = elements;
+  space.pressure = pressure_space(mesh);
+  const bool is_quadratic = elements == Elements::p2_p1;
+  space.velocity = {mesh.num_vertices(), is_quadratic ? 10 : 4, {}};
+  space.velocity.cell_nodes.reserve(
+      static_cast<std::size_t>(mesh.num_cells() * space.velocity.nodes_per_cell));
+  if (is_quadratic) {
+    add_edge_nodes(mesh, space);
+  } else {
+    for (const CellVertices& cell : mesh.cells)
+      for (const TetVertexId v : cell) space.velocity.cell_nodes.push_back(v.value);
+  }
+  return space;
+}
+
+FaceNodeTable face_nodes(const FlowSpace& space, const TetMesh& mesh, const SurfaceMesh& surface,
+                         const EmbeddedSurface& embedded) {
+  const bool is_quadratic = space.elements == Elements::p2_p1;
+  FaceNodeTable table{is_quadratic ? 6 : 3, {}};
+  table.face_nodes.reserve(static_cast<std::size_t>(surface.num_faces() * table.nodes_per_face));
+  for (const FaceId f : surface.faces.ids()) {
+    const CellId c = embedded.sides[f].inside;
+    std::array<std::size_t, 3> local{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const TetVertexId v = embedded.vertex(surface.faces[f][k]);
+      local[k] = static_cast<std::size_t>(std::ranges::find(mesh.cells[c], v) -
+                                          mesh.cells[c].begin());
+      table.face_nodes.push_back(node_at(v));
+    }
+    for (std::size_t k = 0; is_quadratic && k < 3; ++k)
+      table.face_nodes.push_back(
+          NodeId{space.velocity.of(c)[edge_node(local[k], local[(k + 1) % 3])]});
+  }
   return table;
 }
 

@@ -2,46 +2,12 @@
 
 #include <algorithm>
 
-#include "meniscus/flow/fem/linear_tetrahedron.hpp"
+#include "meniscus/flow/fem/cell_matrices.hpp"
 
 namespace meniscus::fem {
-
-/// The closed-form element matrices of one P1 tetrahedron.
-struct CellMatrices {
-  std::array<std::array<double, 4>, 4> laplacian;  ///< μV g_i·g_j
-  std::array<Vec3, 4> divergence;                  ///< −∫ψ_i ∂φ_j: −V/4 g_j for every i
-  std::array<Vec3, 4> gradient;
-  double viscous = 0.0;        ///< μV
-  double stabilisation = 0.0;  ///< τ/μ: C_ij over the Laplacian's entry
-  double pressure_mass = 0.0;  ///< V/(4μ)
-
-  /// ∫2μ D(φ_j e_b):D(φ_i e_a) = μV (g_i·g_j δ_ab + g_j,a g_i,b) at (a, b).
-  [[nodiscard]] Mat3 viscous_block(std::size_t i, std::size_t j) const {
-    Mat3 block = viscous * gradient[j] * gradient[i].transpose();
-    block.diagonal().array() += laplacian[i][j];
-    return block;
-  }
-};
-
 namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-CellMatrices cell_matrices(const StokesProblem& problem, CellId c) {
-  const LinearTetrahedron tet = linear_tetrahedron(problem.mesh, c);
-  const double viscosity = problem.viscosity[c];
-  CellMatrices matrices;
-  matrices.gradient = tet.gradient;
-  matrices.viscous = viscosity * tet.volume;
-  matrices.stabilisation = pspg_parameter(tet.volume, viscosity) / viscosity;
-  matrices.pressure_mass = 0.25 * tet.volume / viscosity;
-  for (std::size_t i = 0; i < 4; ++i) {
-    matrices.divergence[i] = -0.25 * tet.volume * tet.gradient[i];
-    for (std::size_t j = 0; j < 4; ++j)
-      matrices.laplacian[i][j] = matrices.viscous * tet.gradient[i].dot(tet.gradient[j]);
-  }
-  return matrices;
-}
 
 /// Adds a 3 × 3 block at entry k of the graph, which lies in row i (see ScalarPattern).
 void add_block(std::vector<double>& values, const NodeGraph& graph, std::int32_t i, std::int32_t k,
@@ -66,27 +32,50 @@ void eliminate(Mat3& block, const NodeConstraint* row, const NodeConstraint* col
     }
 }
 
-std::array<const NodeConstraint*, 4> cell_constraints(const StokesProblem& problem, CellId c) {
-  std::array<const NodeConstraint*, 4> found{};
-  for (std::size_t i = 0; i < 4; ++i) found[i] = problem.constraints.find(problem.mesh.cells[c][i]);
-  return found;
+/// The part of a row of B that multiplies the free components of one node.
+Vec3 free_divergence(const Vec3& divergence, const NodeConstraint* column) {
+  if (column == nullptr) return divergence;
+  Vec3 local = column->frame.transpose() * divergence;
+  for (std::size_t b = 0; b < 3; ++b)
+    if (column->is_fixed[b]) local[static_cast<Eigen::Index>(b)] = 0.0;
+  return local;
+}
+
+/// Linear functions as quadratic ones: a vertex keeps its value, the middle of an edge has the mean
+/// of its ends. Fixed nodes are zero, but that fixed vertices keep their own equation.
+linear::CsrMatrix interpolation_from_linear(const FlowSpace& space,
+                                            const std::vector<bool>& is_fixed) {
+  linear::CsrMatrix matrix;
+  matrix.num_columns = space.num_vertices();
+  matrix.row_start.push_back(0);
+  const auto end_row = [&] {
+    matrix.row_start.push_back(static_cast<std::int32_t>(matrix.columns.size()));
+  };
+  for (std::int32_t v = 0; v < space.num_vertices(); ++v) {
+    matrix.columns.push_back(v);
+    matrix.values.push_back(1.0);
+    end_row();
+  }
+  for (std::size_t e = 0; e < space.edges.size(); ++e) {
+    for (const TetVertexId end : space.edges[e]) {  // in rising order
+      if (is_fixed[at(space.num_vertices()) + e] || is_fixed[at(end.value)]) continue;
+      matrix.columns.push_back(end.value);
+      matrix.values.push_back(0.5);
+    }
+    end_row();
+  }
+  return matrix;
 }
 
 }  // namespace
 
-StokesJacobian::StokesJacobian(const TetMesh& mesh, const PressureSpace& pressure)
-    : pressure_(pressure) {
-  const NodeTable velocity = velocity_nodes(mesh);
-  velocity_graph_ = node_graph(velocity, velocity);
-  pressure_graph_ = node_graph(pressure.nodes, pressure.nodes);
-  A_pattern_ = expanded(velocity_graph_, 3, 3);
-  // A pressure node meets the same neighbours among velocities as among pressures, and in the same
-  // order, as nodes are numbered by vertex: B has the graph of C.
-  NodeGraph coupling = pressure_graph_;
-  coupling.num_columns = velocity.num_nodes;
-  for (std::int32_t& column : coupling.columns) column = pressure.vertex[at(column)].value;
-  B_pattern_ = expanded(coupling, 1, 3);
-}
+StokesJacobian::StokesJacobian(const FlowSpace& space)
+    : space_(space),
+      velocity_graph_(node_graph(space.velocity, space.velocity)),
+      coupling_graph_(node_graph(space.pressure.nodes, space.velocity)),
+      pressure_graph_(node_graph(space.pressure.nodes, space.pressure.nodes)),
+      A_pattern_(expanded(velocity_graph_, 3, 3)),
+      B_pattern_(expanded(coupling_graph_, 1, 3)) {}
 
 void StokesJacobian::choose_laplacians(const Constraints& constraints) {
   laplacians_.clear();
@@ -94,81 +83,93 @@ void StokesJacobian::choose_laplacians(const Constraints& constraints) {
   for (std::size_t k = 0; k < 3; ++k) {
     std::vector<bool> is_fixed(num_nodes, false);
     for (const NodeConstraint& constraint : constraints.all())
-      is_fixed[at(constraint.vertex.value)] = constraint.is_fixed[k];
+      is_fixed[at(constraint.node.value)] = constraint.is_fixed[k];
     const auto same = std::ranges::find(laplacians_, is_fixed, &Laplacian::is_fixed);
     laplacian_of_[k] = static_cast<int>(same - laplacians_.begin());
-    if (same == laplacians_.end())
-      laplacians_.push_back(
-          {std::move(is_fixed), std::vector<double>(velocity_graph_.num_entries(), 0.0)});
+    if (same != laplacians_.end()) continue;
+    linear::CsrMatrix from_linear;
+    if (!space_.edges.empty()) from_linear = interpolation_from_linear(space_, is_fixed);
+    laplacians_.push_back({std::move(is_fixed),
+                           std::vector<double>(velocity_graph_.num_entries(), 0.0),
+                           std::move(from_linear)});
   }
 }
 
 void StokesJacobian::assemble(const StokesProblem& problem) {
   choose_laplacians(problem.constraints);
   A_.assign(9 * velocity_graph_.num_entries(), 0.0);
-  B_.assign(3 * pressure_graph_.num_entries(), 0.0);
+  B_.assign(3 * coupling_graph_.num_entries(), 0.0);
   C_.assign(pressure_graph_.num_entries(), 0.0);
   pressure_mass_.assign(at(pressure_graph_.num_rows()), 0.0);
   constant_pressure_is_null_ = !problem.has_open_boundary;
+  with_element(space_, problem.positions, [&](auto& element) { add_cells(problem, element); });
+}
+
+template <class Element>
+void StokesJacobian::add_cells(const StokesProblem& problem, Element& element) {
   for (const CellId c : problem.mesh.cells.ids()) {
-    const auto constraints = cell_constraints(problem, c);
-    if (std::ranges::all_of(constraints, [](auto* constraint) { return constraint == nullptr; }))
-      add_free_cell(problem, c);
+    const CellMatrices<Element> matrices(problem, element.points(c), c);
+    const bool is_free = std::ranges::all_of(space_.velocity.of(c), [&](std::int32_t i) {
+      return problem.constraints.find(NodeId{i}) == nullptr;
+    });
+    if (is_free)
+      add_free_cell(matrices, c);
     else
-      add_constrained_cell(problem, c);
+      add_constrained_cell(problem, matrices, c);
+    add_pressure_blocks(matrices, c);
   }
 }
 
-void StokesJacobian::add_free_cell(const StokesProblem& problem, CellId c) {
-  const CellMatrices matrices = cell_matrices(problem, c);
-  const CellVertices& vertices = problem.mesh.cells[c];
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = 0; j < 4; ++j) {
-      const std::size_t pair = 16 * at(c.value) + 4 * i + j;
-      const std::int32_t k = velocity_graph_.position[pair];
-      add_block(A_, velocity_graph_, vertices[i].value, k, matrices.viscous_block(i, j));
-      for (Laplacian& laplacian : laplacians_) laplacian.values[at(k)] += matrices.laplacian[i][j];
-      double* B = B_.data() + 3 * at(pressure_graph_.position[pair]);
-      for (Eigen::Index b = 0; b < 3; ++b) B[b] += matrices.divergence[j][b];
+template <class Matrices>
+void StokesJacobian::add_free_cell(const Matrices& matrices, CellId c) {
+  constexpr std::size_t n = Matrices::num_nodes;
+  const auto nodes = space_.velocity.of(c);
+  const std::size_t first = n * n * at(c.value), first_coupling = 4 * n * at(c.value);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      const std::int32_t k = velocity_graph_.position[first + n * i + j];
+      add_block(A_, velocity_graph_, nodes[i], k, matrices.viscous_block(i, j));
+      for (Laplacian& laplacian : laplacians_) laplacian.values[at(k)] += matrices.laplacian(i, j);
     }
-  add_pressure_blocks(matrices, c);
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t j = 0; j < n; ++j)
+      Eigen::Map<Vec3>(B_.data() + 3 * at(coupling_graph_.position[first_coupling + n * k + j])) +=
+          matrices.divergence_of(k, j);
 }
 
-void StokesJacobian::add_constrained_cell(const StokesProblem& problem, CellId c) {
-  const CellMatrices matrices = cell_matrices(problem, c);
-  const CellVertices& vertices = problem.mesh.cells[c];
-  const auto constraints = cell_constraints(problem, c);
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = 0; j < 4; ++j) {
-      const std::size_t pair = 16 * at(c.value) + 4 * i + j;
-      const std::int32_t k = velocity_graph_.position[pair];
+template <class Matrices>
+void StokesJacobian::add_constrained_cell(const StokesProblem& problem, const Matrices& matrices,
+                                          CellId c) {
+  constexpr std::size_t n = Matrices::num_nodes;
+  const auto nodes = space_.velocity.of(c);
+  const std::size_t first = n * n * at(c.value), first_coupling = 4 * n * at(c.value);
+  std::array<const NodeConstraint*, n> constraints{};
+  for (std::size_t i = 0; i < n; ++i) constraints[i] = problem.constraints.find(NodeId{nodes[i]});
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      const std::int32_t k = velocity_graph_.position[first + n * i + j];
       Mat3 block = matrices.viscous_block(i, j);
       eliminate(block, constraints[i], constraints[j], i == j);
-      add_block(A_, velocity_graph_, vertices[i].value, k, block);
+      add_block(A_, velocity_graph_, nodes[i], k, block);
       for (Laplacian& laplacian : laplacians_) {
-        const bool is_fixed =
-            laplacian.is_fixed[at(vertices[i].value)] || laplacian.is_fixed[at(vertices[j].value)];
-        if (!is_fixed || i == j) laplacian.values[at(k)] += matrices.laplacian[i][j];
+        const bool is_fixed = laplacian.is_fixed[at(nodes[i])] || laplacian.is_fixed[at(nodes[j])];
+        if (!is_fixed || i == j) laplacian.values[at(k)] += matrices.laplacian(i, j);
       }
-      Vec3 divergence = matrices.divergence[j];
-      if (const NodeConstraint* column = constraints[j]; column != nullptr) {
-        divergence = column->frame.transpose() * divergence;
-        for (std::size_t b = 0; b < 3; ++b)
-          if (column->is_fixed[b]) divergence[static_cast<Eigen::Index>(b)] = 0.0;
-      }
-      double* B = B_.data() + 3 * at(pressure_graph_.position[pair]);
-      for (Eigen::Index b = 0; b < 3; ++b) B[b] += divergence[b];
     }
-  add_pressure_blocks(matrices, c);
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t j = 0; j < n; ++j)
+      Eigen::Map<Vec3>(B_.data() + 3 * at(coupling_graph_.position[first_coupling + n * k + j])) +=
+          free_divergence(matrices.divergence_of(k, j), constraints[j]);
 }
 
-void StokesJacobian::add_pressure_blocks(const CellMatrices& matrices, CellId c) {
-  const auto nodes = pressure_.nodes.of(c);
+template <class Matrices>
+void StokesJacobian::add_pressure_blocks(const Matrices& matrices, CellId c) {
+  const auto nodes = space_.pressure.nodes.of(c);
   for (std::size_t i = 0; i < 4; ++i) {
-    pressure_mass_[at(nodes[i])] += matrices.pressure_mass;
+    pressure_mass_[at(nodes[i])] += matrices.pressure_mass[i];
     for (std::size_t j = 0; j < 4; ++j)
       C_[at(pressure_graph_.position[16 * at(c.value) + 4 * i + j])] +=
-          matrices.stabilisation * matrices.laplacian[i][j];
+          matrices.stabilisation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
 }
 
@@ -179,10 +180,12 @@ linear::SaddleSystem StokesJacobian::system() const {
   system.A = {num_velocities, num_velocities, A_pattern_.row_start, A_pattern_.columns, A_};
   system.B = {num_pressures, num_velocities, B_pattern_.row_start, B_pattern_.columns, B_};
   system.C = {num_pressures, num_pressures, pressure_graph_.row_start, pressure_graph_.columns, C_};
-  for (const Laplacian& laplacian : laplacians_)
+  for (const Laplacian& laplacian : laplacians_) {
     system.laplacians.push_back({velocity_graph_.num_rows(), velocity_graph_.num_rows(),
                                  velocity_graph_.row_start, velocity_graph_.columns,
                                  laplacian.values});
+    if (!space_.edges.empty()) system.interpolations.push_back(laplacian.from_linear.view());
+  }
   system.laplacian_of = laplacian_of_;
   system.pressure_mass = pressure_mass_;
   system.constant_pressure_is_null = constant_pressure_is_null_;

@@ -10,10 +10,10 @@
 namespace meniscus::fem {
 
 /// The Jacobian of R(u) as a saddle system, assembled in place on a sparsity that is made once per
-/// mesh topology. At constrained vertices the unknowns are in the constraint's frame.
+/// mesh topology. At constrained nodes the unknowns are in the constraint's frame.
 class StokesJacobian {
  public:
-  StokesJacobian(const TetMesh& mesh, const PressureSpace& pressure);
+  explicit StokesJacobian(const FlowSpace& space);
 
   /// Fills the matrices for the geometry, viscosities and constraints of the problem. Linear cost.
   void assemble(const StokesProblem& problem);
@@ -22,18 +22,25 @@ class StokesJacobian {
 
  private:
   void choose_laplacians(const Constraints& constraints);
-  void add_free_cell(const StokesProblem& problem, CellId c);
-  void add_constrained_cell(const StokesProblem& problem, CellId c);
-  void add_pressure_blocks(const struct CellMatrices& matrices, CellId c);
+  template <class Element>
+  void add_cells(const StokesProblem& problem, Element& element);
+  template <class Matrices>
+  void add_free_cell(const Matrices& matrices, CellId c);
+  template <class Matrices>
+  void add_constrained_cell(const StokesProblem& problem, const Matrices& matrices, CellId c);
+  template <class Matrices>
+  void add_pressure_blocks(const Matrices& matrices, CellId c);
 
-  /// A scalar Laplacian with the vertices eliminated where a velocity component is fixed.
+  /// A scalar Laplacian with the nodes eliminated where a velocity component is fixed, and (P2) the
+  /// interpolation to it from linear functions that vanish there.
   struct Laplacian {
     std::vector<bool> is_fixed;
     std::vector<double> values;
+    linear::CsrMatrix from_linear;
   };
 
-  PressureSpace pressure_;
-  NodeGraph velocity_graph_, pressure_graph_;
+  const FlowSpace& space_;
+  NodeGraph velocity_graph_, coupling_graph_, pressure_graph_;
   ScalarPattern A_pattern_, B_pattern_;
   std::vector<double> A_, B_, C_, pressure_mass_;
   std::vector<Laplacian> laplacians_;

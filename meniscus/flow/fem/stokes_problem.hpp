@@ -3,34 +3,43 @@
 #include <vector>
 
 #include "meniscus/flow/fem/constraints.hpp"
-#include "meniscus/mesh/tet_mesh.hpp"
+#include "meniscus/flow/fem/node_positions.hpp"
 
 namespace meniscus::fem {
 
 /// One instant of two-phase Stokes flow, ready to discretise:
 ///   ∫(−p∇·φ + 2μ D(v):D(φ)) − ∫f·φ − load(φ) = 0   for every φ that vanishes where v is fixed,
 ///   −∫ψ∇·v − Σ_K τ∫∇ψ·(∇p − f) = 0                 for every ψ
-/// (eqs 10, 11 of hooper2001 with 2μ D:D and a consistent stabilisation).
+/// (eqs 10, 11 of hooper2001 with 2μ D:D and a consistent stabilisation; τ = 0 for P2).
 struct StokesProblem {
-  explicit StokesProblem(const TetMesh& on)
+  StokesProblem(const TetMesh& on, const FlowSpace& in, NodePositions at)
       : mesh(on),
+        space(in),
+        positions(std::move(at)),
         viscosity(on.num_cells(), 1.0),
         body_force(on.num_cells(), Vec3::Zero()),
-        load(on.num_vertices(), Vec3::Zero()),
-        constraints(on.num_vertices()) {}
+        load(in.velocity.num_nodes, Vec3::Zero()),
+        constraints(in.velocity.num_nodes) {}
 
   const TetMesh& mesh;
-  CellField<double> viscosity;    ///< [μ_out]
-  CellField<Vec3> body_force;     ///< f [μ_out G / R0]
-  Field<TetVertexId, Vec3> load;  ///< further forces on the fluid, by vertex [μ_out G R0²]
+  const FlowSpace& space;
+  NodePositions positions;
+  CellField<double> viscosity;  ///< [μ_out]
+  CellField<Vec3> body_force;   ///< f [μ_out G / R0]
+  Field<NodeId, Vec3> load;     ///< further forces on the fluid, by node [μ_out G R0²]
   Constraints constraints;
   bool has_open_boundary = false;  ///< otherwise the pressure is known up to a constant
 };
 
-/// v at the vertices, p at the nodes of the pressure space.
+/// v at the nodes of the velocity, p at those of the pressure.
 struct StokesState {
-  Field<TetVertexId, Vec3> v;  ///< [G R0]
-  std::vector<double> p;       ///< [μ_out G]
+  Field<NodeId, Vec3> v;  ///< [G R0]
+  std::vector<double> p;  ///< [μ_out G]
 };
+
+[[nodiscard]] inline StokesState state_at_rest(const FlowSpace& space) {
+  return {Field<NodeId, Vec3>(space.velocity.num_nodes, Vec3::Zero()),
+          std::vector<double>(space.pressure.vertex.size(), 0.0)};
+}
 
 }  // namespace meniscus::fem

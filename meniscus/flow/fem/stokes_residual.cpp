@@ -2,68 +2,108 @@
 
 #include <cmath>
 
-#include "meniscus/flow/fem/linear_tetrahedron.hpp"
+#include "meniscus/flow/fem/elements.hpp"
 
 namespace meniscus::fem {
 namespace {
 
-/// What is constant on one linear tetrahedron.
-struct CellFields {
-  LinearTetrahedron tet;
-  Mat3 velocity_gradient = Mat3::Zero();  ///< ∂v_a/∂x_b at (a, b)
-  Vec3 velocity_sum = Vec3::Zero();       ///< of the four vertices
-  Vec3 pressure_gradient = Vec3::Zero();
-  double mean_pressure = 0.0;
+/// The unknowns of one cell, and the fields they make at a point.
+template <class Element>
+struct CellState {
+  Eigen::Matrix<double, 3, Element::num_nodes> v;
+  Eigen::Vector4d p;
+
+  CellState(const FlowSpace& space, const StokesState& state, CellId c) {
+    const auto nodes = space.velocity.of(c);
+    for (std::size_t i = 0; i < Element::num_nodes; ++i)
+      v.col(static_cast<Eigen::Index>(i)) = state.v[NodeId{nodes[i]}];
+    const auto pressures = space.pressure.nodes.of(c);
+    for (std::size_t k = 0; k < 4; ++k)
+      p[static_cast<Eigen::Index>(k)] = state.p[static_cast<std::size_t>(pressures[k])];
+  }
+  /// ∂v_a/∂x_b at (a, b).
+  [[nodiscard]] Mat3 velocity_gradient(const typename Element::Point& point) const {
+    return v * point.gradient.transpose();
+  }
+  [[nodiscard]] Vec3 velocity(const typename Element::Point& point) const {
+    return v * Eigen::Map<const Eigen::Matrix<double, Element::num_nodes, 1>>(point.value.data());
+  }
+  [[nodiscard]] double pressure(const typename Element::Point& point) const {
+    return p.dot(Eigen::Map<const Eigen::Vector4d>(point.pressure.data()));
+  }
 };
 
-CellFields cell_fields(const StokesProblem& problem, const PressureSpace& pressure,
-                       const StokesState& state, CellId c) {
-  CellFields fields{.tet = linear_tetrahedron(problem.mesh, c)};
-  const CellVertices& vertices = problem.mesh.cells[c];
-  const auto nodes = pressure.nodes.of(c);
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Vec3& v = state.v[vertices[i]];
-    const double p = state.p[static_cast<std::size_t>(nodes[i])];
-    fields.velocity_gradient += v * fields.tet.gradient[i].transpose();
-    fields.velocity_sum += v;
-    fields.pressure_gradient += p * fields.tet.gradient[i];
-    fields.mean_pressure += 0.25 * p;
+/// τ(∇p − f) where there is a stabilisation, which is on cells with one point.
+template <class Element>
+Vec3 stabilisation(const StokesProblem& problem, const CellState<Element>& cell,
+                   const typename Element::Point& point, CellId c) {
+  if constexpr (Element::is_stabilized)
+    return pspg_parameter(point.weight, problem.viscosity[c]) *
+           (point.gradient * cell.p - problem.body_force[c]);
+  else
+    return Vec3::Zero();
+}
+
+template <class Element>
+void add_residual(const StokesProblem& problem, const StokesState& state, Element& element,
+                  StokesResidual& result) {
+  for (const CellId c : problem.mesh.cells.ids()) {
+    const CellState<Element> cell(problem.space, state, c);
+    const double viscosity = problem.viscosity[c];
+    const auto nodes = problem.space.velocity.of(c);
+    const auto pressures = problem.space.pressure.nodes.of(c);
+    for (const auto& point : element.points(c)) {
+      const Mat3 gradient = cell.velocity_gradient(point);
+      const Mat3 stress =
+          viscosity * (gradient + gradient.transpose()) - cell.pressure(point) * Mat3::Identity();
+      for (std::size_t i = 0; i < Element::num_nodes; ++i)
+        result.momentum[NodeId{nodes[i]}] +=
+            point.weight * (stress * point.gradient.col(static_cast<Eigen::Index>(i)) -
+                            point.value[i] * problem.body_force[c]);
+      const Vec3 slip = stabilisation(problem, cell, point, c);
+      for (std::size_t k = 0; k < 4; ++k) {
+        double& continuity = result.continuity[static_cast<std::size_t>(pressures[k])];
+        continuity -= point.weight * point.pressure[k] * gradient.trace();
+        if constexpr (Element::is_stabilized)
+          continuity -= point.weight * slip.dot(point.gradient.col(static_cast<Eigen::Index>(k)));
+      }
+    }
   }
-  return fields;
+}
+
+template <class Element>
+void add_cell_power(const StokesProblem& problem, const StokesState& state, Element& element,
+                    StokesPower& power) {
+  for (const CellId c : problem.mesh.cells.ids()) {
+    const CellState<Element> cell(problem.space, state, c);
+    for (const auto& point : element.points(c)) {
+      const Mat3 gradient = cell.velocity_gradient(point);
+      const Mat3 rate = 0.5 * (gradient + gradient.transpose());
+      power.dissipation += point.weight * 2.0 * problem.viscosity[c] * rate.squaredNorm();
+      if constexpr (Element::is_stabilized)
+        power.dissipation +=
+            point.weight * (point.gradient * cell.p).dot(stabilisation(problem, cell, point, c));
+      power.body_force += point.weight * problem.body_force[c].dot(cell.velocity(point));
+    }
+  }
 }
 
 }  // namespace
 
-StokesResidual residual(const StokesProblem& problem, const PressureSpace& pressure,
-                        const StokesState& state) {
-  StokesResidual result{Field<TetVertexId, Vec3>(problem.mesh.num_vertices(), Vec3::Zero()),
+StokesResidual residual(const StokesProblem& problem, const StokesState& state) {
+  StokesResidual result{Field<NodeId, Vec3>(problem.load.size(), Vec3::Zero()),
                         std::vector<double>(state.p.size(), 0.0)};
-  for (const CellId c : problem.mesh.cells.ids()) {
-    const CellFields fields = cell_fields(problem, pressure, state, c);
-    const double volume = fields.tet.volume, viscosity = problem.viscosity[c];
-    const Vec3& f = problem.body_force[c];
-    const Mat3& gradient = fields.velocity_gradient;
-    const Mat3 stress =
-        viscosity * (gradient + gradient.transpose()) - fields.mean_pressure * Mat3::Identity();
-    const Vec3 stabilisation =
-        pspg_parameter(volume, viscosity) * volume * (fields.pressure_gradient - f);
-    const double divergence = 0.25 * volume * gradient.trace();
-    const auto nodes = pressure.nodes.of(c);
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Vec3& g = fields.tet.gradient[i];
-      result.momentum[problem.mesh.cells[c][i]] += volume * (stress * g) - 0.25 * volume * f;
-      result.continuity[static_cast<std::size_t>(nodes[i])] -= divergence + stabilisation.dot(g);
-    }
-  }
-  for (const TetVertexId v : problem.load.ids()) result.momentum[v] -= problem.load[v];
+  with_element(problem.space, problem.positions,
+               [&](auto& element) { add_residual(problem, state, element, result); });
+  for (const NodeId i : problem.load.ids()) result.momentum[i] -= problem.load[i];
   return result;
 }
 
 double free_norm(const StokesResidual& residual, const Constraints& constraints) {
   double squared = 0.0;
-  for (const TetVertexId v : residual.momentum.ids()) {
-    const Vec3& r = residual.momentum[v];
-    const NodeConstraint* constraint = constraints.find(v);
+  for (const NodeId i : residual.momentum.ids()) {
+    const Vec3& r = residual.momentum[i];
+    const NodeConstraint* constraint = constraints.find(i);
     squared +=
         constraint == nullptr ? r.squaredNorm() : (r - constraint->fixed_part(r)).squaredNorm();
   }
@@ -71,24 +111,15 @@ double free_norm(const StokesResidual& residual, const Constraints& constraints)
   return std::sqrt(squared);
 }
 
-StokesPower power(const StokesProblem& problem, const PressureSpace& pressure,
-                  const StokesState& state) {
+StokesPower power(const StokesProblem& problem, const StokesState& state) {
   StokesPower power;
-  for (const CellId c : problem.mesh.cells.ids()) {
-    const CellFields fields = cell_fields(problem, pressure, state, c);
-    const double volume = fields.tet.volume, viscosity = problem.viscosity[c];
-    const Vec3& f = problem.body_force[c];
-    const Mat3 rate = 0.5 * (fields.velocity_gradient + fields.velocity_gradient.transpose());
-    power.dissipation += volume * (2.0 * viscosity * rate.squaredNorm() +
-                                   pspg_parameter(volume, viscosity) *
-                                       fields.pressure_gradient.dot(fields.pressure_gradient - f));
-    power.body_force += 0.25 * volume * f.dot(fields.velocity_sum);
-  }
-  for (const TetVertexId v : problem.load.ids()) power.load += problem.load[v].dot(state.v[v]);
-  const StokesResidual reaction = residual(problem, pressure, state);
+  with_element(problem.space, problem.positions,
+               [&](auto& element) { add_cell_power(problem, state, element, power); });
+  for (const NodeId i : problem.load.ids()) power.load += problem.load[i].dot(state.v[i]);
+  const StokesResidual reaction = residual(problem, state);
   for (const NodeConstraint& constraint : problem.constraints.all())
     power.reaction +=
-        constraint.fixed_part(reaction.momentum[constraint.vertex]).dot(state.v[constraint.vertex]);
+        constraint.fixed_part(reaction.momentum[constraint.node]).dot(state.v[constraint.node]);
   return power;
 }
 

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "meniscus/flow/fem/spaces.hpp"
 #include "meniscus/flow/fem/stokes_problem.hpp"
 
 namespace meniscus::fem {
@@ -10,11 +9,10 @@ namespace meniscus::fem {
 /// R(u) of eqs 10 and 11, by cells, before any condition is imposed: where v is fixed, `momentum`
 /// is the force that the boundary exerts on the fluid.
 struct StokesResidual {
-  Field<TetVertexId, Vec3> momentum;  ///< [μ_out G R0²]
-  std::vector<double> continuity;     ///< [G R0³]
+  Field<NodeId, Vec3> momentum;    ///< [μ_out G R0²]
+  std::vector<double> continuity;  ///< [G R0³]
 };
-[[nodiscard]] StokesResidual residual(const StokesProblem& problem, const PressureSpace& pressure,
-                                      const StokesState& state);
+[[nodiscard]] StokesResidual residual(const StokesProblem& problem, const StokesState& state);
 /// Euclidean norm of what a solution must make zero: the residual without its fixed components.
 [[nodiscard]] double free_norm(const StokesResidual& residual, const Constraints& constraints);
 
@@ -26,7 +24,6 @@ struct StokesPower {
   double load = 0.0;         ///< Σ load_i·v_i
   double dissipation = 0.0;  ///< ∫2μ D:D + Σ τ∫∇p·(∇p − f)
 };
-[[nodiscard]] StokesPower power(const StokesProblem& problem, const PressureSpace& pressure,
-                                const StokesState& state);
+[[nodiscard]] StokesPower power(const StokesProblem& problem, const StokesState& state);
 
 }  // namespace meniscus::fem

@@ -8,8 +8,8 @@
 namespace meniscus::fem {
 namespace {
 
-// A direct solve of more vertices needs over a gigabyte (4.1 GB at 47 000 vertices).
-constexpr std::int32_t most_vertices_for_mumps = 20000;
+// A direct solve of more nodes needs over a gigabyte (4.1 GB at 47 000 nodes).
+constexpr std::int32_t most_nodes_for_mumps = 20000;
 // One for Stokes flow; more where MINRES's norm or a direct solve's roundoff leaves something.
 constexpr int most_newton_steps = 6;
 
@@ -27,13 +27,17 @@ linear::SaddleMethod method(LinearSolver which) {
   return linear::SaddleMethod::mumps;
 }
 
-/// The chosen solver, then the others.
-std::vector<LinearSolver> solvers_in_order(LinearSolver first, std::int32_t num_vertices) {
+/// The chosen solver, then the others that the elements and their number allow: quadratic ones have
+/// no stabilisation on the diagonal, by which the paper's solver scales.
+std::vector<LinearSolver> solvers_in_order(LinearSolver first, const FlowSpace& space) {
+  const auto is_allowed = [&](LinearSolver next) {
+    if (next == LinearSolver::mumps) return space.velocity.num_nodes < most_nodes_for_mumps;
+    return next != LinearSolver::paper_gmres || space.elements == Elements::p1_p1;
+  };
   std::vector<LinearSolver> order = {first};
   for (const LinearSolver next :
        {LinearSolver::block, LinearSolver::minres, LinearSolver::paper_gmres, LinearSolver::mumps})
-    if (next != first && (next != LinearSolver::mumps || num_vertices < most_vertices_for_mumps))
-      order.push_back(next);
+    if (next != first && is_allowed(next)) order.push_back(next);
   return order;
 }
 
@@ -46,9 +50,9 @@ std::vector<double> right_hand_side(const StokesResidual& residual,
   for (const Vec3& r : residual.momentum) values.insert(values.end(), {-r[0], -r[1], -r[2]});
   for (const double r : residual.continuity) values.push_back(-r);
   for (const NodeConstraint& constraint : constraints.all()) {
-    const Vec3 local = constraint.frame.transpose() * residual.momentum[constraint.vertex];
+    const Vec3 local = constraint.frame.transpose() * residual.momentum[constraint.node];
     for (std::size_t k = 0; k < 3; ++k)
-      values[3 * static_cast<std::size_t>(constraint.vertex.value) + k] =
+      values[3 * static_cast<std::size_t>(constraint.node.value) + k] =
           constraint.is_fixed[k] ? 0.0 : -local[static_cast<Eigen::Index>(k)];
   }
   return values;
@@ -56,33 +60,33 @@ std::vector<double> right_hand_side(const StokesResidual& residual,
 
 /// u + δ, δ being in the frames of the unknowns.
 void add_step(StokesState& state, const Constraints& constraints, std::span<const double> step) {
-  const auto step_at = [&](TetVertexId v) {
-    const std::size_t i = 3 * static_cast<std::size_t>(v.value);
-    return Vec3(step[i], step[i + 1], step[i + 2]);
+  const auto step_at = [&](NodeId i) {
+    const std::size_t k = 3 * static_cast<std::size_t>(i.value);
+    return Vec3(step[k], step[k + 1], step[k + 2]);
   };
-  for (const TetVertexId v : state.v.ids()) {
-    const NodeConstraint* constraint = constraints.find(v);
-    if (constraint == nullptr) state.v[v] += step_at(v);
+  for (const NodeId i : state.v.ids()) {
+    const NodeConstraint* constraint = constraints.find(i);
+    if (constraint == nullptr) state.v[i] += step_at(i);
     if (constraint == nullptr) continue;
-    const Vec3 moved = constraint->frame * step_at(v);
-    state.v[v] += moved - constraint->fixed_part(moved);
+    const Vec3 moved = constraint->frame * step_at(i);
+    state.v[i] += moved - constraint->fixed_part(moved);
   }
   const std::size_t first = 3 * static_cast<std::size_t>(state.v.size());
   for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] += step[first + i];
 }
 
 /// The residual that the data alone cause: fixed velocities given, all else at rest.
-double reference_residual(const StokesProblem& problem, const PressureSpace& pressure) {
-  StokesState rest{Field<TetVertexId, Vec3>(problem.mesh.num_vertices(), Vec3::Zero()),
-                   std::vector<double>(pressure.vertex.size(), 0.0)};
+double reference_residual(const StokesProblem& problem) {
+  StokesState rest = state_at_rest(problem.space);
   problem.constraints.impose(rest.v);
-  return free_norm(residual(problem, pressure, rest), problem.constraints);
+  return free_norm(residual(problem, rest), problem.constraints);
 }
 
 linear::SaddleSolver make_linear_solver(LinearSolver which, const Options& options) {
   return {linear::Communicator::self(),
           {.method = method(which),
            .max_iterations = options.max_iterations,
+           .multigrid_by_degree = options.elements == Elements::p2_p1,
            .petsc_options = options.petsc_options}};
 }
 
@@ -92,16 +96,10 @@ void check_linear_options(const Options& options) {
   const linear::SaddleSolver unused = make_linear_solver(options.linear, options);
 }
 
-StokesSolver::StokesSolver(const TetMesh& mesh, const Options& options)
-    : options_(options),
-      num_vertices_(mesh.num_vertices()),
-      pressure_(fem::pressure_space(mesh)),
-      jacobian_(mesh, pressure_) {}
+StokesSolver::StokesSolver(const FlowSpace& space, const Options& options)
+    : options_(options), space_(space), jacobian_(space) {}
 
-StokesState StokesSolver::state_at_rest() const {
-  return {Field<TetVertexId, Vec3>(num_vertices_, Vec3::Zero()),
-          std::vector<double>(pressure_.vertex.size(), 0.0)};
-}
+StokesState StokesSolver::state_at_rest() const { return fem::state_at_rest(space_); }
 
 linear::SaddleSolver& StokesSolver::linear_solver(LinearSolver which) {
   const auto found = linear_solvers_.find(which);
@@ -120,7 +118,7 @@ StokesReport StokesSolver::solve(const StokesProblem& problem, StokesState& stat
   double reference = 0.0;
   {
     const PhaseTimer timer(times, "assemble");
-    reference = reference_residual(problem, pressure_);
+    reference = reference_residual(problem);
     jacobian_.assemble(problem);
   }
   StokesReport report;
@@ -132,7 +130,7 @@ StokesReport StokesSolver::solve(const StokesProblem& problem, StokesState& stat
   }
   int iterations = 0;
   std::vector<std::string> failed;
-  std::vector<LinearSolver> order = solvers_in_order(options_.linear, problem.mesh.num_vertices());
+  std::vector<LinearSolver> order = solvers_in_order(options_.linear, space_);
   if (preconditioner == linear::Preconditioner::kept) order.insert(order.begin(), order.front());
   for (const LinearSolver which : order) {
     StokesState attempt = state;
@@ -161,7 +159,7 @@ StokesReport StokesSolver::solve_with(LinearSolver which, const StokesProblem& p
   const double target = options_.rtol * reference;
   std::vector<double> step(3 * static_cast<std::size_t>(state.v.size()) + state.p.size());
   for (; report.newton_steps <= most_newton_steps; ++report.newton_steps) {
-    const StokesResidual now = residual(problem, pressure_, state);
+    const StokesResidual now = residual(problem, state);
     report.residual = free_norm(now, problem.constraints);
     // 2: the residual that a Krylov method updates and the true one differ by roundoff.
     if (report.residual <= 2.0 * target) return report;

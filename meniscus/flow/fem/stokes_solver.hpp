@@ -26,14 +26,13 @@ struct [[nodiscard]] StokesReport {
   std::vector<std::string> failed_solvers;    ///< each with its reason, before that one
 };
 
-/// Solves R(u) = 0 by Newton's method, J δ = −R (eq. 13 of hooper2001), on one mesh topology. The
-/// positions of the mesh may change between solves. Stokes flow takes one step, and another where a
-/// linear solver's own norm was content too early.
+/// Solves R(u) = 0 by Newton's method, J δ = −R (eq. 13 of hooper2001), on one space, which
+/// must outlive it. The positions of the nodes may change between solves. Stokes flow takes one
+/// step, and another where a linear solver's own norm was content too early.
 class StokesSolver {
  public:
-  StokesSolver(const TetMesh& mesh, const Options& options);
+  StokesSolver(const FlowSpace& space, const Options& options);
 
-  [[nodiscard]] const PressureSpace& pressure_space() const { return pressure_; }
   [[nodiscard]] StokesState state_at_rest() const;
 
   /// Makes and keeps the preconditioner that a fresh solve of this problem would make.
@@ -42,7 +41,7 @@ class StokesSolver {
   /// Improves `state` until the residual is below rtol times the reference: that of the state which
   /// rests wherever it may. Where the chosen linear solver fails it is tried again with a fresh
   /// preconditioner, if it had a kept one, and then the others in the order block, minres,
-  /// paper-gmres, mumps (mumps below 20 000 vertices); on failure of all `state` is unchanged but
+  /// paper-gmres, mumps (mumps below 20 000 nodes); on failure of all `state` is unchanged but
   /// for the imposed velocities.
   StokesReport solve(const StokesProblem& problem, StokesState& state,
                      linear::Preconditioner preconditioner, PhaseTimes& times);
@@ -54,8 +53,7 @@ class StokesSolver {
   linear::SaddleSolver& linear_solver(LinearSolver which);
 
   Options options_;
-  std::int32_t num_vertices_;
-  PressureSpace pressure_;
+  const FlowSpace& space_;
   StokesJacobian jacobian_;
   std::map<LinearSolver, linear::SaddleSolver> linear_solvers_;
 };

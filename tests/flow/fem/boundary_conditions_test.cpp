@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "meniscus/mesh/surface_measures.hpp"
-#include "tests/flow/fem/box_mesh.hpp"
+#include "tests/flow/fem/straight_space.hpp"
 
 namespace meniscus::fem {
 namespace {
@@ -23,33 +23,33 @@ TEST(Constraints, FramesAreOrthonormalAndHoldTheNormals) {
     std::vector<Vec3> normals;
     for (int k = 0; k <= trial % 3; ++k) normals.push_back(direction());
     normals.push_back(normals.front());  // a repeated one adds nothing
-    constraints.forbid_penetration(TetVertexId{0}, normals);
-    const NodeConstraint& constraint = *constraints.find(TetVertexId{0});
+    constraints.forbid_penetration(NodeId{0}, normals);
+    const NodeConstraint& constraint = *constraints.find(NodeId{0});
     EXPECT_LT((constraint.frame.transpose() * constraint.frame - Mat3::Identity()).norm(), 1e-13);
     EXPECT_EQ(std::ranges::count(constraint.is_fixed, true), trial % 3 + 1);
-    Field<TetVertexId, Vec3> v(1, direction());
+    Field<NodeId, Vec3> v(1, direction());
     constraints.impose(v);
-    for (const Vec3& n : normals) EXPECT_NEAR(n.dot(v[TetVertexId{0}]), 0.0, 1e-12);
+    for (const Vec3& n : normals) EXPECT_NEAR(n.dot(v[NodeId{0}]), 0.0, 1e-12);
   }
 }
 
 TEST(Constraints, AxesStayCartesian) {
   Constraints constraints(1);
-  constraints.forbid_penetration(TetVertexId{0}, std::vector<Vec3>{-Vec3::UnitZ(), Vec3::UnitX()});
-  const NodeConstraint& constraint = *constraints.find(TetVertexId{0});
+  constraints.forbid_penetration(NodeId{0}, std::vector<Vec3>{-Vec3::UnitZ(), Vec3::UnitX()});
+  const NodeConstraint& constraint = *constraints.find(NodeId{0});
   EXPECT_FALSE(constraint.is_rotated());
   EXPECT_EQ(constraint.is_fixed, (std::array<bool, 3>{true, false, true}));
 }
 
 TEST(Constraints, TheLastConditionOfAVertexHolds) {
   Constraints constraints(2);
-  constraints.forbid_penetration(TetVertexId{1}, std::vector<Vec3>{Vec3(1, 1, 0).normalized()});
-  constraints.fix(TetVertexId{1}, Vec3(1, 2, 3));
-  EXPECT_EQ(constraints.find(TetVertexId{0}), nullptr);
-  Field<TetVertexId, Vec3> v(2, Vec3::Zero());
+  constraints.forbid_penetration(NodeId{1}, std::vector<Vec3>{Vec3(1, 1, 0).normalized()});
+  constraints.fix(NodeId{1}, Vec3(1, 2, 3));
+  EXPECT_EQ(constraints.find(NodeId{0}), nullptr);
+  Field<NodeId, Vec3> v(2, Vec3::Zero());
   constraints.impose(v);
-  EXPECT_EQ(v[TetVertexId{0}], Vec3(0, 0, 0));
-  EXPECT_EQ(v[TetVertexId{1}], Vec3(1, 2, 3));
+  EXPECT_EQ(v[NodeId{0}], Vec3(0, 0, 0));
+  EXPECT_EQ(v[NodeId{1}], Vec3(1, 2, 3));
 }
 
 Vec3 shear(const Vec3& x) { return {x.y(), 0.0, 0.0}; }
@@ -58,12 +58,13 @@ TEST(BoundaryConditions, ImposedVelocityWinsThenEveryWall) {
   BoxMesh box = box_mesh({.n = 4});
   impose_everywhere(box.boundary, shear, true);
   for (const int wall : {2, 4, 5}) box.boundary.patches[PatchId{wall}].condition = NoPenetration{};
-  const BoundaryConditions conditions = boundary_conditions(box.boundary, box.mesh, 0.0);
+  const BoundaryConditions conditions = TestSpace(box.mesh).conditions(box.boundary);
   EXPECT_EQ(conditions.failure, "");
   EXPECT_FALSE(conditions.has_open_patch);
   for (const VertexId v : box.boundary.mesh.x.ids()) {
     const Vec3& x = box.boundary.mesh.x[v];
-    const NodeConstraint* constraint = conditions.constraints.find(box.mesh.boundary.vertex(v));
+    const NodeConstraint* constraint =
+        conditions.constraints.find(node_at(box.mesh.boundary.vertex(v)));
     ASSERT_NE(constraint, nullptr);
     const bool is_imposed = std::abs(x.x()) == 1.0 || x.y() == 1.0;
     const bool is_on_y = x.y() == -1.0, is_on_z = std::abs(x.z()) == 1.0;
@@ -85,12 +86,12 @@ TEST(BoundaryConditions, InterpolatedFluxIsRemoved) {
                     x[0]);
       },
       false);
-  const BoundaryConditions conditions = boundary_conditions(box.boundary, box.mesh, 0.0);
+  const BoundaryConditions conditions = TestSpace(box.mesh).conditions(box.boundary);
   EXPECT_EQ(conditions.failure, "");
   const VertexField<Vec3> area = vertex_area_vectors(box.boundary.mesh);
   double flux = 0.0;
   for (const VertexId v : area.ids())
-    flux += area[v].dot(conditions.constraints.find(box.mesh.boundary.vertex(v))->value);
+    flux += area[v].dot(conditions.constraints.find(node_at(box.mesh.boundary.vertex(v)))->value);
   EXPECT_NEAR(flux, 0.0, 1e-13);
 }
 
@@ -99,10 +100,10 @@ TEST(BoundaryConditions, NetInflowNeedsAnOpenPatch) {
   impose_everywhere(box.boundary, shear, true);
   box.boundary.patches[PatchId{0}].condition =
       ImposedVelocity{[](const Vec3&, double) { return Vec3(2.0, 0.0, 0.0); }, false};
-  EXPECT_NE(boundary_conditions(box.boundary, box.mesh, 0.0).failure.find("net flux"),
+  EXPECT_NE(TestSpace(box.mesh).conditions(box.boundary).failure.find("net flux"),
             std::string::npos);
   box.boundary.patches[PatchId{1}].condition = ImposedTraction{Vec3(-1.0, 0.0, 0.0)};
-  const BoundaryConditions open = boundary_conditions(box.boundary, box.mesh, 0.0);
+  const BoundaryConditions open = TestSpace(box.mesh).conditions(box.boundary);
   EXPECT_EQ(open.failure, "");
   EXPECT_TRUE(open.has_open_patch);
   Vec3 sum = Vec3::Zero();
@@ -112,12 +113,18 @@ TEST(BoundaryConditions, NetInflowNeedsAnOpenPatch) {
 
 TEST(BoundaryConditions, OnePatchMayHaveSeveralWalls) {
   // All six sides in one patch without penetration: a corner has three normals, an edge two.
-  const BoxMesh box = box_mesh({.n = 3});
-  const FaceField<PatchId> one(box.boundary.mesh.num_faces(), PatchId{0});
-  const auto normals = piece_normals(box.boundary.mesh, one, {PatchId{0}});
-  for (const VertexId v : normals.ids()) {
-    const Vec3 at = box.boundary.mesh.x[v].cwiseAbs();
-    EXPECT_EQ(static_cast<int>(normals[v].size()), (at.array() == 1.0).count());
+  BoxMesh box = box_mesh({.n = 3});
+  for (PatchId& patch : box.boundary.patch) patch = PatchId{0};
+  for (const Elements elements : {Elements::p1_p1, Elements::p2_p1}) {
+    const TestSpace test(box.mesh, elements);
+    const FaceNodeTable walls =
+        face_nodes(test.space, box.mesh, box.boundary.mesh, box.mesh.boundary);
+    const auto normals =
+        piece_normals(box.boundary, {PatchId{0}}, walls, test.space.velocity.num_nodes);
+    for (const NodeId i : normals.ids()) {
+      const Vec3 at = test.positions.x[i].cwiseAbs();
+      EXPECT_EQ(static_cast<int>(normals[i].size()), (at.array() == 1.0).count());
+    }
   }
 }
 

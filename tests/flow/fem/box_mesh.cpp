@@ -9,6 +9,8 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/flow/fem/face_elements.hpp"
+
 namespace meniscus::fem {
 namespace {
 
@@ -132,17 +134,21 @@ std::vector<std::array<TetVertexId, 3>> interface_faces(const TetMesh& mesh) {
   return result;
 }
 
-void add_traction_jump(const TetMesh& mesh,
-                       const std::function<Vec3(const Vec3& x, const Vec3& n)>& jump,
-                       Field<TetVertexId, Vec3>& load) {
-  for (const auto& face : interface_faces(mesh)) {
-    const std::array<Vec3, 3> x = {mesh.x[face[0]], mesh.x[face[1]], mesh.x[face[2]]};
-    const Vec3 area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]);
-    for (std::size_t i = 0; i < 3; ++i) {  // the middle of an edge: φ = 1/2 at its ends
-      const std::size_t j = (i + 1) % 3;
-      const Vec3 part = area.norm() / 3.0 * jump(0.5 * (x[i] + x[j]), area.normalized());
-      load[face[i]] -= 0.5 * part;
-      load[face[j]] -= 0.5 * part;
+void add_traction_jump(const std::function<Vec3(const Vec3& x, const Vec3& n)>& jump,
+                       StokesProblem& problem) {
+  std::map<std::array<TetVertexId, 2>, NodeId> middle;
+  for (std::size_t e = 0; e < problem.space.edges.size(); ++e)
+    middle[problem.space.edges[e]] =
+        NodeId{problem.space.num_vertices() + static_cast<std::int32_t>(e)};
+  for (const auto& face : interface_faces(problem.mesh)) {
+    std::vector<NodeId> nodes = {node_at(face[0]), node_at(face[1]), node_at(face[2])};
+    for (std::size_t k = 0; !middle.empty() && k < 3; ++k)
+      nodes.push_back(
+          middle.at({std::min(face[k], face[(k + 1) % 3]), std::max(face[k], face[(k + 1) % 3])}));
+    for (const FacePoint& point : face_points(problem.positions.x, nodes)) {
+      const Vec3 part = point.area.norm() * jump(point.x, point.area.normalized());
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        problem.load[nodes[i]] -= point.value[i] * part;
     }
   }
 }

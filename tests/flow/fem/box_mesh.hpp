@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "meniscus/mesh/tet_mesh.hpp"
+#include "meniscus/flow/fem/stokes_problem.hpp"
 #include "meniscus/scene/scene.hpp"
 
 namespace meniscus::fem {
@@ -29,10 +29,9 @@ struct BoxOptions {
 [[nodiscard]] std::vector<std::array<TetVertexId, 3>> interface_faces(const TetMesh& mesh);
 
 /// Adds the load −∫[n·T]·φ dS of a prescribed traction jump (outer minus inner) on the faces
-/// between region 1 and region 0, by the three mid-edge points of each.
-void add_traction_jump(const TetMesh& mesh,
-                       const std::function<Vec3(const Vec3& x, const Vec3& n)>& jump,
-                       Field<TetVertexId, Vec3>& load);
+/// between region 1 and region 0.
+void add_traction_jump(const std::function<Vec3(const Vec3& x, const Vec3& n)>& jump,
+                       StokesProblem& problem);
 
 /// Gives every patch the same imposed velocity.
 void impose_everywhere(OuterBoundary& boundary, std::function<Vec3(const Vec3&)> velocity,

@@ -69,8 +69,11 @@ TEST(FiniteElementFlow, EnergyInIsDissipatedOrStoredInTheSurface) {
 // A run that goes on and one that is restored from a checkpoint do the same arithmetic, whether the
 // checkpoint falls between steps that make a preconditioner or keep one.
 TEST(FiniteElementFlow, ARestoredSolverDoesTheSameArithmetic) {
-  for (const auto which : {LinearSolver::block, LinearSolver::mumps}) {
+  for (const auto& [elements, which] : {std::pair(Elements::p1_p1, LinearSolver::block),
+                                        std::pair(Elements::p1_p1, LinearSolver::mumps),
+                                        std::pair(Elements::p2_p1, LinearSolver::block)}) {
     Options options;
+    options.elements = elements;
     options.linear = which;
     Scene scene = shear_scene();
     const auto flow = make_finite_element_flow(options);

@@ -3,11 +3,10 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "meniscus/flow/fem/boundary_conditions.hpp"
-#include "meniscus/flow/fem/linear_tetrahedron.hpp"
+#include "meniscus/flow/fem/elements.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
-#include "tests/flow/fem/box_mesh.hpp"
 #include "tests/flow/fem/sphere_scene.hpp"
+#include "tests/flow/fem/straight_space.hpp"
 
 namespace meniscus::fem {
 namespace {
@@ -53,94 +52,160 @@ struct Errors {
   double velocity = 0.0, gradient = 0.0, pressure = 0.0;  // L2 norms; pressure without its mean
 };
 
-Errors errors(const TetMesh& mesh, const PressureSpace& space, const StokesState& state) {
+/// Squares of the errors over all cells, by a rule that is finer than the elements' own.
+template <class Element>
+Errors squared_errors(const StokesProblem& problem, const StokesState& state, Element& element) {
   Errors squared;
   double volume = 0.0, pressure_sum = 0.0;
-  // Four points of the rule of degree 2.
-  const double a = 0.1381966011250105, b = 1.0 - 3.0 * a;
-  for (const CellId c : mesh.cells.ids()) {
-    const LinearTetrahedron tet = linear_tetrahedron(mesh, c);
-    const CellVertices& vertices = mesh.cells[c];
-    const auto nodes = space.nodes.of(c);
-    Mat3 gradient = Mat3::Zero();
-    for (std::size_t i = 0; i < 4; ++i)
-      gradient += state.v[vertices[i]] * tet.gradient[i].transpose();
-    for (std::size_t q = 0; q < 4; ++q) {
+  for (const CellId c : problem.mesh.cells.ids()) {
+    const auto nodes = problem.space.velocity.of(c);
+    const auto pressures = problem.space.pressure.nodes.of(c);
+    const RegionId region = problem.mesh.region[c];
+    for (const auto& point : element.points(c)) {
       Vec3 x = Vec3::Zero(), v = Vec3::Zero();
+      Mat3 gradient = Mat3::Zero();
       double p = 0.0;
-      for (std::size_t i = 0; i < 4; ++i) {
-        const double phi = i == q ? b : a;
-        x += phi * mesh.x[vertices[i]];
-        v += phi * state.v[vertices[i]];
-        p += phi * state.p[static_cast<std::size_t>(nodes[i])];
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const Vec3& at_node = state.v[NodeId{nodes[i]}];
+        x += point.value[i] * problem.positions.x[NodeId{nodes[i]}];
+        v += point.value[i] * at_node;
+        gradient += at_node * point.gradient.col(static_cast<Eigen::Index>(i)).transpose();
       }
-      const double weight = 0.25 * tet.volume, p_error = p - pressure(x, mesh.region[c]);
-      squared.velocity += weight * (v - velocity(x)).squaredNorm();
-      squared.gradient += weight * (gradient - velocity_gradient(x)).squaredNorm();
-      squared.pressure += weight * p_error * p_error;
-      pressure_sum += weight * p_error;
-      volume += weight;
+      for (std::size_t k = 0; k < 4; ++k)
+        p += point.pressure[k] * state.p[static_cast<std::size_t>(pressures[k])];
+      const double p_error = p - pressure(x, region);
+      squared.velocity += point.weight * (v - velocity(x)).squaredNorm();
+      squared.gradient += point.weight * (gradient - velocity_gradient(x)).squaredNorm();
+      squared.pressure += point.weight * p_error * p_error;
+      pressure_sum += point.weight * p_error;
+      volume += point.weight;
     }
   }
   squared.pressure -= pressure_sum * pressure_sum / volume;
-  return {std::cbrt(volume / mesh.num_cells()), std::sqrt(squared.velocity),
-          std::sqrt(squared.gradient), std::sqrt(squared.pressure)};
+  squared.h = std::cbrt(volume / problem.mesh.num_cells());
+  return squared;
 }
 
-Errors solve(const TetMesh& mesh, const OuterBoundary& boundary) {
-  StokesProblem problem(mesh);
-  BoundaryConditions conditions = boundary_conditions(boundary, mesh, 0.0);
+/// The points of the curved rule for every cell of either space: enough for the errors of both.
+NodePositions all_curved(NodePositions positions) {
+  for (char& is_curved : positions.is_curved) is_curved = true;
+  return positions;
+}
+
+/// P1 as P2 on the same cells, so that its errors are measured by the same rule.
+struct AsQuadratic {
+  FlowSpace space;
+  StokesProblem problem;
+  StokesState state;
+
+  AsQuadratic(const StokesProblem& given, const StokesState& solution)
+      : space(flow_space(given.mesh, Elements::p2_p1)),
+        problem(given.mesh, space, straight_positions(given.mesh, space)),
+        state(state_at_rest(space)) {
+    for (const TetVertexId v : given.mesh.x.ids()) state.v[node_at(v)] = solution.v[node_at(v)];
+    for (std::size_t e = 0; e < space.edges.size(); ++e)
+      state.v[NodeId{given.mesh.num_vertices() + static_cast<std::int32_t>(e)}] =
+          0.5 * (solution.v[node_at(space.edges[e][0])] + solution.v[node_at(space.edges[e][1])]);
+    state.p = solution.p;
+  }
+};
+
+Errors errors(const StokesProblem& problem, const StokesState& state) {
+  if (problem.space.elements == Elements::p1_p1) {
+    const AsQuadratic quadratic(problem, state);
+    return errors(quadratic.problem, quadratic.state);
+  }
+  const NodePositions positions = all_curved(problem.positions);
+  QuadraticElement element(problem.space, positions);
+  const Errors squared = squared_errors(problem, state, element);
+  return {squared.h, std::sqrt(squared.velocity), std::sqrt(squared.gradient),
+          std::sqrt(squared.pressure)};
+}
+
+Vec3 force(const Vec3& x, RegionId region) {
+  return pressure_gradient(x, region) - viscosity(region) * velocity_laplacian(x);
+}
+
+/// The body force: its mean per cell for P1, whose stabilisation wants it; at the points of the
+/// finer rule for P2.
+void add_body_force(StokesProblem& problem) {
+  const NodePositions positions = all_curved(problem.positions);
+  QuadraticElement element(problem.space, positions);  // asked for points of P2 alone
+  for (const CellId c : problem.mesh.cells.ids()) {
+    const RegionId region = problem.mesh.region[c];
+    if (problem.space.elements == Elements::p1_p1) {
+      Vec3 centroid = Vec3::Zero();
+      for (const TetVertexId v : problem.mesh.cells[c]) centroid += 0.25 * problem.mesh.x[v];
+      problem.body_force[c] = force(centroid, region);
+      continue;
+    }
+    const auto nodes = problem.space.velocity.of(c);
+    for (const auto& point : element.points(c)) {
+      Vec3 x = Vec3::Zero();
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        x += point.value[i] * positions.x[NodeId{nodes[i]}];
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        problem.load[NodeId{nodes[i]}] += point.weight * point.value[i] * force(x, region);
+    }
+  }
+}
+
+Errors solve(const TestSpace& test, const OuterBoundary& boundary) {
+  StokesProblem problem = test.problem();
+  BoundaryConditions conditions = test.conditions(boundary);
   EXPECT_EQ(conditions.failure, "");
   problem.constraints = conditions.constraints;
-  for (const CellId c : mesh.cells.ids()) {
-    Vec3 centroid = Vec3::Zero();
-    for (const TetVertexId v : mesh.cells[c]) centroid += 0.25 * mesh.x[v];
-    const RegionId region = mesh.region[c];
-    problem.viscosity[c] = viscosity(region);
-    problem.body_force[c] =
-        pressure_gradient(centroid, region) - viscosity(region) * velocity_laplacian(centroid);
-  }
+  for (const CellId c : test.mesh.cells.ids())
+    problem.viscosity[c] = viscosity(test.mesh.region[c]);
+  add_body_force(problem);
   add_traction_jump(
-      mesh,
       [](const Vec3& x, const Vec3& n) {
         return Vec3((stress(x, RegionId{0}) - stress(x, RegionId{1})) * n);
       },
-      problem.load);
+      problem);
   Options options;
+  options.elements = test.space.elements;
   options.rtol = 1e-10;
-  StokesSolver solver(mesh, options);
+  StokesSolver solver(test.space, options);
   StokesState state = solver.state_at_rest();
   PhaseTimes times;
   const StokesReport report = solver.solve(problem, state, linear::Preconditioner::fresh, times);
   EXPECT_TRUE(report.ok) << report.failure;
   EXPECT_EQ(report.solver, LinearSolver::block);
-  return errors(mesh, solver.pressure_space(), state);
+  return errors(problem, state);
 }
 
-void expect_orders(const std::vector<Errors>& levels) {
+/// Orders of velocity (L2) and its gradient: 2 and 1, or 3 and 2; the pressure's at least 1, or 2.
+void expect_orders(const std::vector<Errors>& levels, Elements elements) {
+  const double degree = elements == Elements::p1_p1 ? 1.0 : 2.0;
   const double span = std::log(levels.front().h / levels.back().h);
   const auto order = [&](double first, double last) { return std::log(first / last) / span; };
   for (std::size_t i = 1; i < levels.size(); ++i) {
     EXPECT_LT(levels[i].velocity, levels[i - 1].velocity);
     EXPECT_LT(levels[i].pressure, levels[i - 1].pressure);
   }
-  EXPECT_NEAR(order(levels.front().velocity, levels.back().velocity), 2.0, 0.2);
-  EXPECT_NEAR(order(levels.front().gradient, levels.back().gradient), 1.0, 0.2);
-  EXPECT_GT(order(levels.front().pressure, levels.back().pressure), 1.0);
+  EXPECT_NEAR(order(levels.front().velocity, levels.back().velocity), degree + 1.0, 0.2);
+  EXPECT_NEAR(order(levels.front().gradient, levels.back().gradient), degree, 0.2);
+  EXPECT_GT(order(levels.front().pressure, levels.back().pressure), degree - 0.1);
 }
 
-TEST(ManufacturedFlow, ConvergesAcrossAPlane) {
+class ManufacturedFlow : public testing::TestWithParam<Elements> {};
+INSTANTIATE_TEST_SUITE_P(P1AndP2, ManufacturedFlow,
+                         testing::Values(Elements::p1_p1, Elements::p2_p1));
+
+TEST_P(ManufacturedFlow, ConvergesAcrossAPlane) {
   std::vector<Errors> levels;
-  for (const int n : {6, 10, 18}) {
+  const bool is_quadratic = GetParam() == Elements::p2_p1;
+  for (const int n : is_quadratic ? std::vector{4, 6, 10} : std::vector{6, 10, 18}) {
     BoxMesh box = box_mesh(
         {.n = n, .region = [](const Vec3& x) { return x.z() < 0.0 ? 1 : 0; }, .jitter = 0.15});
     impose_everywhere(box.boundary, velocity, false);
-    levels.push_back(solve(box.mesh, box.boundary));
+    levels.push_back(solve(TestSpace(box.mesh, GetParam()), box.boundary));
   }
-  expect_orders(levels);
+  expect_orders(levels, GetParam());
 }
 
-TEST(ManufacturedFlow, ConvergesAroundASphere) {
+TEST_P(ManufacturedFlow, ConvergesAroundASphere) {
   std::vector<Errors> levels;
   for (const int num_vertices : {200, 400, 800}) {
     const Scene scene =
@@ -150,9 +215,9 @@ TEST(ManufacturedFlow, ConvergesAroundASphere) {
                           .outer_velocity = [](const Vec3& x, double) { return velocity(x); }});
     TetMesh mesh;
     ASSERT_TRUE(tetrahedralize(scene, {}, mesh).ok);
-    levels.push_back(solve(mesh, scene.boundary));
+    levels.push_back(solve(TestSpace(scene, mesh, GetParam()), scene.boundary));
   }
-  expect_orders(levels);
+  expect_orders(levels, GetParam());
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 TEST(NodeGraph, PositionsNameTheColumnsOfEveryCell) {
   const BoxMesh box = box_mesh({.n = 3});
-  const NodeTable nodes = velocity_nodes(box.mesh);
+  const NodeTable nodes = flow_space(box.mesh, Elements::p1_p1).velocity;
   const NodeGraph graph = node_graph(nodes, nodes);
   ASSERT_EQ(graph.num_rows(), box.mesh.num_vertices());
   for (const CellId c : box.mesh.cells.ids())
@@ -28,7 +28,7 @@ TEST(NodeGraph, PositionsNameTheColumnsOfEveryCell) {
 
 TEST(NodeGraph, RowsAreTheNeighboursInOrder) {
   const BoxMesh box = box_mesh({.n = 2});
-  const NodeTable nodes = velocity_nodes(box.mesh);
+  const NodeTable nodes = flow_space(box.mesh, Elements::p1_p1).velocity;
   std::vector<std::set<std::int32_t>> neighbours(std::size_t(nodes.num_nodes));
   for (const CellId c : box.mesh.cells.ids())
     for (const std::int32_t i : nodes.of(c))

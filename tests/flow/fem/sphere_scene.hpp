@@ -41,7 +41,8 @@ inline Scene sphere_in_sphere(const SphereScene& options) {
                                options.outer_radius);
   scene.boundary.patch = FaceField<PatchId>(scene.boundary.mesh.num_faces(), PatchId{0});
   scene.boundary.patches.add(
-      {"wall", ImposedVelocity{options.outer_velocity, options.is_linear_flow}});
+      {"wall", ImposedVelocity{options.outer_velocity, options.is_linear_flow},
+       [radius = options.outer_radius](const Vec3& x) { return Vec3(radius * x.normalized()); }});
   return scene;
 }
 

@@ -7,10 +7,11 @@
 
 #include "meniscus/flow/fem/boundary_conditions.hpp"
 #include "meniscus/flow/fem/capillary_force.hpp"
+#include "meniscus/flow/fem/face_elements.hpp"
 #include "meniscus/flow/fem/stokes_residual.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
-#include "tests/flow/fem/box_mesh.hpp"
 #include "tests/flow/fem/sphere_scene.hpp"
+#include "tests/flow/fem/straight_space.hpp"
 
 namespace meniscus::fem {
 namespace {
@@ -19,8 +20,9 @@ namespace {
 struct ShearedDrop {
   Scene scene;
   TetMesh mesh;
+  FlowSpace space;
 
-  ShearedDrop() {
+  explicit ShearedDrop(Elements elements = Elements::p1_p1) {
     Mat3 gradient = Mat3::Zero();
     gradient(0, 1) = 1.0;
     scene = sphere_in_sphere(
@@ -33,18 +35,25 @@ struct ShearedDrop {
          .drop_force = Vec3(0.0, 0.4, -0.7)});
     for (Vec3& x : scene.interfaces[0].mesh.x) x = x.cwiseProduct(Vec3(1.2, 1.0, 0.8));
     EXPECT_TRUE(tetrahedralize(scene, {}, mesh).ok);
+    space = flow_space(mesh, elements);
   }
   StokesProblem problem() const {
-    StokesProblem problem(mesh);
+    StokesProblem problem(mesh, space, node_positions(scene, mesh, space));
     for (const CellId c : mesh.cells.ids()) {
       problem.viscosity[c] = scene.liquids[mesh.region[c]].viscosity;
       problem.body_force[c] = scene.liquids[mesh.region[c]].body_force;
     }
-    problem.constraints = boundary_conditions(scene.boundary, mesh, 0.0).constraints;
-    const auto force =
-        capillary_force(scene.interfaces[0].mesh, scene.interfaces[0].tension, CapillaryForm::weak);
-    for (const VertexId v : force.ids()) problem.load[mesh.interfaces[0].vertex(v)] += force[v];
+    problem.constraints =
+        boundary_conditions(scene.boundary,
+                            face_nodes(space, mesh, scene.boundary.mesh, mesh.boundary),
+                            problem.positions, 0.0)
+            .constraints;
+    add_capillary_force(scene.interfaces[0], CapillaryForm::weak, drop_faces(), problem.positions,
+                        problem.load);
     return problem;
+  }
+  FaceNodeTable drop_faces() const {
+    return face_nodes(space, mesh, scene.interfaces[0].mesh, mesh.interfaces[0]);
   }
 };
 
@@ -53,16 +62,20 @@ StokesReport solve(const StokesProblem& problem, StokesSolver& solver, StokesSta
   return solver.solve(problem, state, linear::Preconditioner::fresh, times);
 }
 
-TEST(StokesSolver, AllLinearSolversAgree) {
-  const ShearedDrop drop;
+class EitherElement : public testing::TestWithParam<Elements> {};
+INSTANTIATE_TEST_SUITE_P(P1AndP2, EitherElement, testing::Values(Elements::p1_p1, Elements::p2_p1));
+
+TEST_P(EitherElement, AllLinearSolversAgree) {
+  const ShearedDrop drop(GetParam());
   const StokesProblem problem = drop.problem();
   std::vector<StokesState> states;
   for (const LinearSolver which : {LinearSolver::mumps, LinearSolver::block, LinearSolver::minres,
                                    LinearSolver::paper_gmres}) {
+    if (which == LinearSolver::paper_gmres && GetParam() == Elements::p2_p1) continue;
     Options options;
     options.linear = which;
     options.rtol = 1e-10;
-    StokesSolver solver(drop.mesh, options);
+    StokesSolver solver(drop.space, with(drop.space.elements, options));
     StokesState state = solver.state_at_rest();
     const StokesReport report = solve(problem, solver, state);
     ASSERT_TRUE(report.ok) << report.failure;
@@ -73,46 +86,47 @@ TEST(StokesSolver, AllLinearSolversAgree) {
   for (const StokesState& state : states) {
     // The residual's tolerance over the smallest nodal masses (1e-4: small cells), relative to
     // velocities near 4 and pressures near 7.
-    for (const TetVertexId v : state.v.ids()) EXPECT_LT((state.v[v] - states[0].v[v]).norm(), 4e-6);
+    for (const NodeId v : state.v.ids()) EXPECT_LT((state.v[v] - states[0].v[v]).norm(), 4e-6);
     for (std::size_t i = 0; i < state.p.size(); ++i) EXPECT_NEAR(state.p[i], states[0].p[i], 7e-6);
   }
 }
 
 // reaction + body force + loads = dissipation, exactly but for the solver's residual; and the
 // capillary load's power is minus the growth of the surface energy.
-TEST(StokesSolver, EnergyIsBalancedToTheSolversTolerance) {
-  const ShearedDrop drop;
+TEST_P(EitherElement, EnergyIsBalancedToTheSolversTolerance) {
+  const ShearedDrop drop(GetParam());
   const StokesProblem problem = drop.problem();
   Options options;
   options.rtol = 1e-11;
-  StokesSolver solver(drop.mesh, options);
+  StokesSolver solver(drop.space, with(drop.space.elements, options));
   StokesState state = solver.state_at_rest();
   ASSERT_TRUE(solve(problem, solver, state).ok);
-  const StokesPower books = power(problem, solver.pressure_space(), state);
+  const StokesPower books = power(problem, state);
   EXPECT_GT(books.dissipation, 1.0);
   EXPECT_GT(std::abs(books.body_force), 1e-3);
   EXPECT_GT(std::abs(books.load), 1e-2);
   EXPECT_NEAR(books.reaction + books.body_force + books.load, books.dissipation,
               1e-8 * books.dissipation);
+  if (GetParam() != Elements::p1_p1) return;
   const VertexField<Vec3> gradient = area_gradient(drop.scene.interfaces[0].mesh);
   double growth = 0.0;
   for (const VertexId v : gradient.ids())
-    growth += gradient[v].dot(state.v[drop.mesh.interfaces[0].vertex(v)]);
+    growth += gradient[v].dot(state.v[node_at(drop.mesh.interfaces[0].vertex(v))]);
   EXPECT_NEAR(books.load, -growth / 0.3, 1e-10 * std::abs(books.load));
 }
 
 // Each region's volume is kept: the discrete flux through the drop's surface is zero.
-TEST(StokesSolver, NoNetFluxThroughTheInterface) {
-  const ShearedDrop drop;
+TEST_P(EitherElement, NoNetFluxThroughTheInterface) {
+  const ShearedDrop drop(GetParam());
   Options options;
   options.rtol = 1e-11;
-  StokesSolver solver(drop.mesh, options);
+  StokesSolver solver(drop.space, with(drop.space.elements, options));
   StokesState state = solver.state_at_rest();
-  ASSERT_TRUE(solve(drop.problem(), solver, state).ok);
-  const VertexField<Vec3> area = vertex_area_vectors(drop.scene.interfaces[0].mesh);
+  const StokesProblem problem = drop.problem();
+  ASSERT_TRUE(solve(problem, solver, state).ok);
+  const Field<NodeId, Vec3> area = node_area_vectors(drop.drop_faces(), problem.positions.x);
   double flux = 0.0;
-  for (const VertexId v : area.ids())
-    flux += area[v].dot(state.v[drop.mesh.interfaces[0].vertex(v)]);
+  for (const NodeId i : area.ids()) flux += area[i].dot(state.v[i]);
   EXPECT_NEAR(flux, 0.0, 1e-9);
 }
 
@@ -127,16 +141,17 @@ TEST(StokesSolver, SolutionsTurnWithTheBox) {
                             .rotation = turn});
     for (const PatchId patch : box.boundary.patches.ids())
       box.boundary.patches[patch].condition = NoPenetration{};
-    StokesProblem problem(box.mesh);
+    const TestSpace test(box.mesh);
+    StokesProblem problem = test.problem();
     for (const CellId c : box.mesh.cells.ids())
       if (box.mesh.region[c] == RegionId{1}) {
         problem.viscosity[c] = 4.0;
         problem.body_force[c] = turn * force;
       }
-    problem.constraints = boundary_conditions(box.boundary, box.mesh, 0.0).constraints;
+    problem.constraints = test.conditions(box.boundary).constraints;
     Options options;
     options.rtol = 1e-11;
-    StokesSolver solver(box.mesh, options);
+    StokesSolver solver(test.space, options);
     StokesState state = solver.state_at_rest();
     const StokesReport report = solve(problem, solver, state);
     EXPECT_TRUE(report.ok) << report.failure;
@@ -146,7 +161,7 @@ TEST(StokesSolver, SolutionsTurnWithTheBox) {
   };
   const StokesState straight = solution(Mat3::Identity()), turned = solution(rotation);
   double largest = 0.0;
-  for (const TetVertexId v : straight.v.ids()) {
+  for (const NodeId v : straight.v.ids()) {
     EXPECT_LT((turned.v[v] - rotation * straight.v[v]).norm(), 1e-8);
     largest = std::max(largest, straight.v[v].norm());
   }
@@ -160,7 +175,7 @@ TEST(StokesSolver, AFailedSolverIsReplaced) {
   options.linear = LinearSolver::paper_gmres;
   options.max_iterations = 60;  // enough for the block solvers, far too few for the paper's
   options.rtol = 1e-6;
-  StokesSolver solver(drop.mesh, options);
+  StokesSolver solver(drop.space, with(drop.space.elements, options));
   StokesState state = solver.state_at_rest();
   const StokesReport report = solve(problem, solver, state);
   ASSERT_TRUE(report.ok) << report.failure;
@@ -172,8 +187,8 @@ TEST(StokesSolver, AFailedSolverIsReplaced) {
 TEST(StokesSolver, DataThatAreNotFiniteAreReported) {
   const ShearedDrop drop;
   StokesProblem problem = drop.problem();
-  problem.load[TetVertexId{3}][1] = std::nan("");
-  StokesSolver solver(drop.mesh, {});
+  problem.load[NodeId{3}][1] = std::nan("");
+  StokesSolver solver(drop.space, with(drop.space.elements));
   StokesState state = solver.state_at_rest();
   const StokesReport report = solve(problem, solver, state);
   EXPECT_FALSE(report.ok);
@@ -183,7 +198,7 @@ TEST(StokesSolver, DataThatAreNotFiniteAreReported) {
 TEST(StokesSolver, AGoodGuessSavesIterations) {
   const ShearedDrop drop;
   const StokesProblem problem = drop.problem();
-  StokesSolver solver(drop.mesh, {});
+  StokesSolver solver(drop.space, with(drop.space.elements));
   StokesState state = solver.state_at_rest();
   const StokesReport cold = solve(problem, solver, state);
   ASSERT_TRUE(cold.ok);

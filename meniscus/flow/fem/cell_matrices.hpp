@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include "meniscus/flow/fem/elements.hpp"
+#include "meniscus/flow/fem/stokes_problem.hpp"
+
+namespace meniscus::fem {
+
+/// The element matrices of one cell.
+template <class Element>
+struct CellMatrices {
+  static constexpr std::size_t num_nodes = Element::num_nodes;
+  static constexpr int kRows = 3 * static_cast<int>(num_nodes);
+  /// Σ w μ ∂_aφ_i ∂_bφ_j in block (i, j) at (a, b).
+  Eigen::Matrix<double, kRows, kRows> products;
+  /// −∫ψ_k ∂_aφ_i at (k, 3i + a).
+  Eigen::Matrix<double, 4, kRows> divergence;
+  Eigen::Matrix4d stabilisation;          ///< τ∫∇ψ_k·∇ψ_l; zero for P2
+  std::array<double, 4> pressure_mass{};  ///< ∫ψ_k/μ, lumped
+
+  CellMatrices(const StokesProblem& problem, std::span<const typename Element::Point> points,
+               CellId c);
+
+  /// ∫2μ D(φ_j e_b):D(φ_i e_a) = ∫μ(∇φ_i·∇φ_j δ_ab + ∂_bφ_i ∂_aφ_j) at (a, b).
+  [[nodiscard]] Mat3 viscous_block(std::size_t i, std::size_t j) const {
+    const auto block = at(i, j);
+    Mat3 result = block.transpose();
+    result.diagonal().array() += block.trace();
+    return result;
+  }
+  /// ∫μ∇φ_i·∇φ_j.
+  [[nodiscard]] double laplacian(std::size_t i, std::size_t j) const { return at(i, j).trace(); }
+  [[nodiscard]] Vec3 divergence_of(std::size_t k, std::size_t j) const {
+    return divergence.template block<1, 3>(static_cast<Eigen::Index>(k),
+                                           static_cast<Eigen::Index>(3 * j));
+  }
+
+ private:
+  [[nodiscard]] auto at(std::size_t i, std::size_t j) const {
+    return products.template block<3, 3>(static_cast<Eigen::Index>(3 * i),
+                                         static_cast<Eigen::Index>(3 * j));
+  }
+};
+
+template <class Element>
+CellMatrices<Element>::CellMatrices(const StokesProblem& problem,
+                                    std::span<const typename Element::Point> points, CellId c) {
+  products.setZero();
+  divergence.setZero();
+  const double viscosity = problem.viscosity[c];
+  for (const auto& point : points) {
+    // The gradients one below the other: row 3i + a holds ∂_aφ_i.
+    const Eigen::Map<const Eigen::Matrix<double, kRows, 1>> gradients(point.gradient.data());
+    products.noalias() += (point.weight * viscosity * gradients) * gradients.transpose();
+    const Eigen::Map<const Eigen::Vector4d> psi(point.pressure.data());
+    divergence.noalias() -= (point.weight * psi) * gradients.transpose();
+    for (std::size_t k = 0; k < 4; ++k)
+      pressure_mass[k] += point.weight * point.pressure[k] / viscosity;
+  }
+  stabilisation.setZero();
+  if constexpr (Element::is_stabilized)
+    stabilisation = pspg_parameter(points[0].weight, viscosity) * points[0].weight *
+                    points[0].gradient.transpose() * points[0].gradient;
+}
+
+}  // namespace meniscus::fem

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include <Eigen/Dense>
+
+#include "meniscus/flow/fem/node_positions.hpp"
+#include "meniscus/flow/fem/quadrature_table.hpp"
+
+namespace meniscus::fem {
+
+/// A quadrature point of a cell, with all that the forms integrate there.
+template <std::size_t Nodes>
+struct ElementPoint {
+  double weight = 0.0;                ///< [R0³]
+  std::array<double, 4> pressure{};   ///< ψ_k of the four corners
+  std::array<double, Nodes> value{};  ///< φ_i
+  /// ∇φ_i by columns [1/R0].
+  Eigen::Matrix<double, 3, Nodes> gradient = Eigen::Matrix<double, 3, Nodes>::Zero();
+};
+
+/// The straight tetrahedron in barycentric coordinates.
+struct LinearTetrahedron {
+  double volume = 0.0;           ///< [R0³]
+  std::array<Vec3, 4> gradient;  ///< of the barycentric coordinates [1/R0]
+};
+[[nodiscard]] LinearTetrahedron linear_tetrahedron(const std::array<Vec3, 4>& corners);
+
+/// Stabilisation parameter τ = 0.25 h²/μ, h half the edge of the regular tetrahedron of equal
+/// volume, V = (2h)³/(6√2) (eq. 11 of hooper2001; the division by μ is not printed there).
+[[nodiscard]] inline double pspg_parameter(double volume, double viscosity) {
+  const double edge = std::cbrt(6.0 * std::numbers::sqrt2 * volume);
+  return 0.25 * (0.25 * edge * edge) / viscosity;
+}
+
+/// P1 velocity on straight tetrahedra: gradients are constant, and one point makes every form
+/// exact.
+class LinearElement {
+ public:
+  static constexpr std::size_t num_nodes = 4;
+  static constexpr bool is_stabilized = true;
+  using Point = ElementPoint<num_nodes>;
+
+  LinearElement(const FlowSpace& space, const NodePositions& positions)
+      : space_(space), positions_(positions) {}
+  /// Valid until the next call.
+  [[nodiscard]] std::span<const Point> points(CellId c);
+
+ private:
+  const FlowSpace& space_;
+  const NodePositions& positions_;
+  std::array<Point, 1> points_;
+};
+
+/// Isoparametric P2 velocity: x(ξ) = Σ x_i φ_i(ξ). 4 points where the cell is straight, 14 where it
+/// is curved.
+class QuadraticElement {
+ public:
+  static constexpr std::size_t num_nodes = 10;
+  static constexpr bool is_stabilized = false;
+  using Point = ElementPoint<num_nodes>;
+
+  QuadraticElement(const FlowSpace& space, const NodePositions& positions)
+      : space_(space), positions_(positions) {}
+  [[nodiscard]] std::span<const Point> points(CellId c);
+
+ private:
+  [[nodiscard]] std::span<const Point> straight_points(std::span<const std::int32_t> nodes);
+  [[nodiscard]] std::span<const Point> curved_points(std::span<const std::int32_t> nodes);
+  const FlowSpace& space_;
+  const NodePositions& positions_;
+  std::array<Point, kCurvedCellRule.size()> points_;
+};
+
+/// Calls `action` with the element that a space is made of.
+template <class Action>
+void with_element(const FlowSpace& space, const NodePositions& positions, Action action) {
+  if (space.elements == Elements::p2_p1) {
+    QuadraticElement element(space, positions);
+    return action(element);
+  }
+  LinearElement element(space, positions);
+  return action(element);
+}
+
+/// Smallest determinant of ∂x/∂ξ at the points of the curved rule and at the nodes of a quadratic
+/// tetrahedron; six times the volume where it is straight.
+[[nodiscard]] double least_jacobian(const Field<NodeId, Vec3>& x,
+                                    std::span<const std::int32_t> nodes);
+
+}  // namespace meniscus::fem

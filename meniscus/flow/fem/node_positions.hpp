@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+
+#include "meniscus/flow/fem/spaces.hpp"
+#include "meniscus/scene/scene.hpp"
+
+namespace meniscus::fem {
+
+/// Where the nodes of a space are at one instant.
+struct NodePositions {
+  Field<NodeId, Vec3> x;      ///< [R0]
+  CellField<char> is_curved;  ///< whether a mid-edge node of the cell is off its edge's middle
+  int num_straightened = 0;   ///< edges of surfaces that stayed straight: curved ones would fold
+};
+
+/// Mid-edge nodes in the middle of straight edges.
+[[nodiscard]] NodePositions straight_positions(const TetMesh& mesh, const FlowSpace& space);
+
+/// Moves the mid-edge nodes of a surface to the points given, in the order of its edges. No effect
+/// on P1.
+void curve_edges(const SurfaceMesh& surface, const SurfaceTopology& topology,
+                 const FaceNodeTable& nodes, std::span<const Vec3> middles,
+                 NodePositions& positions);
+
+/// Marks the curved cells, and straightens the edges of those whose map would fold: its Jacobian
+/// determinant at the quadrature points and at the nodes must stay above a tenth of the straight
+/// cell's.
+void settle_curved_cells(const TetMesh& mesh, const FlowSpace& space, NodePositions& positions);
+
+/// All of it for a scene: interfaces by the middles that their vertices stand for, the walls of the
+/// outer boundary by what their patches say; all other edges are straight.
+[[nodiscard]] NodePositions node_positions(const Scene& scene, const TetMesh& mesh,
+                                           const FlowSpace& space);
+
+}  // namespace meniscus::fem

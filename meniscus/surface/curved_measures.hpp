@@ -1,0 +1,23 @@
+#pragma once
+
+#include "meniscus/mesh/surface_mesh.hpp"
+
+namespace meniscus {
+
+/// Measures of the closed surface of parabolic triangles through the vertices and the
+/// `edge_middles`: what a triangulation stands for, to O(h⁴), where its flat faces enclose too
+/// little by O(h²).
+struct CurvedMeasures {
+  double volume = 0.0;  ///< [R0³]
+  double area = 0.0;    ///< [R0²]
+};
+[[nodiscard]] CurvedMeasures curved_measures(const SurfaceMesh& mesh);
+
+/// Unit normals of the smooth surface at the vertices, O(h³).
+[[nodiscard]] VertexField<Vec3> smooth_normals(const SurfaceMesh& mesh);
+
+/// Shifts every vertex by the same multiple of its unit area vector so that the parabolic triangles
+/// enclose `volume` to 1e-12 relative; returns the size of the shift [R0], signed outward.
+double restore_curved_volume(SurfaceMesh& mesh, double volume);
+
+}  // namespace meniscus

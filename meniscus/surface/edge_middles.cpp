@@ -1,0 +1,120 @@
+#include "meniscus/surface/edge_middles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include <Eigen/LU>
+
+#include "meniscus/surface/rings.hpp"
+#include "meniscus/surface/smooth_surface.hpp"
+
+namespace meniscus {
+namespace {
+
+constexpr Eigen::Index kTerms = 15;  // of a polynomial of degree four
+// Vertices are taken in the order of their distance; more cost time and add nothing.
+constexpr std::size_t kMostPoints = 32;
+// Σ|weights| of the vertices: 1.6 to 3 where they are spread evenly. Above this the noise of vertices
+// is amplified more than the lower degree's truncation is worth.
+constexpr double kMostAmplification = 4.0;
+
+using Vec2 = Eigen::Vector2d;
+
+Eigen::Matrix<double, kTerms, 1> monomials(const Vec2& at) {
+  const double u = at.x(), v = at.y(), uu = u * u, uv = u * v, vv = v * v;
+  Eigen::Matrix<double, kTerms, 1> m;
+  m << 1.0, u, v, uu, uv, vv, uu * u, uu * v, vv * u, vv * v, uu * uu, uu * uv, uu * vv, uv * vv,
+      vv * vv;
+  return m;
+}
+
+double spline(const Vec2& d) {
+  const double squared = d.squaredNorm();
+  return squared * squared * squared * std::sqrt(squared);
+}
+
+/// The level function's coordinates around a point near the surface.
+struct LevelFrame {
+  HeightPatch axes;
+  double half_sum = 0.0;
+
+  [[nodiscard]] double g(const Vec3& x) const {
+    const Vec3 d = x - axes.x;
+    return d.dot(axes.n) + 0.5 * half_sum * d.squaredNorm();
+  }
+};
+
+/// The spline's value at the frame's origin: Σ w_i g_i, the weights w solving
+/// [Φ P; Pᵀ 0] (w, ·) = (φ(0 − x_i), p(0)).
+std::optional<double> interpolated_level(const LevelFrame& frame, std::span<const Vec3> points) {
+  const auto count = static_cast<Eigen::Index>(points.size());
+  if (count < kTerms) return std::nullopt;
+  const double h = (points.back() - frame.axes.x).norm();
+  std::vector<Vec2> at;
+  for (const Vec3& p : points) {
+    const Vec3 d = (p - frame.axes.x) / h;
+    at.emplace_back(d.dot(frame.axes.t1), d.dot(frame.axes.t2));
+  }
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count + kTerms, count + kTerms);
+  Eigen::VectorXd side(count + kTerms);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Vec2& here = at[static_cast<std::size_t>(i)];
+    for (Eigen::Index j = 0; j < i; ++j)
+      matrix(i, j) = matrix(j, i) = spline(here - at[static_cast<std::size_t>(j)]);
+    matrix.row(i).tail<kTerms>() = monomials(here);
+    matrix.col(i).tail<kTerms>() = monomials(here);
+    side[i] = spline(here);
+  }
+  side.tail<kTerms>() = monomials(Vec2::Zero());
+  const Eigen::VectorXd weights = matrix.partialPivLu().solve(side).head(count);
+  // A singular matrix leaves weights that are large or not numbers.
+  if (!(weights.lpNorm<1>() <= kMostAmplification)) return std::nullopt;
+  double level = 0.0;
+  for (Eigen::Index i = 0; i < count; ++i)
+    level += weights[i] * frame.g(points[static_cast<std::size_t>(i)]);
+  return level;
+}
+
+/// z of z + ½H z² = g.
+double height_of_level(double g, double half_sum) {
+  return 2.0 * g / (1.0 + std::sqrt(std::max(0.0, 1.0 + 2.0 * half_sum * g)));
+}
+
+/// The vertices in the two rings of both ends, each once, by distance from `center`.
+void gather(RingGatherer& rings, const SurfaceEdge& edge, const Vec3& center,
+            std::vector<Vec3>& points) {
+  points.clear();
+  for (const VertexId end : {edge.a, edge.b})
+    for (const Vec3& p : rings.gather(end, true)) points.push_back(p);
+  const auto key = [&](const Vec3& p) {
+    return std::tuple((p - center).squaredNorm(), p.x(), p.y(), p.z());
+  };
+  std::ranges::sort(points, {}, key);
+  points.erase(std::ranges::unique(points).begin(), points.end());
+  if (points.size() > kMostPoints) points.resize(kMostPoints);
+}
+
+}  // namespace
+
+std::vector<Vec3> edge_middles(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
+  const SmoothSurface smooth(mesh, topology);
+  const VertexField<VertexCurvature>& curvature = smooth.vertex_curvature();
+  RingGatherer rings(mesh, topology);
+  std::vector<Vec3> points, middles;
+  middles.reserve(topology.edges().size());
+  for (const SurfaceEdge& edge : topology.edges()) {
+    const VertexCurvature &at_a = curvature[edge.a], &at_b = curvature[edge.b];
+    const LevelFrame frame{
+        flat_patch(smooth.edge_point(edge.a, edge.b, 0.5), (at_a.n + at_b.n).normalized()),
+        0.5 * (at_a.half_sum() + at_b.half_sum())};
+    gather(rings, edge, frame.axes.x, points);
+    const auto level = interpolated_level(frame, points);
+    const double z = level ? height_of_level(*level, frame.half_sum) : 0.0;
+    middles.push_back(frame.axes.x + z * frame.axes.n);
+  }
+  return middles;
+}
+
+}  // namespace meniscus

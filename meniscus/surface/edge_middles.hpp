@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "meniscus/mesh/surface_mesh.hpp"
+
+namespace meniscus {
+
+/// A point of the surface over the middle of every edge, in the order of the topology: where the
+/// mid-edge nodes of quadratic elements belong. With z along the normal at the smooth surface's
+/// edge point and H the half-sum of curvatures there, the function
+///
+///   g(u, v) = z + ½H (u² + v² + z²),
+///
+/// zero on the osculating sphere, is interpolated from the vertices in the two rings of both ends
+/// by polyharmonic splines Σ c_i |(u, v) − (u_i, v_i)|⁷ plus a polynomial of degree four. Exact on
+/// spheres; the error, about O(h⁶), is a tenth of that of the cubic patches of SmoothSurface at 200
+/// vertices. Their O(h⁴) repeats from edge to edge, and a flow takes it for a corrugation: it pulls
+/// the vertices in and the middles out, 1.6 % too slow a relaxation at 110 vertices. Where the
+/// rings do not determine the spline, or it would amplify the vertices' noise, the smooth surface's
+/// point stands. About 40 µs per edge.
+[[nodiscard]] std::vector<Vec3> edge_middles(const SurfaceMesh& mesh,
+                                             const SurfaceTopology& topology);
+
+}  // namespace meniscus

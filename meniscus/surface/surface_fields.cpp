@@ -1,0 +1,295 @@
+#include "meniscus/surface/surface_fields.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+#include "meniscus/mesh/surface_measures.hpp"
+
+namespace meniscus {
+namespace {
+
+/// Smallest over largest pivot of a fit; below, a polynomial of lower degree is used.
+constexpr double kSingularPivot = 1e-3;
+
+struct Range {
+  double low, high;
+  void include(const Range& other) {
+    low = std::min(low, other.low);
+    high = std::max(high, other.high);
+  }
+  [[nodiscard]] double clamped(double value) const { return std::clamp(value, low, high); }
+};
+
+/// value + c0 u + c1 v + c2 u² + c3 uv + c4 v² in the frame of the smooth surface's patch.
+struct Quadratic {
+  double value = 0.0;
+  std::array<double, 5> c{};
+  [[nodiscard]] double at(double u, double v) const {
+    return value + u * (c[0] + c[2] * u + c[3] * v) + v * (c[1] + c[4] * v);
+  }
+};
+
+struct Sample {
+  double u, v, difference;
+};
+
+/// Weighted least squares of the first Terms terms; false where they are not determined.
+template <int Terms>
+bool fit(std::span<const Sample> samples, Quadratic& quadratic) {
+  if (samples.size() < Terms) return false;
+  double squared = 0.0;
+  for (const Sample& s : samples) squared += s.u * s.u + s.v * s.v;
+  const double h = std::sqrt(squared / static_cast<double>(samples.size()));
+  Eigen::Matrix<double, Terms, Terms> normal = Eigen::Matrix<double, Terms, Terms>::Zero();
+  Eigen::Matrix<double, Terms, 1> rhs = Eigen::Matrix<double, Terms, 1>::Zero();
+  for (const Sample& s : samples) {
+    const double u = s.u / h, v = s.v / h;
+    const std::array<double, 5> all{u, v, u * u, u * v, v * v};
+    const Eigen::Map<const Eigen::Matrix<double, Terms, 1>> m(all.data());
+    const double weight = 1.0 / (u * u + v * v);
+    normal += weight * m * m.transpose();
+    rhs += weight * s.difference * m;
+  }
+  const Eigen::LLT<Eigen::Matrix<double, Terms, Terms>> factor(normal);
+  if (factor.info() != Eigen::Success) return false;
+  const auto pivots = factor.matrixLLT().diagonal();
+  if (!(pivots.minCoeff() > kSingularPivot * pivots.maxCoeff())) return false;
+  const Eigen::Matrix<double, Terms, 1> solution = factor.solve(rhs);
+  for (int k = 0; k < Terms; ++k)
+    quadratic.c[static_cast<std::size_t>(k)] = solution[k] / (k < 2 ? h : h * h);
+  return true;
+}
+
+/// A vertex field as a function on the old surface.
+class VertexInterpolant {
+ public:
+  VertexInterpolant(const SurfaceChange& change, const VertexField<double>& values)
+      : change_(change), patches_(values.size()), ranges_(values.size()) {
+    std::vector<Sample> samples;
+    for (const VertexId v : values.ids()) {
+      const HeightPatch& frame = change.surface.patch(v);
+      Range range{values[v], values[v]};
+      samples.clear();
+      for (const VertexId w : change.topology.ring(v)) {
+        const Vec3 d = change.before.x[w] - frame.x;
+        samples.push_back({d.dot(frame.t1), d.dot(frame.t2), values[w] - values[v]});
+        range.include({values[w], values[w]});
+      }
+      patches_[v].value = values[v];
+      if (!fit<5>(samples, patches_[v])) fit<2>(samples, patches_[v]);
+      ranges_[v] = range;
+    }
+  }
+
+  [[nodiscard]] double at(const SurfaceLocation& place) const {
+    const FaceVertices& corners = change_.surface.corners(place.face);
+    const Vec3 flat = change_.surface.flat_point(place);
+    const Vec3 squares = place.weights.cwiseProduct(place.weights);
+    double value = 0.0;
+    Range range = ranges_[corners[0]];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const HeightPatch& frame = change_.surface.patch(corners[k]);
+      const Vec3 d = flat - frame.x;
+      value += squares[static_cast<int>(k)] / squares.sum() *
+               patches_[corners[k]].at(d.dot(frame.t1), d.dot(frame.t2));
+      range.include(ranges_[corners[k]]);
+    }
+    return range.clamped(value);
+  }
+
+ private:
+  const SurfaceChange& change_;
+  VertexField<Quadratic> patches_;
+  VertexField<Range> ranges_;
+};
+
+/// The three faces across the edges of each face.
+FaceField<std::array<FaceId, 3>> neighbours(const SurfaceMesh& mesh,
+                                            const SurfaceTopology& topology) {
+  FaceField<std::array<FaceId, 3>> result(mesh.num_faces());
+  FaceField<std::size_t> count(mesh.num_faces(), 0);
+  for (const SurfaceEdge& e : topology.edges()) {
+    result[e.left][count[e.left]++] = e.right;
+    result[e.right][count[e.right]++] = e.left;
+  }
+  return result;
+}
+
+Vec3 center(const SurfaceMesh& mesh, FaceId f) {
+  const FaceVertices& v = mesh.faces[f];
+  return (mesh.x[v[0]] + mesh.x[v[1]] + mesh.x[v[2]]) / 3.0;
+}
+
+/// A face field as a function on the old surface.
+class FaceInterpolant {
+ public:
+  FaceInterpolant(const SurfaceChange& change, const FaceField<double>& values,
+                  const FaceField<std::array<FaceId, 3>>& beside)
+      : change_(change), values_(values), gradients_(values.size()), ranges_(values.size()) {
+    for (const FaceId f : values.ids()) {
+      const Vec3 here = center(change.before, f);
+      const Vec3 normal = face_area_vector(change.before, f).normalized();
+      const HeightPatch frame = flat_patch(here, normal);
+      std::array<Sample, 3> samples{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const FaceId g = beside[f][k];
+        // Turned into the plane of the face about the common edge, nearly: at its own distance.
+        const Vec3 d = center(change.before, g) - here;
+        const Vec3 flat = d - d.dot(normal) * normal;
+        const double stretch = d.norm() / flat.norm();
+        samples[k] = {stretch * flat.dot(frame.t1), stretch * flat.dot(frame.t2),
+                      values[g] - values[f]};
+      }
+      Quadratic linear;
+      fit<2>(samples, linear);
+      gradients_[f] = linear.c[0] * frame.t1 + linear.c[1] * frame.t2;
+    }
+    find_ranges();
+    for (const FaceId f : values.ids()) limit_gradient(f);
+  }
+
+  [[nodiscard]] double at(const SurfaceLocation& place) const {
+    const Vec3 d = change_.surface.flat_point(place) - center(change_.before, place.face);
+    return ranges_[place.face].clamped(values_[place.face] + gradients_[place.face].dot(d));
+  }
+
+ private:
+  /// Of a face and all that it shares a vertex with: the three beside it do not reach as far as its
+  /// own corners do.
+  void find_ranges() {
+    const SurfaceMesh& mesh = change_.before;
+    for (const FaceId f : values_.ids()) {
+      ranges_[f] = {values_[f], values_[f]};
+      for (const VertexId v : mesh.faces[f])
+        for (const FaceId g : change_.topology.faces_around(v))
+          ranges_[f].include({values_[g], values_[g]});
+    }
+  }
+
+  /// Flattens the face's function until its corners are within range: cut off there instead, it
+  /// would no longer have the mean that the face has.
+  void limit_gradient(FaceId f) {
+    const Vec3 here = center(change_.before, f);
+    double factor = 1.0;
+    for (const VertexId v : change_.before.faces[f]) {
+      const double rise = gradients_[f].dot(change_.before.x[v] - here);
+      const double room = rise > 0.0 ? ranges_[f].high - values_[f] : ranges_[f].low - values_[f];
+      if (std::abs(rise) > std::abs(room)) factor = std::min(factor, room / rise);
+    }
+    gradients_[f] *= factor;
+  }
+
+  const SurfaceChange& change_;
+  const FaceField<double>& values_;
+  FaceField<Vec3> gradients_;
+  FaceField<Range> ranges_;
+};
+
+/// Four points of a new face, the centres of the quarters it is cut into by its mid-edges, on the
+/// old surface.
+std::array<SurfaceLocation, 4> sample_places(const SurfaceChange& change, FaceId f) {
+  const FaceVertices& v = change.after.faces[f];
+  std::array<Vec3, 3> flat;
+  for (std::size_t k = 0; k < 3; ++k) flat[k] = change.surface.flat_point(change.places[v[k]]);
+  const Vec3 middle = (flat[0] + flat[1] + flat[2]) / 3.0;
+  std::array<SurfaceLocation, 4> places;
+  for (std::size_t k = 0; k < 3; ++k)
+    places[k] = change.walk.moved(change.places[v[k]], 0.5 * (middle - flat[k]));
+  places[3] = change.walk.moved(change.places[v[0]], middle - flat[0]);
+  return places;
+}
+
+/// Pieces of the old surface, by number, and for each element of the new mesh the one it lies on.
+struct Pieces {
+  int count = 0;
+  FaceField<int> of_old_face;
+
+  Pieces(const SurfaceMesh& mesh, const FaceField<std::array<FaceId, 3>>& beside)
+      : of_old_face(mesh.num_faces(), -1) {
+    std::vector<FaceId> open;
+    for (const FaceId seed : of_old_face.ids()) {
+      if (of_old_face[seed] >= 0) continue;
+      of_old_face[seed] = count;
+      open.push_back(seed);
+      while (!open.empty()) {
+        const FaceId f = open.back();
+        open.pop_back();
+        for (const FaceId g : beside[f]) {
+          if (of_old_face[g] >= 0) continue;
+          of_old_face[g] = count;
+          open.push_back(g);
+        }
+      }
+      ++count;
+    }
+  }
+};
+
+/// Makes Σ weight · value of each piece what it was.
+template <class Id, class PieceOfNew, class PieceOfOld>
+void conserve(Field<Id, double>& after, const Field<Id, double>& weights_after,
+              const PieceOfNew& piece_of_new, const Field<Id, double>& before,
+              const Field<Id, double>& weights_before, const PieceOfOld& piece_of_old, int pieces) {
+  std::vector<double> missing(static_cast<std::size_t>(pieces), 0.0), size = missing;
+  for (const Id i : before.ids())
+    missing[static_cast<std::size_t>(piece_of_old(i))] += weights_before[i] * before[i];
+  for (const Id i : after.ids()) {
+    const auto piece = static_cast<std::size_t>(piece_of_new(i));
+    missing[piece] -= weights_after[i] * after[i];
+    size[piece] += weights_after[i] * std::abs(after[i]);
+  }
+  for (const Id i : after.ids()) {
+    const auto piece = static_cast<std::size_t>(piece_of_new(i));
+    if (size[piece] > 0.0) after[i] += missing[piece] / size[piece] * std::abs(after[i]);
+  }
+}
+
+FaceField<double> face_areas(const SurfaceMesh& mesh) {
+  FaceField<double> areas(mesh.num_faces());
+  for (const FaceId f : areas.ids()) areas[f] = face_area_vector(mesh, f).norm();
+  return areas;
+}
+
+}  // namespace
+
+SurfaceFields transferred(const SurfaceFields& fields, const SurfaceChange& change) {
+  SurfaceFields result;
+  if (fields.empty()) return result;
+  const auto beside = neighbours(change.before, change.topology);
+  const Pieces pieces(change.before, beside);
+  const auto piece_of_vertex = [&](VertexId v) {
+    return pieces.of_old_face[change.places[v].face];
+  };
+
+  for (const SurfaceFields::OnVertices& field : fields.on_vertices) {
+    const VertexInterpolant interpolant(change, field.values);
+    VertexField<double> values(change.after.num_vertices());
+    for (const VertexId v : values.ids()) values[v] = interpolant.at(change.places[v]);
+    if (field.transfer == FieldTransfer::conserved)
+      conserve(
+          values, vertex_areas(change.after), piece_of_vertex, field.values,
+          vertex_areas(change.before),
+          [&](VertexId v) { return pieces.of_old_face[change.topology.faces_around(v)[0]]; },
+          pieces.count);
+    result.on_vertices.push_back({std::move(values), field.transfer});
+  }
+  for (const SurfaceFields::OnFaces& field : fields.on_faces) {
+    const FaceInterpolant interpolant(change, field.values, beside);
+    FaceField<double> values(change.after.num_faces(), 0.0);
+    for (const FaceId f : values.ids())
+      for (const SurfaceLocation& place : sample_places(change, f))
+        values[f] += 0.25 * interpolant.at(place);
+    if (field.transfer == FieldTransfer::conserved)
+      conserve(
+          values, face_areas(change.after),
+          [&](FaceId f) { return piece_of_vertex(change.after.faces[f][0]); }, field.values,
+          face_areas(change.before), [&](FaceId f) { return pieces.of_old_face[f]; }, pieces.count);
+    result.on_faces.push_back({std::move(values), field.transfer});
+  }
+  return result;
+}
+
+}  // namespace meniscus

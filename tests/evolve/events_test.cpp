@@ -1,0 +1,113 @@
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "meniscus/evolve/evolution.hpp"
+#include "meniscus/mesh/shapes.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "tests/evolve/prescribed_flow.hpp"
+
+namespace meniscus {
+namespace {
+
+/// Two drops on the x-axis.
+Scene two_drops() {
+  Scene scene;
+  scene.is_unbounded = true;
+  scene.liquids.add({});
+  for (const double x : {-0.56, 0.56}) {
+    Interface drop;
+    drop.drop = static_cast<int>(scene.interfaces.size());
+    drop.mesh = sphere(100, 0.5, Vec3(x, 0, 0));
+    drop.C0 = 100 / 12.566;
+    drop.volume = drop.initial_volume = enclosed_volume(drop.mesh);
+    scene.interfaces.push_back(std::move(drop));
+    scene.liquids.add({});
+  }
+  assign_regions(scene);
+  return scene;
+}
+
+Evolution evolution_of(const Scene& scene, bool coalescence) {
+  EvolutionOptions options;
+  options.end = 10.0;
+  options.max_step = 0.02;
+  options.min_step = 1e-4;
+  options.edge_floor = 0.02;
+  options.topology = {.breakup_radius = 0.04,
+                      .coalescence = coalescence,
+                      .coalescence_gap = coalescence ? 0.05 : 0.0,
+                      .edge_floor = 0.02};
+  return {scene, options, std::make_unique<PrescribedFlow>([](const Vec3& x, double) {
+            return Vec3(x.x() < 0.0 ? 1.0 : -1.0, 0.0, 0.0);  // toward each other, as they are
+          })};
+}
+
+/// Steps until something has happened, at most `count`; the last report.
+EvolutionReport run(Evolution& evolution, int count) {
+  EvolutionReport report = evolution.prepare();
+  for (int i = 0; report.ok && i < count && evolution.events().empty(); ++i) {
+    report = evolution.solve();
+    if (report.ok) report = evolution.advance();
+  }
+  return report;
+}
+
+TEST(EvolutionEvents, MergeDropsThatMeetAndGoOn) {
+  Evolution evolution = evolution_of(two_drops(), true);
+  const EvolutionReport report = run(evolution, 100);
+  ASSERT_TRUE(report.ok) << report.failure;
+  ASSERT_EQ(evolution.events().size(), 1U);
+  const TopologyEvent& event = evolution.events()[0];
+  EXPECT_EQ(event.kind, EventKind::coalescence);
+  EXPECT_EQ(evolution.scene().interfaces.size(), 1U);
+  EXPECT_EQ(evolution.drop_rows().size(), 1U);
+  EXPECT_EQ(evolution.drop_rows()[0].drop, 2);
+  EXPECT_NEAR(event.volume_after, event.volume_before, 1e-12 * event.volume_before);
+  ASSERT_TRUE(evolution.solve().ok);
+  const EvolutionReport next = evolution.advance();
+  ASSERT_TRUE(next.ok) << next.failure;
+  EXPECT_TRUE(evolution.events().empty());
+}
+
+TEST(EvolutionEvents, ArePartOfTheCheckpointAfterThem) {
+  Evolution evolution = evolution_of(two_drops(), true);
+  ASSERT_TRUE(run(evolution, 100).ok);
+  ASSERT_EQ(evolution.events().size(), 1U);
+  Archive archive;
+  evolution.save(archive);
+  Evolution again = evolution_of(two_drops(), true);
+  again.load(archive);
+  ASSERT_EQ(again.events().size(), 1U);
+  const TopologyEvent &a = evolution.events()[0], &b = again.events()[0];
+  EXPECT_EQ(a.parents, b.parents);
+  EXPECT_EQ(a.children, b.children);
+  EXPECT_EQ(a.place, b.place);
+  EXPECT_EQ(a.gap, b.gap);
+  EXPECT_EQ(a.neck_radius, b.neck_radius);
+  EXPECT_EQ(a.energy_after, b.energy_after);
+  EXPECT_EQ(again.scene().liquids.size(), 2);
+  EXPECT_EQ(again.scene().interfaces[0].mesh, evolution.scene().interfaces[0].mesh);
+}
+
+TEST(EvolutionEvents, RefusesToLetDropsTouchWithoutCoalescence) {
+  Evolution evolution = evolution_of(two_drops(), false);
+  const EvolutionReport report = run(evolution, 100);
+  ASSERT_FALSE(report.ok);
+  EXPECT_NE(report.failure.find("drops 0 and 1 touch"), std::string::npos) << report.failure;
+  EXPECT_NE(report.failure.find("topology.coalescence = \"off\""), std::string::npos);
+  EXPECT_EQ(evolution.scene().interfaces.size(), 2U);
+}
+
+TEST(EvolutionEvents, StopAtOnceWhereUnlikeDropsWouldMerge) {
+  Scene scene = two_drops();
+  scene.liquids[RegionId{2}].viscosity = 2.0;
+  Evolution evolution = evolution_of(scene, true);
+  const EvolutionReport report = run(evolution, 100);
+  ASSERT_FALSE(report.ok);
+  EXPECT_TRUE(report.is_final);
+  EXPECT_NE(report.failure.find("unlike"), std::string::npos) << report.failure;
+}
+
+}  // namespace
+}  // namespace meniscus

@@ -1,0 +1,231 @@
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "meniscus/mesh/shapes.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/topology/cut_neck.hpp"
+#include "meniscus/topology/successors.hpp"
+#include "tests/surface/shapes.hpp"
+#include "tests/topology/scenes.hpp"
+
+namespace meniscus {
+namespace {
+
+using test::fault_after, test::scene_of;
+
+constexpr double kGap = 0.02;
+const TopologyOptions kMerge{.coalescence = true, .coalescence_gap = kGap};
+
+SurfaceMesh unit_sphere(const Vec3& center, int vertices = 400) {
+  SurfaceMesh mesh = sphere(vertices, 1.0, center);
+  EXPECT_TRUE(remesh(mesh, {.C0 = vertices / (4.0 * std::numbers::pi)}).ok);
+  return mesh;
+}
+
+/// Two unit spheres whose surfaces are `gap` apart on the x-axis.
+Scene two_spheres(double gap) {
+  const std::vector<SurfaceMesh> meshes{unit_sphere(Vec3(-1.0 - gap / 2, 0, 0)),
+                                        unit_sphere(Vec3(1.0 + gap / 2, 0, 0))};
+  return scene_of(meshes, 400 / (4.0 * std::numbers::pi));
+}
+
+TEST(Coalescence, JoinsTwoSpheresThatApproach) {
+  Scene scene = two_spheres(0.5 * kGap);
+  const Scene before = scene;
+  const auto toward = [](const Vec3& x) { return Vec3(x.x() < 0.0 ? 1.0 : -1.0, 0, 0); };
+  const TopologyReport report = apply_topology(scene, kMerge, test::motion_of(scene, toward));
+  ASSERT_EQ(report.events.size(), 1U) << (report.warnings.empty() ? "" : report.warnings[0]);
+  EXPECT_EQ(fault_after(before, scene, report), "");
+  const TopologyEvent& event = report.events[0];
+  EXPECT_EQ(event.kind, EventKind::coalescence);
+  EXPECT_EQ(event.parents, (std::vector<int>{0, 1}));
+  EXPECT_EQ(event.children, std::vector<int>{2});
+  EXPECT_FALSE(event.neck_radius);
+  ASSERT_TRUE(event.gap);
+  EXPECT_LT(*event.gap, kGap);
+  EXPECT_GE(*event.gap, 0.5 * kGap);
+  // Vertices are an edge apart, 0.17, and the spheres flat there over half of that: 0.17²/4.
+  EXPECT_LT(event.place.norm(), 0.17);
+  ASSERT_EQ(scene.interfaces.size(), 1U);
+  EXPECT_EQ(test::euler_characteristic(scene.interfaces[0].mesh), 2);
+  EXPECT_EQ(scene.interfaces[0].parent, 0);
+  EXPECT_LT(event.area_after, event.area_before);
+}
+
+TEST(Coalescence, LeavesDropsThatPartOrAreFarAlone) {
+  Scene scene = two_spheres(0.5 * kGap);
+  const auto apart = [](const Vec3& x) { return Vec3(x.x() < 0.0 ? -1.0 : 1.0, 0, 0); };
+  EXPECT_TRUE(apply_topology(scene, kMerge, test::motion_of(scene, apart)).events.empty());
+  Scene far = two_spheres(1.2 * kGap);
+  EXPECT_TRUE(apply_topology(far, kMerge, {}).events.empty());
+  Scene off = two_spheres(0.5 * kGap);
+  EXPECT_TRUE(apply_topology(off, {.coalescence_gap = kGap}, {}).events.empty());
+}
+
+TEST(Coalescence, OfUnlikeLiquidsIsRefused) {
+  Scene scene = two_spheres(0.5 * kGap);
+  scene.liquids[RegionId{2}].viscosity = 3.0;
+  const Scene before = scene;
+  TopologyReport report = apply_topology(scene, kMerge, {});
+  EXPECT_NE(report.refusal.find("viscosity ratios 1 and 3"), std::string::npos) << report.refusal;
+  EXPECT_TRUE(report.events.empty());
+  EXPECT_EQ(scene.interfaces[0].mesh, before.interfaces[0].mesh);
+  scene.liquids[RegionId{2}].viscosity = 1.0;
+  scene.interfaces[1].tension = 2.0;
+  report = apply_topology(scene, kMerge, {});
+  EXPECT_NE(report.refusal.find("surface tensions 1 and 2"), std::string::npos) << report.refusal;
+}
+
+TEST(Coalescence, ReleasesADropFromTheDropAroundIt) {
+  // An inner drop of the matrix's liquid, off centre: the film of the outer drop's liquid opens.
+  const std::vector<SurfaceMesh> meshes{unit_sphere(Vec3::Zero()),
+                                        sphere(200, 0.4, Vec3(0.6 - 0.5 * kGap, 0, 0))};
+  Scene scene = scene_of(meshes, 400 / (4.0 * std::numbers::pi));
+  scene.liquids[RegionId{1}].viscosity = 5.0;
+  const Scene before = scene;
+  const TopologyReport report = apply_topology(scene, kMerge, {});
+  ASSERT_EQ(report.events.size(), 1U)
+      << report.refusal << (report.warnings.empty() ? "" : report.warnings[0]);
+  EXPECT_EQ(fault_after(before, scene, report), "");
+  ASSERT_EQ(scene.interfaces.size(), 1U);
+  EXPECT_EQ(scene.liquids[RegionId{1}].viscosity, 5.0);
+  EXPECT_NEAR(scene.interfaces[0].volume, before.interfaces[0].volume - before.interfaces[1].volume,
+              1e-12);
+}
+
+/// A torus with a gap in it: a drop bent until its ends nearly meet, `gap` apart.
+SurfaceMesh bent_drop(double gap) {
+  SurfaceMesh mesh = stretched_sphere(1500, {3.0, 0.3, 0.3});
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(remesh(mesh, {.C0 = 9.0}).ok);
+  // The axis, 6 long, becomes an arc that leaves the gap open.
+  const double radius = (6.0 + gap) / (2.0 * std::numbers::pi);
+  for (Vec3& x : mesh.x) {
+    const double angle = x.x() / radius, r = radius + x.y();
+    x = Vec3(r * std::sin(angle), r * std::cos(angle), x.z());
+  }
+  return mesh;
+}
+
+TEST(Coalescence, ClosesABentDropToATorus) {
+  const std::vector<SurfaceMesh> meshes{bent_drop(0.5 * kGap)};
+  Scene scene = scene_of(meshes, 9.0);
+  const Scene before = scene;
+  ASSERT_EQ(find_conflict(scene), "");
+  const TopologyReport report = apply_topology(scene, kMerge, {});
+  ASSERT_EQ(report.events.size(), 1U) << (report.warnings.empty() ? "" : report.warnings[0]);
+  EXPECT_EQ(fault_after(before, scene, report), "");
+  ASSERT_EQ(scene.interfaces.size(), 1U);
+  EXPECT_EQ(scene.interfaces[0].drop, 1);
+  EXPECT_EQ(test::euler_characteristic(scene.interfaces[0].mesh), 0);
+}
+
+TEST(Coalescence, ClosesTheHoleOfATorus) {
+  SurfaceMesh mesh = test::torus(60, 24, 0.5, 0.494);
+  for (int i = 0; i < 4; ++i) ASSERT_TRUE(remesh(mesh, {.C0 = 14.0}).ok);
+  const std::vector<SurfaceMesh> meshes{mesh};
+  Scene scene = scene_of(meshes, 9.0);
+  const Scene before = scene;
+  const TopologyReport report = apply_topology(scene, kMerge, {});
+  ASSERT_EQ(report.events.size(), 1U) << (report.warnings.empty() ? "" : report.warnings[0]);
+  EXPECT_EQ(fault_after(before, scene, report), "");
+  EXPECT_EQ(report.events[0].kind, EventKind::coalescence);
+  ASSERT_EQ(scene.interfaces.size(), 1U);
+  EXPECT_EQ(test::euler_characteristic(scene.interfaces[0].mesh), 2);
+}
+
+TEST(Coalescence, PuncturesASheet) {
+  // A disc with a dimple on either side, half a gap thick at its middle.
+  SurfaceMesh mesh = stretched_sphere(1200, {1.0, 1.0, 0.2});
+  RemeshOptions options{.C0 = 20.0};
+  options.size_bound = [](const Vec3& x) { return 0.03 + 0.5 * std::hypot(x.x(), x.y()); };
+  for (int i = 0; i < 4; ++i) ASSERT_TRUE(remesh(mesh, options).ok);
+  for (Vec3& x : mesh.x)
+    x.z() *= 1.0 - (1.0 - 0.25 * kGap / 0.2) * std::exp(-6.0 * (x.x() * x.x() + x.y() * x.y()));
+  const std::vector<SurfaceMesh> meshes{mesh};
+  Scene scene = scene_of(meshes, 20.0);
+  const Scene before = scene;
+  const TopologyReport report = apply_topology(scene, kMerge, {});
+  ASSERT_EQ(report.events.size(), 1U) << (report.warnings.empty() ? "" : report.warnings[0]);
+  EXPECT_EQ(fault_after(before, scene, report), "");
+  ASSERT_EQ(scene.interfaces.size(), 1U);
+  EXPECT_EQ(test::euler_characteristic(scene.interfaces[0].mesh), 0);
+}
+
+TEST(Coalescence, OfTheHoleToAPocketLeavesAVoid) {
+  // A sphere with a pocket that a thin channel joins to the outside: made by opening the film
+  // between a drop and a drop in it.
+  const std::vector<SurfaceMesh> meshes{unit_sphere(Vec3::Zero()),
+                                        sphere(200, 0.4, Vec3(0.6 - 0.5 * kGap, 0, 0))};
+  const double inner_volume = enclosed_volume(meshes[1]);
+  Scene scene = scene_of(meshes, 400 / (4.0 * std::numbers::pi));
+  ASSERT_EQ(apply_topology(scene, kMerge, {}).events.size(), 1U);
+  ASSERT_EQ(scene.interfaces.size(), 1U);
+  const Scene before = scene;
+  const SurfaceMesh& mesh = before.interfaces[0].mesh;
+  const auto necks = find_necks(mesh, SurfaceTree(mesh), Side::outside, 0.25, {});
+  ASSERT_EQ(necks.size(), 1U);
+  Surgery surgery = cut_neck(mesh, necks[0]);
+  ASSERT_EQ(surgery.failure, "");
+  TopologyReport report;
+  report.events.emplace_back();
+  ASSERT_EQ(succeed(scene, {{0}, std::move(surgery.pieces)}, report.events[0]), "");
+  report.events[0].area_after = 0.0;  // a wide channel closed by hand: no event of a run
+  EXPECT_EQ(fault_after(before, scene, report), "");
+  ASSERT_EQ(scene.interfaces.size(), 2U);
+  const bool is_first_outer = scene.interfaces[0].outside == RegionId{0};
+  const Interface &outer = scene.interfaces[is_first_outer ? 0 : 1],
+                  &pocket = scene.interfaces[is_first_outer ? 1 : 0];
+  EXPECT_EQ(pocket.outside, outer.inside);
+  EXPECT_NEAR(outer.volume - pocket.volume, before.interfaces[0].volume, 1e-12);
+  // The drop that was let in, less about a dome of the width of the hole, a tenth of its radius
+  // high.
+  EXPECT_NEAR(pocket.volume, inner_volume, 0.06 * inner_volume);
+}
+
+TEST(Coalescence, DoesNotDependOnTheNumberingOfVertices) {
+  const Scene scene = two_spheres(0.5 * kGap);
+  std::vector<TopologyEvent> events;
+  for (const unsigned seed : {0U, 6U, 7U}) {
+    Scene other = scene;
+    for (Interface& drop : other.interfaces)
+      if (seed != 0U) drop.mesh = test::shuffled(drop.mesh, seed);
+    const TopologyReport report = apply_topology(other, kMerge, {});
+    ASSERT_EQ(report.events.size(), 1U);
+    events.push_back(report.events[0]);
+  }
+  for (std::size_t k = 1; k < events.size(); ++k) {
+    EXPECT_LT((events[k].place - events[0].place).norm(), 1e-12);
+    EXPECT_NEAR(*events[k].gap, *events[0].gap, 1e-12);
+  }
+}
+
+TEST(Coalescence, TakesOutAFilmThatItWouldTrap) {
+  // Two spheres, dimpled where they face each other: closest on a ring of radius 0.1, 0.7 limits
+  // apart there and 1.2 in the middle. The film within has a volume of about 2e-4, that of a sphere
+  // of radius 0.037, less than two limits.
+  Scene scene = two_spheres(0.5 * kGap);
+  for (Interface& drop : scene.interfaces) {
+    const double side = enclosed_centroid(drop.mesh).x() < 0.0 ? -1.0 : 1.0;
+    RemeshOptions options{.C0 = drop.C0};
+    options.size_bound = [](const Vec3& x) { return 0.02 + 0.5 * x.norm(); };
+    for (int i = 0; i < 6; ++i) ASSERT_TRUE(remesh(drop.mesh, options).ok);
+    for (Vec3& x : drop.mesh.x) {
+      const double rho2 = x.y() * x.y() + x.z() * x.z();
+      if (rho2 < 0.15 * 0.15 && side * x.x() < 0.5)
+        x.x() = side * (0.35 * kGap + 0.25 * kGap * std::pow(rho2 / 0.01 - 1.0, 2));
+    }
+    drop.volume = enclosed_volume(drop.mesh);
+  }
+  ASSERT_EQ(find_conflict(scene), "");
+  const Scene before = scene;
+  const TopologyReport report = apply_topology(scene, kMerge, {});
+  ASSERT_EQ(report.events.size(), 1U) << (report.warnings.empty() ? "" : report.warnings[0]);
+  EXPECT_EQ(fault_after(before, scene, report), "");
+  ASSERT_EQ(scene.interfaces.size(), 1U);
+  EXPECT_EQ(test::euler_characteristic(scene.interfaces[0].mesh), 2);
+}
+
+}  // namespace
+}  // namespace meniscus
