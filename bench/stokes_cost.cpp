@@ -67,8 +67,7 @@ void measure(const Scene& scene, const TetMesh& mesh, Elements elements, LinearS
   fmt::print("| {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} |\n", label,
              elements == Elements::p1_p1 ? "P1-P1" : "P2-P1", space.velocity.num_nodes,
              report.ok ? "yes" : report.failure, report.iterations, graph, assembly, solve,
-             graph + assembly + solve,
-             1e6 * (graph + assembly + solve) / space.velocity.num_nodes);
+             graph + assembly + solve, 1e6 * (graph + assembly + solve) / space.velocity.num_nodes);
   std::fflush(stdout);
 }
 

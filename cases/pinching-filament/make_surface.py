@@ -6,8 +6,8 @@ round-ended thread of radius 1 + e cos(k x) that is nine wavelengths and more lo
     make_surface.py OUTPUT --wavenumber K [--amplitude 0.01] [--wavelengths 9.5] [--edges 16]
 
 Rings of vertices an edge apart, the edge about 2 pi r/EDGES, as many vertices on each as its own
-length asks for, and a vertex at each end. A mesh inscribed in the shape is scaled up across the axis, so that
-its volume is that of the smooth shape; of the filament, 4 pi/3.
+length asks for, and a vertex at each end. The vertices of the thread lie on it; those of the filament a little
+outside, so that its triangulation has the volume 4 pi/3.
 """
 import argparse
 import math
@@ -115,7 +115,7 @@ def main():
     if volume < 0:
         faces = [(a, c, b) for a, b, c in faces]
         volume = -volume
-    stretch = math.sqrt(smooth_volume(x, r) / volume)
+    stretch = math.sqrt(smooth_volume(x, r) / volume) if options.wavenumber is None else 1.0
     with open(options.output, "w", encoding="utf-8") as out:
         out.write(f"OFF\n{len(points)} {len(faces)} 0\n")
         for px, py, pz in points:

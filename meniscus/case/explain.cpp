@@ -23,12 +23,7 @@ constexpr std::string_view kOverrides =
     "are set key by key.";
 
 std::string allowed(const Key& key) {
-  if (key.only_default) return "only the default in this version";
-  if (key.type == Type::word)
-    return schema::quoted_list(key.words) +
-           (key.later.empty() ? ""
-                              : fmt::format(" (not available in this version: {})",
-                                            schema::quoted_list(key.later)));
+  if (key.type == Type::word) return schema::quoted_list(key.words);
   const std::string range = schema::range_text(key.range);
   const bool is_vector = key.type == Type::vector;
   return fmt::format("{}{}{}", schema::description(key.type), range.empty() ? "" : ", ",

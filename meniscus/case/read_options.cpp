@@ -128,7 +128,7 @@ void read_fixed_keys(Settings& settings, FlowMethod method) {
   for (const schema::Key& key : schema::keys()) {
     if (key.path == "solver.elements" && method != FlowMethod::finite_element) continue;
     const bool has_one_word = key.type == schema::Type::word && key.words.size() == 1;
-    if (key.only_default || has_one_word) settings.note(std::string(key.path));
+    if (has_one_word) settings.note(std::string(key.path));
   }
 }
 

@@ -121,9 +121,6 @@ namespace {
 void check_word(const Key& key, const Value& value, std::string_view place, std::string_view name) {
   const std::string& word = std::get<std::string>(value);
   if (std::ranges::find(key.words, word) != key.words.end()) return;
-  if (std::ranges::find(key.later, word) != key.later.end())
-    reject_input("{}: {} = {} is not available in this version; available: {}", place, name,
-                 to_toml(value), quoted_list(key.words));
   const std::string_view near = nearest_word(word, key.words);
   reject_input("{}: {} = {} must be one of {}{}", place, name, to_toml(value),
                quoted_list(key.words),
@@ -149,9 +146,6 @@ std::string range_complaint(const Key& key, const Value& value) {
 
 void check_value(const Key& key, const Value& value, std::string_view place,
                  std::string_view name) {
-  if (key.only_default && value != *key.value)
-    reject_input("{}: {} = {} is not available in this version; only {} is", place, name,
-                 to_toml(value), to_toml(*key.value));
   const bool is_word = std::holds_alternative<std::string>(value);
   if (is_word && (key.type == Type::word || key.type == Type::velocity))
     check_word(key, value, place, name);

@@ -30,11 +30,8 @@ struct Key {
   Dimension dimension = Dimension::none;
   Range range = {};
   std::vector<std::string_view> words = {};  ///< allowed words of a `word`
-  std::vector<std::string_view> later = {};  ///< words of a coming version: refused, with that
-                                             ///< reason
   std::optional<Value> value = {};           ///< the default; none: see `default_note`
   std::string_view default_note = {};        ///< "required", or how the default follows from others
-  bool only_default = false;                 ///< the feature behind any other value is yet to come
   std::string_view applies = {};  ///< the cases in which the key has an effect; empty: all
   std::string_view sentence = {};
 };

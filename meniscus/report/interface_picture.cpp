@@ -74,6 +74,14 @@ std::vector<FaceId> visible_faces(const SurfaceFrame& frame, const View& view) {
   return faces;
 }
 
+/// The longest of 1, 2 and 5 times a power of ten that is not above `room`.
+double longest_round_length(double room) {
+  const double power = std::pow(10.0, std::floor(std::log10(room)));
+  for (const double digit : {5.0, 2.0})
+    if (digit * power <= room) return digit * power;
+  return power;
+}
+
 }  // namespace
 
 View common_view(std::span<const SurfaceFrame> frames, double width) {
@@ -157,9 +165,8 @@ std::string draw_key(const View& view, const ValueRange& range, bool has_colors)
   if (has_colors) {
     text += draw_color_bar(range, "Curvature κ = k₁ + k₂ [1/R₀]", 10.0, 24.0, 260.0);
   }
-  // The length R0, or the part of it that has room.
-  const double length = std::min(view.scale, 120.0);
-  const std::string name = view.scale <= 120.0 ? "R₀" : readable(length / view.scale, 2) + " R₀";
+  const double shown = longest_round_length(120.0 / view.scale), length = shown * view.scale;
+  const std::string name = shown == 1.0 ? "R₀" : readable(shown, 1) + " R₀";
   text += fmt::format(R"(<path class="ax" d="M310 29h{0:.1f}m0 -4v8m-{0:.1f} 0v-8"/>)"
                       R"(<text x="{1:.1f}" y="17" text-anchor="middle">{2}</text>)",
                       length, 310.0 + 0.5 * length, name);

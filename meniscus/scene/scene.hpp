@@ -72,8 +72,9 @@ struct Scene {
 /// R0³].
 [[nodiscard]] double imposed_flux(const Scene& scene, double t);
 [[nodiscard]] bool has_open_patch(const Scene& scene);
-/// Numbers the regions afresh: that of interface i + 1 within interface i, and outside it that of the
-/// innermost interface around it, found by the place of its first vertex. Interfaces must not meet.
+/// Numbers the regions afresh: that of interface i + 1 within interface i, and outside it that of
+/// the innermost interface around it, found by the place of its first vertex. Interfaces must not
+/// meet.
 void assign_regions(Scene& scene);
 /// Names the first place where interfaces touch each other or the boundary, or lie outside it, or
 /// where the nesting contradicts `inside`/`outside`; empty when the scene is sound.

@@ -42,11 +42,6 @@ FacePatch band_around(const SurfaceMesh& mesh, const FaceNeighbours& neighbours,
   return band;
 }
 
-bool is_ring(const SurfaceMesh& mesh, const FacePatch& band) {
-  const auto curves = boundary_curves(mesh, band);
-  return curves && curves->size() == 2 && is_planar(mesh, band, 2);
-}
-
 /// The surface with one band taken out and its ends closed; why not, else.
 std::string cut(const SurfaceMesh& mesh, const FacePatch& band, std::vector<SurfaceMesh>& pieces) {
   const std::vector<SurfaceMesh> open = connected_pieces(without(mesh, band));
@@ -64,8 +59,8 @@ Surgery cut_neck(const SurfaceMesh& mesh, const Neck& neck) {
   const FaceNeighbours neighbours = face_neighbours(mesh, topology);
   Surgery surgery{{}, "the faces around the neck form no ring"};
   for (const double reach : kReaches) {
-    const FacePatch band = band_around(mesh, neighbours, neck, reach * neck.radius);
-    if (!is_ring(mesh, band)) continue;
+    FacePatch band = band_around(mesh, neighbours, neck, reach * neck.radius);
+    if (!make_ring(mesh, topology, neighbours, band)) continue;
     surgery.failure = cut(mesh, band, surgery.pieces);
     if (surgery.failure.empty()) return surgery;
   }

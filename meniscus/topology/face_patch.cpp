@@ -75,6 +75,16 @@ double area_of(const SurfaceMesh& mesh, std::span<const FaceId> faces) {
   return area;
 }
 
+/// Adds what a patch leaves of its piece of the surface, except the largest parts of it (by area).
+void fill_all_but(std::size_t kept, const SurfaceMesh& mesh, const FaceNeighbours& neighbours,
+                  FacePatch& patch) {
+  std::vector<std::vector<FaceId>> parts = complement_parts(mesh, neighbours, patch);
+  std::ranges::sort(
+      parts, [&](const auto& a, const auto& b) { return area_of(mesh, a) > area_of(mesh, b); });
+  for (std::size_t k = kept; k < parts.size(); ++k)
+    for (const FaceId f : parts[k]) patch[f] = true;
+}
+
 }  // namespace
 
 FaceNeighbours face_neighbours(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
@@ -125,15 +135,18 @@ bool is_planar(const SurfaceMesh& mesh, const FacePatch& patch, std::size_t num_
   return euler == 2 - static_cast<long>(num_boundaries);
 }
 
+bool make_ring(const SurfaceMesh& mesh, const SurfaceTopology& topology,
+               const FaceNeighbours& neighbours, FacePatch& patch) {
+  open_pinches(mesh, topology, patch);
+  fill_all_but(2, mesh, neighbours, patch);
+  const auto curves = boundary_curves(mesh, patch);
+  return curves && curves->size() == 2 && is_planar(mesh, patch, 2);
+}
+
 bool make_disc(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                const FaceNeighbours& neighbours, FacePatch& patch) {
   open_pinches(mesh, topology, patch);
-  std::vector<std::vector<FaceId>> parts = complement_parts(mesh, neighbours, patch);
-  if (parts.empty()) return false;
-  std::ranges::sort(
-      parts, [&](const auto& a, const auto& b) { return area_of(mesh, a) > area_of(mesh, b); });
-  for (std::size_t k = 1; k < parts.size(); ++k)
-    for (const FaceId f : parts[k]) patch[f] = true;
+  fill_all_but(1, mesh, neighbours, patch);
   const auto curves = boundary_curves(mesh, patch);
   return curves && curves->size() == 1 && is_planar(mesh, patch, 1);
 }

@@ -60,9 +60,9 @@ const std::vector<BadCase> kValues{
     {"misspelt word", flow("kind = \"simple-sheer\"\n"),
      "case.toml:2: flow.kind = \"simple-sheer\" must be one of \"simple-shear\", "
      "\"uniaxial-extension\", \"planar-extension\", \"quiescent\"; did you mean \"simple-shear\"?"},
-    {"word of a coming version", shear_with("[solver]\nelements = \"P2-P1\"\n"),
-     "case.toml:7: solver.elements = \"P2-P1\" is not available in this version; available: "
-     "\"P1-P1\""},
+    {"elements there are none of", shear_with("[solver]\nelements = \"P2-P2\"\n"),
+     "case.toml:7: solver.elements = \"P2-P2\" must be one of \"P1-P1\", \"P2-P1\"; did you mean "
+     "\"P2-P1\"?"},
     {"boundary integrals in a box", shear_with("[solver]\nmethod = \"boundary-integral\"\n"),
      "case.toml:7: solver.method = \"boundary-integral\" needs domain.shape = \"unbounded\""},
     {"unbounded domain", shear_with("[domain]\nshape = \"unbounded\"\n"),

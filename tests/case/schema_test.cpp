@@ -31,7 +31,6 @@ TEST(Schema, EveryKeyIsWhole) {
               !key.words.empty() && key.type != schema::Type::velocity);
     EXPECT_TRUE(key.value.has_value() != !key.default_note.empty())
         << "either a default or a note on it";
-    EXPECT_FALSE(key.only_default && !key.value);
   }
 }
 
@@ -126,8 +125,7 @@ TEST(Explain, WhatResemblesNothingIsSentToTheList) {
 }
 
 TEST(ReferencePage, InDocsIsThatOfTheSchema) {
-  const std::filesystem::path page =
-      std::filesystem::path(__FILE__).parent_path() / "../../docs/case-file.md";
+  const std::filesystem::path page = std::filesystem::path(MENISCUS_DOCS) / "case-file.md";
   if (std::getenv("MENISCUS_UPDATE_DOCS") != nullptr) std::ofstream(page) << reference_page();
   std::ifstream stream(page);
   std::ostringstream text;
@@ -138,7 +136,7 @@ TEST(ReferencePage, InDocsIsThatOfTheSchema) {
 }
 
 TEST(Documentation, IndexNamesEveryPage) {
-  const std::filesystem::path docs = std::filesystem::path(__FILE__).parent_path() / "../../docs";
+  const std::filesystem::path docs = MENISCUS_DOCS;
   std::ifstream stream(docs / "README.md");
   std::ostringstream index;
   index << stream.rdbuf();

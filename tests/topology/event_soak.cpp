@@ -32,13 +32,13 @@ class RandomFlow {
     for (Mode& mode : modes_) {
       mode.k = 0.7 * Vec3(normal(random), normal(random), normal(random));
       const Vec3 a(normal(random), normal(random), normal(random));
-      mode.v = 0.4 * a.cross(mode.k);
+      mode.v = 0.8 * a.cross(mode.k);
       mode.phase = phase(random);
     }
   }
   [[nodiscard]] Vec3 operator()(const Vec3& x) const {
     // Drawn back to the middle: drops that drift apart meet no more.
-    Vec3 v = -0.15 * x;
+    Vec3 v = -0.3 * x;
     for (const Mode& mode : modes_) v += mode.v * std::sin(mode.k.dot(x) + mode.phase);
     return v;
   }

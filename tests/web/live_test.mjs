@@ -12,8 +12,8 @@ const folder = join(work, "run");
 rmSync(folder, { recursive: true, force: true });
 const browser = await openBrowser(web, chromium);
 const run = spawn(program, [
-  "run", caseFile, "-o", folder, "--watch", "--port", "0", "--set", "time.end=0.4",
-  "--set", "output.interval=0.05", "--set", "output.volume-interval=0.2",
+  "run", caseFile, "-o", folder, "--watch", "--port", "0", "--set", "time.end=0.25",
+  "--set", "output.interval=0.05", "--set", "output.volume-interval=0.1",
 ], { stdio: ["ignore", "pipe", "inherit"] });
 const ended = new Promise((resolve) => run.on("exit", resolve));
 after(async () => {

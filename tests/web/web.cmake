@@ -9,6 +9,12 @@ if(MENISCUS_HAS_PAGE)
     $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR}/examples/shear-subcritical.toml
     ${WEB_WORK}/misuse)
   set_tests_properties(watch_misuse PROPERTIES TIMEOUT 600)
+  if(MENISCUS_LONG_TESTS)
+    add_test(NAME watch_cost COMMAND Python3::Interpreter ${WEB_TESTS}/watch_cost.py
+      $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR}/examples/shear-subcritical.toml
+      ${WEB_WORK}/cost)
+    set_tests_properties(watch_cost PROPERTIES TIMEOUT 900 LABELS long RUN_SERIAL ON)
+  endif()
 endif()
 
 # Pages are the same whatever the program was built with, and a browser is slow enough.

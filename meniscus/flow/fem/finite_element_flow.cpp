@@ -10,6 +10,7 @@
 #include "meniscus/flow/fem/mesh_archive.hpp"
 #include "meniscus/flow/fem/stokes_residual.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
+#include "meniscus/flow/fem/vertex_velocity.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 
 namespace meniscus::fem {
@@ -221,14 +222,11 @@ void FiniteElementFlow::take_solution(const Scene& scene, const InstantProblem& 
   if (!problem.stokes.has_open_boundary) level_pressure();
   velocity_.clear();
   for (std::size_t i = 0; i < mesh_.interfaces.size(); ++i) {
-    const EmbeddedSurface& surface = mesh_.interfaces[i];
-    const SurfaceMesh& triangles = scene.interfaces[i].mesh;
-    VertexField<Vec3> v(surface.num_vertices);
-    for (const VertexId at : v.ids()) v[at] = state_->v[node_at(surface.vertex(at))];
-    remove_net_flux(triangles,
-                    net_flux(face_nodes(space_, mesh_, triangles, surface),
-                             problem.stokes.positions, state_->v),
-                    v);
+    const SurfaceMesh& surface = scene.interfaces[i].mesh;
+    const FaceNodeTable faces = face_nodes(space_, mesh_, surface, mesh_.interfaces[i]);
+    const NodePositions& positions = problem.stokes.positions;
+    VertexField<Vec3> v = vertex_velocity(surface, faces, positions, state_->v);
+    remove_net_flux(surface, net_flux(faces, positions, state_->v), v);
     velocity_.push_back(std::move(v));
   }
   const StokesPower power = fem::power(problem.stokes, *state_);

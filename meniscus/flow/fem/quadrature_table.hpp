@@ -53,7 +53,8 @@ inline constexpr std::array<RulePoint<3>, 12> kFaceRule = [] {
   std::array<RulePoint<3>, 12> rule{};
   std::size_t q = 0;
   constexpr std::array<std::array<double, 2>, 2> orbits = {
-      {{0.249286745170910421, 0.116786275726379366}, {0.0630890144915022283, 0.0508449063702068170}}};
+      {{0.249286745170910421, 0.116786275726379366},
+       {0.0630890144915022283, 0.0508449063702068170}}};
   for (const auto& [a, share] : orbits)
     for (std::size_t k = 0; k < 3; ++k, ++q) {
       rule[q] = {{a, a, a}, share};

@@ -95,8 +95,8 @@ FaceNodeTable face_nodes(const FlowSpace& space, const TetMesh& mesh, const Surf
     std::array<std::size_t, 3> local{};
     for (std::size_t k = 0; k < 3; ++k) {
       const TetVertexId v = embedded.vertex(surface.faces[f][k]);
-      local[k] = static_cast<std::size_t>(std::ranges::find(mesh.cells[c], v) -
-                                          mesh.cells[c].begin());
+      local[k] =
+          static_cast<std::size_t>(std::ranges::find(mesh.cells[c], v) - mesh.cells[c].begin());
       table.face_nodes.push_back(node_at(v));
     }
     for (std::size_t k = 0; is_quadratic && k < 3; ++k)
