@@ -196,8 +196,11 @@ TEST_P(StokesPatch, SlantedWallsWithoutPenetrationAreExact) {
     EXPECT_EQ(report.solver, which);
     EXPECT_LT(largest_error(problem, state, [&](const Vec3& x) { return Vec3(gradient * x); }),
               exact);
-    // The iterative solver stops at a residual of 1e-13, which small pressure nodes magnify.
-    EXPECT_LT(pressure_error(test.space.pressure, state, 0.0, 0.0, false), 1000 * exact);
+    // Second-order elements, solved iteratively to a residual of 1e-13, were off by 1.8e-8: without
+    // a stabilising block the residual of a pressure node is its error times its small volume.
+    const bool is_magnified = which == LinearSolver::block && GetParam() == Elements::p2_p1;
+    EXPECT_LT(pressure_error(test.space.pressure, state, 0.0, 0.0, false),
+              (is_magnified ? 1000 : 100) * exact);
   }
 }
 
