@@ -59,11 +59,21 @@ export async function openPage(context, url) {
   return { page, complaints, requests };
 }
 
-/** The picture of a canvas, as text that two can be compared by. */
+/** The picture of a canvas that has come to rest, as text that two can be compared by. */
 export function pixels(page, selector) {
-  return page.evaluate(
-    (s) => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() =>
-      resolve(document.querySelector(s).toDataURL())))), selector);
+  return page.evaluate(async (s) => {
+    const frame = () => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));
+    const pause = () => new Promise((over) => setTimeout(over, 50));
+    let last = "";
+    for (let i = 0; i < 40; ++i) {
+      await frame();
+      const picture = document.querySelector(s).toDataURL();
+      if (picture === last) return picture;
+      last = picture;
+      await pause(); // a change of size is told to the page after the frame
+    }
+    throw new Error(`${s} never came to rest`);
+  }, selector);
 }
 
 /**

@@ -106,6 +106,7 @@ test("dragging the slider shows more than 20 frames a second at 800 × 600", asy
   console.log(`slider: ${shown(rates)} frames a second, ${shown(processor)} a second of the processors' time`);
   assert.ok(Math.max(...rates, ...processor) > 20);
   await page.evaluate(() => document.querySelector(".stage").removeAttribute("style"));
+  await until(page, () => document.querySelector(".stage canvas").width !== 800);
 });
 
 test("the slider changes the picture and the time", async () => {
