@@ -14,6 +14,7 @@
 #include <tetgen.h>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/volume/tetgen_assertions.hpp"
 
 namespace meniscus {
 namespace {
@@ -188,6 +189,21 @@ void mesh_facets(tetgenbehavior& behavior, tetgenio& in, tetgenio& out) {
   mesh.run(&tetgenmesh::outelements, &out);
 }
 
+/// Points are inserted in rounds, each a multiple of the last, drawn by chance. Another multiple is
+/// another order, in which points that fail an assertion of TetGen's in one come out well.
+void mesh_in_some_order(tetgenbehavior& behavior, tetgenio& in, tetgenio& out) {
+  const TetgenAssertionsThrow guard;
+  const double first = behavior.brio_ratio;
+  for (const double ratio : {first, 2.0 * first, 3.0 * first, 4.0 * first}) {
+    behavior.brio_ratio = ratio;
+    try {
+      return mesh_facets(behavior, in, out);
+    } catch (const TetgenAssertion&) {
+      if (ratio == 4.0 * first) throw;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> tetgen_switches(double radius_edge) {
@@ -208,9 +224,9 @@ MesherResult run_tetgen(const SurfaceComplex& complex, const std::string& switch
   SizeTest test(size, volume_factor);
   const ActiveSizeTest active(test);
   TetgenInput input(complex);
-  tetgenio output;
   try {
-    mesh_facets(behavior, input.io(), output);
+    tetgenio output;
+    mesh_in_some_order(behavior, input.io(), output);
     read_output(output, result);
   } catch (int code) {
     result.failure = fmt::format("TetGen -{} found {}", switches, meaning(code));

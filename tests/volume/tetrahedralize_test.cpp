@@ -2,11 +2,13 @@
 
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/remesh.hpp"
 #include "meniscus/volume/facets.hpp"
 #include "meniscus/volume/quality.hpp"
 #include "meniscus/volume/size_law.hpp"
@@ -102,6 +104,19 @@ TEST(Tetrahedralize, NestsDrops) {
   add_drop(scene, test::random_ellipsoid(random, 60, Vec3(-0.9, 0.2, 0.0), 0.4), RegionId{1});
   add_drop(scene, sphere(42, 0.15, Vec3(0.7, 0.0, 0.0)), RegionId{2});
   expect_valid_mesh(scene);
+}
+
+// A box's vertices are coplanar and cospherical by the dozen; with the drop of N0 = 70 among these
+// an assertion of TetGen's fails in the order in which it first inserts them.
+TEST(Tetrahedralize, MeshesDropsOfAnySizeInABox) {
+  for (int N0 = 60; N0 <= 90; ++N0) {
+    Scene scene = test::scene_within(box(507, Vec3::Constant(10.0)).mesh);
+    add_drop(scene, sphere(N0));
+    EXPECT_TRUE(remesh(scene.interfaces[0].mesh, {.C0 = N0 / (4.0 * std::numbers::pi)}).ok);
+    TetMesh mesh;
+    const VolumeMeshReport report = tetrahedralize(scene, {}, mesh);
+    EXPECT_TRUE(report.ok) << N0 << ": " << report.failure;
+  }
 }
 
 TEST(Tetrahedralize, MeshesANarrowGap) {
