@@ -12,11 +12,10 @@
 #include <random>
 #include <vector>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
-#include <CGAL/Surface_mesh.h>
 #include <Eigen/Geometry>
 
+#include "meniscus/mesh/cgal_surface.hpp"
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_quality.hpp"
@@ -25,9 +24,6 @@
 
 namespace meniscus {
 namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -74,34 +70,6 @@ SurfaceMesh shape(const char* name, int num_vertices) {
       break;
   }
   return noisy(std::move(mesh), num_vertices);
-}
-
-CgalMesh to_cgal(const SurfaceMesh& mesh) {
-  CgalMesh result;
-  for (const Vec3& x : mesh.x) result.add_vertex({x.x(), x.y(), x.z()});
-  const auto corner = [](VertexId v) {
-    return CgalMesh::Vertex_index(static_cast<std::uint32_t>(v.value));
-  };
-  for (const FaceVertices& f : mesh.faces)
-    result.add_face(corner(f[0]), corner(f[1]), corner(f[2]));
-  return result;
-}
-
-SurfaceMesh from_cgal(CgalMesh& mesh) {
-  mesh.collect_garbage();
-  SurfaceMesh result;
-  for (const auto v : mesh.vertices()) {
-    const Kernel::Point_3& x = mesh.point(v);
-    result.x.add(Vec3(x.x(), x.y(), x.z()));
-  }
-  for (const auto f : mesh.faces()) {
-    FaceVertices corners;
-    std::size_t k = 0;
-    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh))
-      corners[k++] = VertexId{static_cast<std::int32_t>(v.idx())};
-    result.faces.add(corners);
-  }
-  return result;
 }
 
 struct Outcome {

@@ -3,12 +3,11 @@
 #include <cmath>
 #include <numbers>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
-#include <CGAL/Surface_mesh.h>
 #include <Eigen/Geometry>
 
+#include "meniscus/mesh/cgal_surface.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_quality.hpp"
 
@@ -16,41 +15,11 @@ namespace meniscus {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 /// An icosahedron, the coarsest sphere there is to be smoothed, turns its normals by 42°.
 constexpr double kCreaseDeg = 50.0;
 constexpr double kLowAngleDeg = 15.0;  // of the 5 % quantile; relaxed meshes have 40° and more
 constexpr int kIterations = 5;         // CGAL's examples take 1 to 10; the angles settle by 5
-
-CgalMesh to_cgal(const SurfaceMesh& mesh) {
-  CgalMesh result;
-  for (const Vec3& x : mesh.x) result.add_vertex({x.x(), x.y(), x.z()});
-  const auto corner = [](VertexId v) {
-    return CgalMesh::Vertex_index(static_cast<std::uint32_t>(v.value));
-  };
-  for (const FaceVertices& f : mesh.faces)
-    result.add_face(corner(f[0]), corner(f[1]), corner(f[2]));
-  return result;
-}
-
-SurfaceMesh from_cgal(CgalMesh& mesh) {
-  mesh.collect_garbage();
-  SurfaceMesh result;
-  for (const auto v : mesh.vertices()) {
-    const Kernel::Point_3& x = mesh.point(v);
-    result.x.add(Vec3(x.x(), x.y(), x.z()));
-  }
-  for (const auto f : mesh.faces()) {
-    FaceVertices corners;
-    std::size_t k = 0;
-    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh))
-      corners[k++] = VertexId{static_cast<std::int32_t>(v.idx())};
-    result.faces.add(corners);
-  }
-  return result;
-}
 
 }  // namespace
 

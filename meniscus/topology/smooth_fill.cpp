@@ -3,51 +3,21 @@
 #include <set>
 #include <vector>
 
+#include "meniscus/mesh/cgal_surface.hpp"
+
 // CGAL's fairing solves its linear system with Eigen.
 #ifndef CGAL_EIGEN3_ENABLED
 #define CGAL_EIGEN3_ENABLED 1
 #endif
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/fair.h>
 #include <CGAL/Polygon_mesh_processing/refine.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
-#include <CGAL/Surface_mesh.h>
 
 namespace meniscus {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
-
-CgalMesh to_cgal(const SurfaceMesh& mesh) {
-  CgalMesh result;
-  for (const Vec3& x : mesh.x) result.add_vertex({x.x(), x.y(), x.z()});
-  const auto corner = [](VertexId v) {
-    return CgalMesh::Vertex_index(static_cast<std::uint32_t>(v.value));
-  };
-  for (const FaceVertices& f : mesh.faces)
-    result.add_face(corner(f[0]), corner(f[1]), corner(f[2]));
-  return result;
-}
-
-SurfaceMesh from_cgal(CgalMesh& mesh) {
-  mesh.collect_garbage();
-  SurfaceMesh result;
-  for (const auto v : mesh.vertices()) {
-    const Kernel::Point_3& x = mesh.point(v);
-    result.x.add(Vec3(x.x(), x.y(), x.z()));
-  }
-  for (const auto f : mesh.faces()) {
-    FaceVertices corners;
-    std::size_t k = 0;
-    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh))
-      corners[k++] = VertexId{static_cast<std::int32_t>(v.idx())};
-    result.faces.add(corners);
-  }
-  return result;
-}
 
 /// The vertices of faces, and those up to `rings` edges away from them.
 std::vector<CgalMesh::Vertex_index> vertices_within(const CgalMesh& mesh,
