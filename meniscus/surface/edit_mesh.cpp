@@ -12,22 +12,20 @@ HalfedgeId halfedge_from(const SurfaceMesh& mesh, FaceId f, VertexId a) {
 }  // namespace
 
 EditMesh::EditMesh(const SurfaceMesh& mesh, const SurfaceTopology& topology)
-    : from_(3 * mesh.num_faces()), twin_(3 * mesh.num_faces()), out_(mesh.num_vertices()) {
+    : from_(3 * mesh.num_faces()),
+      twin_(3 * mesh.num_faces()),
+      out_(mesh.num_vertices()),
+      valence_(mesh.num_vertices(), 0) {
   for (const FaceId f : mesh.faces.ids())
     for (std::int32_t k = 0; k < 3; ++k) {
       const VertexId v = mesh.faces[f][static_cast<std::size_t>(k)];
       from_[HalfedgeId{3 * f.value + k}] = v;
       if (!out_[v].is_valid()) ++num_alive_;
       out_[v] = {3 * f.value + k};
+      ++valence_[v];
     }
   for (const SurfaceEdge& e : topology.edges())
     pair(halfedge_from(mesh, e.left, e.a), halfedge_from(mesh, e.right, e.b));
-}
-
-std::int32_t EditMesh::valence(VertexId v) const {
-  std::int32_t count = 0;
-  for_each_out(v, [&](HalfedgeId) { ++count; });
-  return count;
 }
 
 bool EditMesh::are_joined(VertexId a, VertexId b) const {
@@ -56,6 +54,9 @@ VertexId EditMesh::split(HalfedgeId h) {
   pair(db, across_t2);
   out_.add(mb);
   out_[b] = bc;
+  valence_.add(4);
+  ++valence_[c];
+  ++valence_[d];
   ++num_alive_;
   return m;
 }
@@ -81,6 +82,10 @@ void EditMesh::flip(HalfedgeId h) {
   out_[b] = t2;
   out_[c] = h1;
   out_[d] = t1;
+  --valence_[a];
+  --valence_[b];
+  ++valence_[c];
+  ++valence_[d];
 }
 
 bool EditMesh::can_collapse(HalfedgeId h) const {
@@ -110,6 +115,9 @@ void EditMesh::collapse(HalfedgeId h) {
   out_[b] = ac;
   out_[c] = cb;
   out_[d] = da;
+  valence_[b] += valence_[a] - 4;
+  --valence_[c];
+  --valence_[d];
   --num_alive_;
 }
 

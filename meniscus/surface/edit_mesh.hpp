@@ -47,7 +47,7 @@ class EditMesh {
       h = twin_[previous(h)];
     } while (h != start);
   }
-  [[nodiscard]] std::int32_t valence(VertexId v) const;
+  [[nodiscard]] std::int32_t valence(VertexId v) const { return valence_[v]; }
   [[nodiscard]] bool are_joined(VertexId a, VertexId b) const;
 
   /// Cuts the edge of h and its two faces in two; returns the new vertex.
@@ -76,6 +76,7 @@ class EditMesh {
   Field<HalfedgeId, VertexId> from_;  // invalid where the face is dead
   Field<HalfedgeId, HalfedgeId> twin_;
   VertexField<HalfedgeId> out_;  // invalid where the vertex is dead
+  VertexField<std::int32_t> valence_;
   std::int32_t num_alive_ = 0;
 };
 

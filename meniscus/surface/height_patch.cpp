@@ -94,6 +94,18 @@ HeightPatch::Height HeightPatch::rolled_height(double u, double v) const {
   return {.z = g.z, .z_u = s * g.z_u + along * s_u, .z_v = s * g.z_v + along * s_v};
 }
 
+double HeightPatch::rolled_z(double u, double v) const {
+  const auto z = [&](double a, double b) {
+    const double uu = 0.5 * (c[2] + c[5] * a / 3.0 + c[6] * b);
+    const double vv = 0.5 * (c[4] + c[8] * b / 3.0 + c[7] * a);
+    return a * (c[0] + uu * a + c[3] * b) + b * (c[1] + vv * b);
+  };
+  const double squared = u * u + v * v;
+  if (squared == 0.0) return 0.0;
+  const double f = z(u, v), s = std::sqrt(1.0 + f * f / squared);
+  return z(s * u, s * v);
+}
+
 VertexCurvature HeightPatch::curvature() const {
   const double w = std::sqrt(1.0 + c[0] * c[0] + c[1] * c[1]);
   const Vec3 r_u = t1 + c[0] * n, r_v = t2 + c[1] * n;

@@ -18,8 +18,8 @@ namespace {
 /// Spring steps between two looks at connectivity. A step that is not enough is continued by the
 /// next remesh; a remesh that changes little needs two or three.
 constexpr int kStepsPerSweep = 30;
-/// While edits are many the springs need only keep faces apart.
-constexpr int kStepsAmongManyEdits = 5;
+/// In the first sweep and while edits are many the springs need only keep faces apart.
+constexpr int kStepsWhileRough = 5;
 constexpr double kManyEdits = 0.03;  // of the vertices
 /// Smallest angle of a face that is let through when the surface had none as small before.
 constexpr double kLeastAngleDeg = 5.0;
@@ -43,9 +43,8 @@ void equilibrate(RemeshState& state, const RemeshOptions& options, RemeshReport&
     const int num_edits = edits.splits + edits.collapses;
     if (num_edits > 0) report.flips += flip_to_delaunay(state);
     if (report.sweeps > 1 && num_edits == 0 && report.flips == flips_before) return;
-    relax_springs(
-        state, options.equilibrium,
-        num_edits > kManyEdits * state.mesh.num_vertices() ? kStepsAmongManyEdits : kStepsPerSweep);
+    const bool is_rough = report.sweeps == 1 || num_edits > kManyEdits * state.mesh.num_vertices();
+    relax_springs(state, options.equilibrium, is_rough ? kStepsWhileRough : kStepsPerSweep);
   }
 }
 

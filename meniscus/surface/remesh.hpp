@@ -20,7 +20,7 @@ struct RemeshOptions {
   int min_vertices = 42;  ///< however small or round the drop, its C0 is raised to give this many
   int max_sweeps = 20;
   double equilibrium =
-      0.02;  ///< springs rest when no vertex moves more than this fraction of its l0
+      0.01;  ///< springs rest when no vertex moves more than this fraction of its l0
   /// Further upper bound on the rest length at a point (gaps, user sizes) [R0]; may be empty.
   std::function<double(const Vec3& x)> size_bound = {};
   /// What else makes the result unfit, in one line, else empty text (such as

@@ -12,12 +12,15 @@ constexpr double kUprightCosine = 0.5;
 }  // namespace
 
 RemeshVertex vertex_at(const RemeshReference& reference, const SurfaceLocation& place) {
-  const auto [x, n] = reference.surface.at(place);
-  const FaceVertices& v = reference.surface.corners(place.face);
+  const SmoothSurface& surface = reference.surface;
+  const FaceVertices& v = surface.corners(place.face);
   double length = 0.0;
   for (int k = 0; k < 3; ++k)
     length += place.weights[k] * reference.rest_length[v[static_cast<std::size_t>(k)]];
-  return {place, x, n, length};
+  return {.x = surface.point(place),
+          .rest_length = length,
+          .n = surface.linear_normal(place),
+          .place = place};
 }
 
 RemeshVertex halfway(const RemeshReference& reference, const RemeshVertex& a,
@@ -44,6 +47,7 @@ RemeshState start_state(const RemeshReference& reference, const SurfaceMesh& mes
     for (std::size_t k = 0; k < 3; ++k)
       if (corners[k] == v) weights[static_cast<int>(k)] = 1.0;
     state.vertices[v] = vertex_at(reference, {f, weights});
+    state.touch(v);
   }
   return state;
 }

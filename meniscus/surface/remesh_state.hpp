@@ -3,6 +3,7 @@
 #include "meniscus/surface/edit_mesh.hpp"
 #include "meniscus/surface/smooth_surface.hpp"
 #include "meniscus/surface/surface_walk.hpp"
+#include "meniscus/surface/vertex_set.hpp"
 
 namespace meniscus {
 
@@ -13,18 +14,29 @@ struct RemeshReference {
   VertexField<double> rest_length;  ///< at the vertices of the surface as it came [R0]
 };
 
-/// A vertex of the mesh being rebuilt: always a point of the reference surface.
+/// A vertex of the mesh being rebuilt: always a point of the reference surface. What springs and
+/// flips read most comes first.
 struct RemeshVertex {
-  SurfaceLocation place;
-  Vec3 x, n;           ///< position and unit normal of the smooth surface there
+  Vec3 x;              ///< on the smooth surface
   double rest_length;  ///< l0 there
+  Vec3 n;              ///< its unit normal there, interpolated linearly
+  SurfaceLocation place;
 };
 
-/// A triangulation under way from the old to the new one.
+/// A triangulation under way from the old to the new one. Most of it comes to rest early: flips and
+/// springs look only at what has changed since they last did.
 struct RemeshState {
   const RemeshReference& reference;
   EditMesh mesh;
   VertexField<RemeshVertex> vertices;
+  VertexSet unflipped = {};  ///< around these an edge may be due to flip
+  VertexSet unrelaxed = {};  ///< these and their neighbours may be pulled
+
+  /// To be said of a vertex that has moved or whose edges have changed.
+  void touch(VertexId v) {
+    unflipped.insert(v);
+    unrelaxed.insert(v);
+  }
 
   [[nodiscard]] Vec3 edge_vector(HalfedgeId h) const {
     return vertices[mesh.to(h)].x - vertices[mesh.from(h)].x;

@@ -14,16 +14,19 @@
 namespace meniscus {
 namespace {
 
-// Bands. A vertex more or less changes the mean over two rings (19 vertices) by 5 %: a band of
-// ±15 % is three of them, wide enough that an edit never calls for its own undoing.
-constexpr double kLocalBand = 0.15;
+// Bands. The mean after k averages over rings is one over some 6 k vertices, of which a vertex more
+// or less is 0.16/k: a band of twice that, wide enough that an edit never calls for its own
+// undoing.
+constexpr double kBandTimesAverages = 0.3;
+constexpr std::array<int, 3> kAverages = {2, 8, 32};  // the widest has the band of the whole
 constexpr double kLocalBandFar = 0.3;    // beyond, edits may be as close as their faces allow
+constexpr int kMostRings = 5;            // an edit of one in a hundred
 constexpr double kGlobalBand = 0.01;     // of the whole number; a fifth of the law's 5 %
 constexpr double kLongestEdge = 1.6;     // l/l0 split, whatever the density: its halves are 0.8
 constexpr double kShortestEdge = 0.55;   // l/l0 collapsed, whatever the density
 constexpr double kDelaunaySlack = 0.02;  // radians of excess over 180°, against flipping for ever
-constexpr double kAllowance = 0.1;       // radians per unit of Σ(valence − 6)²
-constexpr double kLargestAllowance = 0.8;  // radians
+constexpr double kAllowance = 0.3;       // radians per unit of Σ(valence − 6)²
+constexpr double kLargestAllowance = 1.2;  // radians
 constexpr int kMaxFlipRounds = 10;
 
 struct EdgeScore {
@@ -57,17 +60,18 @@ VertexField<double> vertex_loads(const RemeshState& state) {
   return load;
 }
 
+/// Averages over the rings, by an exchange along each edge that keeps the sum: what is short of
+/// vertices here and over there together comes out right.
 VertexField<double> ring_averaged(const RemeshState& state, const VertexField<double>& load) {
-  VertexField<double> sum = load;
-  VertexField<int> count(load.size(), 1);
+  constexpr double kExchange = 1.0 / 7.0;  // of a vertex of valence 6 with its ring: their mean
+  VertexField<double> result = load;
   for (std::int32_t i = 0; i < state.mesh.num_halfedge_slots(); ++i) {
     const HalfedgeId h{i};
     if (!state.mesh.is_alive(h)) continue;
-    sum[state.mesh.from(h)] += load[state.mesh.to(h)];
-    ++count[state.mesh.from(h)];
+    const VertexId a = state.mesh.from(h), b = state.mesh.to(h);
+    result[a] += kExchange * (load[b] - load[a]);
   }
-  for (const VertexId v : sum.ids()) sum[v] /= count[v];
-  return sum;
+  return result;
 }
 
 /// Marks vertices near an edit so that the rest of the pass leaves them alone.
@@ -88,9 +92,11 @@ class Locks {
     lock(mesh_.opposite(h));
     lock(mesh_.opposite(mesh_.twin(h)));
   }
-  void lock_ring(VertexId v) {
+  /// v and so many rings around it.
+  void lock_rings(VertexId v, int rings) {
     lock(v);
-    mesh_.for_each_out(v, [&](HalfedgeId h) { lock(mesh_.to(h)); });
+    if (rings == 0) return;
+    mesh_.for_each_out(v, [&](HalfedgeId h) { lock_rings(mesh_.to(h), rings - 1); });
   }
 
  private:
@@ -104,8 +110,10 @@ class Locks {
 void split_edge(RemeshState& state, HalfedgeId h) {
   const RemeshVertex middle = halfway(state.reference, state.vertices[state.mesh.from(h)],
                                       state.vertices[state.mesh.to(h)]);
-  state.mesh.split(h);
+  const VertexId c = state.mesh.opposite(h), d = state.mesh.opposite(state.mesh.twin(h));
+  const VertexId m = state.mesh.split(h);
   state.vertices.add(middle);
+  for (const VertexId v : {m, c, d}) state.touch(v);
 }
 
 /// Merges the ends of an edge half-way between them, unless a face would fold.
@@ -125,14 +133,19 @@ bool try_collapse_edge(RemeshState& state, HalfedgeId h) {
   check_fan(a, b);
   check_fan(b, a);
   if (!is_sound) return false;
+  const VertexId c = mesh.opposite(h), d = mesh.opposite(mesh.twin(h));
   state.mesh.collapse(h);
   state.vertices[b] = merged;
+  for (const VertexId v : {b, c, d}) state.touch(v);
   return true;
 }
 
-/// Sum of the two angles that face an edge less π [radians], if it is more than `least` ≥ −π/2;
+/// No edge flips whose opposite angles sum to less than π less this [radians].
+constexpr double kLeastExcess = kDelaunaySlack - kLargestAllowance;
+
+/// Sum of the two angles that face an edge less π [radians], if it is more than kLeastExcess;
 /// else some value below that. Most edges are far from flipping: they cost no angle.
-double opposite_angle_excess(const RemeshState& state, HalfedgeId h, double least) {
+double opposite_angle_excess(const RemeshState& state, HalfedgeId h) {
   const Vec3 &a = state.vertices[state.mesh.from(h)].x, &b = state.vertices[state.mesh.to(h)].x;
   const auto cosine_and_sine = [&](const Vec3& apex) {
     const Vec3 p = a - apex, q = b - apex;
@@ -143,7 +156,7 @@ double opposite_angle_excess(const RemeshState& state, HalfedgeId h, double leas
   // Cosine and sine of the sum, both times the same length.
   const double cosine = c1 * c2 - s1 * s2, sine = s1 * c2 + c1 * s2;
   // The sum is below π where the sine is positive, and below π/2 where the cosine is too.
-  const double tangent = std::tan(least);  // of −least from π
+  static const double tangent = std::tan(kLeastExcess);
   if (sine > 0.0 && (cosine >= 0.0 || sine > cosine * tangent)) return -std::numbers::pi;
   return -std::atan2(sine, -cosine);
 }
@@ -152,9 +165,8 @@ bool try_flip(RemeshState& state, HalfedgeId h) {
   const EditMesh& mesh = state.mesh;
   const VertexId a = mesh.from(h), b = mesh.to(h), c = mesh.opposite(h),
                  d = mesh.opposite(mesh.twin(h));
-  constexpr double kLeast = kDelaunaySlack - kLargestAllowance;
-  const double excess = opposite_angle_excess(state, h, kLeast);
-  if (excess < kLeast) return false;
+  const double excess = opposite_angle_excess(state, h);
+  if (excess < kLeastExcess) return false;
   const std::int32_t valence_a = mesh.valence(a), valence_b = mesh.valence(b);
   if (valence_a <= 4 || valence_b <= 4) return false;
   // Growth of Σ(valence − 6)² by the flip.
@@ -166,6 +178,39 @@ bool try_flip(RemeshState& state, HalfedgeId h) {
   state.mesh.flip(h);
   return true;
 }
+
+std::array<VertexId, 4> edge_corners(const EditMesh& mesh, HalfedgeId h) {
+  return {mesh.from(h), mesh.to(h), mesh.opposite(h), mesh.opposite(mesh.twin(h))};
+}
+
+/// Edges to be looked at, each marked by one of its half-edges, in the order of these. Whether an
+/// edge flips depends on its four corners alone.
+class EdgeMarks {
+ public:
+  explicit EdgeMarks(const EditMesh& mesh)
+      : mesh_(mesh), marks_(static_cast<std::size_t>(mesh.num_halfedge_slots()), 0) {}
+  /// Every edge of which v is a corner.
+  void mark_around(VertexId v) {
+    mesh_.for_each_out(v, [&](HalfedgeId h) {
+      mark(h);
+      mark(EditMesh::next(h));
+    });
+  }
+  void clear(HalfedgeId h) { marks_[static_cast<std::size_t>(h.value)] = 0; }
+  /// The first marked one behind h, or none.
+  [[nodiscard]] HalfedgeId next_after(HalfedgeId h) const {
+    const auto found = std::find(marks_.begin() + h.value + 1, marks_.end(), 1);
+    return found == marks_.end() ? HalfedgeId{}
+                                 : HalfedgeId{static_cast<std::int32_t>(found - marks_.begin())};
+  }
+
+ private:
+  void mark(HalfedgeId h) {
+    marks_[static_cast<std::size_t>(std::min(h, mesh_.twin(h)).value)] = 1;
+  }
+  const EditMesh& mesh_;
+  std::vector<char> marks_;
+};
 
 /// Edges wanted for splitting (score > 0, largest first) or collapsing (score < 0).
 struct Candidates {
@@ -197,6 +242,14 @@ Candidates density_candidates(const RemeshState& state, const VertexField<double
   return result;
 }
 
+/// Rings around an edit that see none other in the same pass. Where the load is off by x every
+/// 1/x-th vertex is to be edited, and r rings are 1 + 3r(r + 1) vertices.
+int rings_of_an_edit(double mean_load) {
+  const double off = std::abs(mean_load - 1.0);
+  if (off > kLocalBandFar) return 0;
+  return std::clamp(static_cast<int>(std::sqrt(1.0 / (3.0 * off))), 1, kMostRings);
+}
+
 /// Takes candidates in order of need, at most `max_splits` and `max_collapses`.
 DensityEdits edit(RemeshState& state, const Candidates& candidates,
                   const VertexField<double>& mean_load, int max_splits, int max_collapses) {
@@ -205,10 +258,10 @@ DensityEdits edit(RemeshState& state, const Candidates& candidates,
   for (const auto& [score, h] : candidates.splits) {
     if (edits.splits == max_splits) break;
     if (locks.is_locked(h)) continue;
-    const bool is_far = mean_load[state.mesh.from(h)] > 1.0 + kLocalBandFar;
+    const int rings = rings_of_an_edit(mean_load[state.mesh.from(h)]);
     locks.lock_faces(h);
-    if (!is_far)
-      for (const VertexId v : {state.mesh.from(h), state.mesh.to(h)}) locks.lock_ring(v);
+    if (rings > 0)
+      for (const VertexId v : {state.mesh.from(h), state.mesh.to(h)}) locks.lock_rings(v, rings);
     split_edge(state, h);
     ++edits.splits;
   }
@@ -217,12 +270,10 @@ DensityEdits edit(RemeshState& state, const Candidates& candidates,
     if (!state.mesh.is_alive(h) || locks.is_locked(h)) continue;
     const VertexId kept = state.mesh.to(h), c = state.mesh.opposite(h),
                    d = state.mesh.opposite(state.mesh.twin(h));
-    const bool is_far = mean_load[kept] < 1.0 - kLocalBandFar;
+    const int rings = rings_of_an_edit(mean_load[kept]);
     if (!try_collapse_edge(state, h)) continue;
-    if (is_far)
-      for (const VertexId v : {kept, c, d}) locks.lock(v);
-    else
-      locks.lock_ring(kept);
+    for (const VertexId v : {kept, c, d}) locks.lock(v);
+    locks.lock_rings(kept, rings);
     ++edits.collapses;
   }
   return edits;
@@ -231,21 +282,20 @@ DensityEdits edit(RemeshState& state, const Candidates& candidates,
 }  // namespace
 
 int flip_to_delaunay(RemeshState& state) {
-  const EditMesh& mesh = state.mesh;
+  EdgeMarks due(state.mesh);
+  for (const VertexId v : state.unflipped.take())
+    if (state.mesh.is_alive(v)) due.mark_around(v);
   int flips = 0;
-  // The round in which an edge between the faces of a vertex was last flipped. Whether an edge
-  // flips depends on its four corners alone: after the first round, only those near flips may.
-  VertexField<int> last_flip(mesh.num_vertex_slots(), 0);
-  for (int round = 1; round <= kMaxFlipRounds; ++round) {
+  for (int round = 0; round < kMaxFlipRounds; ++round) {
     int flipped = 0;
-    for (std::int32_t i = 0; i < mesh.num_halfedge_slots(); ++i) {
-      const HalfedgeId h{i};
-      if (!mesh.is_representative(h)) continue;
-      const std::array<VertexId, 4> corners{mesh.from(h), mesh.to(h), mesh.opposite(h),
-                                            mesh.opposite(mesh.twin(h))};
-      const auto is_near = [&](VertexId v) { return last_flip[v] >= round - 1; };
-      if (!std::ranges::any_of(corners, is_near) || !try_flip(state, h)) continue;
-      for (const VertexId v : corners) last_flip[v] = round;
+    for (HalfedgeId h = due.next_after({-1}); h.is_valid(); h = due.next_after(h)) {
+      due.clear(h);
+      const std::array<VertexId, 4> corners = edge_corners(state.mesh, h);
+      if (!try_flip(state, h)) continue;
+      for (const VertexId v : corners) {
+        due.mark_around(v);
+        state.touch(v);
+      }
       ++flipped;
     }
     flips += flipped;
@@ -256,11 +306,16 @@ int flip_to_delaunay(RemeshState& state) {
 
 DensityEdits balance_density(RemeshState& state) {
   const VertexField<double> load = vertex_loads(state);
-  const VertexField<double> mean_load = ring_averaged(state, ring_averaged(state, load));
-  const int unlimited = state.mesh.num_vertices();
-  const DensityEdits local = edit(state, density_candidates(state, mean_load, kLocalBand),
-                                  mean_load, unlimited, unlimited);
-  if (local.splits + local.collapses > 0) return local;
+  VertexField<double> mean_load = load;
+  int averages = 0;
+  for (const int wanted : kAverages) {
+    for (; averages < wanted; ++averages) mean_load = ring_averaged(state, mean_load);
+    const double band = std::max(kBandTimesAverages / averages, kGlobalBand);
+    const int unlimited = state.mesh.num_vertices();
+    const DensityEdits edits =
+        edit(state, density_candidates(state, mean_load, band), mean_load, unlimited, unlimited);
+    if (edits.splits + edits.collapses > 0) return edits;
+  }
 
   const double expected = std::accumulate(load.begin(), load.end(), 0.0);
   const double missing = expected - state.mesh.num_vertices();

@@ -33,11 +33,15 @@ Lift lift(const HeightPatch& patch, const Vec3& flat) {
 SmoothSurface::SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& topology)
     : curvature_(osculating_curvature(mesh, topology)),
       patches_(mesh.num_vertices()),
+      normals_(mesh.num_vertices()),
       faces_(mesh.faces) {
   RingGatherer rings(mesh, topology);
   std::vector<Vec3> unrolled;
-  for (const VertexId v : mesh.x.ids())
-    patches_[v] = patch_at(flat_patch(mesh.x[v], curvature_[v].n), rings.gather(v, true), unrolled);
+  for (const VertexId v : mesh.x.ids()) {
+    HeightPatch& patch = patches_[v];
+    patch = patch_at(flat_patch(mesh.x[v], curvature_[v].n), rings.gather(v, true), unrolled);
+    normals_[v] = (patch.n - patch.c[0] * patch.t1 - patch.c[1] * patch.t2).normalized();
+  }
 }
 
 Vec3 SmoothSurface::flat_point(const SurfaceLocation& location) const {
@@ -62,6 +66,28 @@ SmoothSurface::PointNormal SmoothSurface::at(const SurfaceLocation& location) co
   }
   result.n.normalize();
   return result;
+}
+
+Vec3 SmoothSurface::point(const SurfaceLocation& location) const {
+  const FaceVertices& v = faces_[location.face];
+  const Vec3 flat = flat_point(location);
+  const Vec3 squares = location.weights.cwiseProduct(location.weights);
+  Vec3 lift = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    if (squares[k] == 0.0) continue;
+    const HeightPatch& patch = patches_[v[static_cast<std::size_t>(k)]];
+    const Vec3 d = flat - patch.x;
+    const double height = patch.rolled_z(d.dot(patch.t1), d.dot(patch.t2)) - d.dot(patch.n);
+    lift += squares[k] * height * patch.n;
+  }
+  return flat + lift / squares.sum();
+}
+
+Vec3 SmoothSurface::linear_normal(const SurfaceLocation& location) const {
+  const FaceVertices& v = faces_[location.face];
+  return (location.weights[0] * normals_[v[0]] + location.weights[1] * normals_[v[1]] +
+          location.weights[2] * normals_[v[2]])
+      .normalized();
 }
 
 Vec3 SmoothSurface::edge_point(VertexId a, VertexId b, double s) const {

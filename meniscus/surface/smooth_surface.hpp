@@ -31,8 +31,11 @@ class SmoothSurface {
     Vec3 n;  ///< unit; blended from the normals of the patches, continuous across edges
   };
   [[nodiscard]] PointNormal at(const SurfaceLocation& location) const;
-  [[nodiscard]] Vec3 point(FaceId f, const Vec3& weights) const { return at({f, weights}).x; }
+  [[nodiscard]] Vec3 point(const SurfaceLocation& location) const;
+  [[nodiscard]] Vec3 point(FaceId f, const Vec3& weights) const { return point({f, weights}); }
   [[nodiscard]] Vec3 normal(FaceId f, const Vec3& weights) const { return at({f, weights}).n; }
+  /// The normals at the corners interpolated linearly, unit: O(h²), at a fraction of the cost.
+  [[nodiscard]] Vec3 linear_normal(const SurfaceLocation& location) const;
   /// S over the edge from a (s = 0) to b (s = 1): the same point as from either face.
   [[nodiscard]] Vec3 edge_point(VertexId a, VertexId b, double s) const;
   /// Principal curvatures: the shape operators of the corners' patches, interpolated linearly.
@@ -50,6 +53,7 @@ class SmoothSurface {
  private:
   VertexField<VertexCurvature> curvature_;
   VertexField<HeightPatch> patches_;
+  VertexField<Vec3> normals_;  // of the patches at their vertices
   FaceField<FaceVertices> faces_;
 };
 

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "meniscus/mesh/surface_measures.hpp"
@@ -54,9 +55,14 @@ Journey stretch(SurfaceMesh& mesh, double from, double to, int steps,
 }
 
 TEST(History, ThereAndBackIsAsBefore) {
-  // A thousand nodes, aspect 6 and back in a hundred remeshed steps of 2.4 %.
-  const RemeshOptions options{.C0 = 1000 / kSphereArea};
-  SurfaceMesh mesh = sphere(1000);
+  // To aspect 6 and back in a hundred remeshed steps of 2.4 %. The points of the first sphere lie
+  // on a spiral, which has fewer vertices of valence 5 and 7 than a surface that has flowed: the
+  // lengths' deviation is compared between two that have, one journey apart.
+  const RemeshOptions options{.C0 = 2000 / kSphereArea};
+  SurfaceMesh mesh = sphere(2000);
+  const LengthStatistics on_a_spiral = relative_lengths(mesh, options);
+  static_cast<void>(stretch(mesh, 1.0, 6.0, 50, options));
+  static_cast<void>(stretch(mesh, 6.0, 1.0, 50, options));
   const int vertices = mesh.num_vertices();
   const LengthStatistics before = relative_lengths(mesh, options);
   const Journey there = stretch(mesh, 1.0, 6.0, 50, options);
@@ -64,13 +70,17 @@ TEST(History, ThereAndBackIsAsBefore) {
   const LengthStatistics after = relative_lengths(mesh, options);
   EXPECT_NEAR(mesh.num_vertices(), vertices, 0.03 * vertices);
   EXPECT_NEAR(after.mean, before.mean, 0.03 * before.mean);
-  EXPECT_NEAR(after.deviation, before.deviation, 0.03);  // of l0
+  EXPECT_NEAR(after.deviation, before.deviation, 0.03 * before.deviation);
+  EXPECT_LT(after.deviation, on_a_spiral.deviation);
+  RecordProperty("deviation_on_a_spiral", fmt::format("{:.4f}", on_a_spiral.deviation));
+  RecordProperty("deviation_before", fmt::format("{:.4f}", before.deviation));
+  RecordProperty("deviation_after", fmt::format("{:.4f}", after.deviation));
   for (const Journey& journey : {there, back}) {
-    EXPECT_LT(journey.worst_law, 0.05);
+    EXPECT_LT(journey.worst_law, 0.01);
     EXPECT_LT(journey.shift_over_edge, 1e-3);
-    // On the way back up to 40 vertices of 2000 go in a step: what the faces lie lower than the
-    // surface, 5.4/N of the volume of a sphere, is lost faster than the 1e-4 of ordinary steps.
-    EXPECT_LT(journey.volume_change, 4e-4);
+    // On the way back up to 80 vertices of 4000 go in a step: what the faces lie lower than the
+    // surface, 5.4/N of the volume of a sphere, is lost faster than in ordinary steps.
+    EXPECT_LT(journey.volume_change, 1e-4);
   }
 }
 
