@@ -89,16 +89,21 @@ TEST(Energy, BooksOfADropInShearCloseToSecondOrder) {
     for (std::size_t i = 1; i < of.size(); ++i) EXPECT_LT(of[i].of_power, of[i - 1].of_power) << i;
     EXPECT_LT(of[2].of_power, 0.02);
     EXPECT_LT(of[3].of_surface_rate, largest_share);
-    // 1/h² ~ N0: from 200 to 800 by a factor of 4.
-    EXPECT_NEAR(std::log2(of[1].of_power / of[3].of_power), 2.0, 0.2);
+    // 1/h² ~ N0.
+    const double order = std::log(of[0].of_power / of[3].of_power) / std::log(800.0 / 110.0);
+    EXPECT_NEAR(order, 1.0, 0.1);
   }
 }
 
-// The balanced form's residual is small beside the drop's share from the coarsest mesh on: 1.3 % in
-// the mean at N0 = 110 (six triangulations gave 0.9 to 2.1 %), 0.3 % at 400.
+// The balanced form's force is the gradient of the triangulation's area: what its books miss is the
+// work of the tangential part, which the vertices do not follow. It is of second order and small
+// beside the drop's share from the coarsest mesh on: nine triangulations gave 1.8 to 3.2 % at
+// N0 = 110 and 0.65 to 0.78 % at 400.
 TEST(Energy, BooksOfTheBalancedFormCloseOnCoarseMeshes) {
-  EXPECT_LT(mean_residual(110, fem::CapillaryForm::balanced).of_surface_rate, 0.02);
-  EXPECT_LT(mean_residual(400, fem::CapillaryForm::balanced).of_surface_rate, 0.005);
+  const double coarse = mean_residual(110, fem::CapillaryForm::balanced).of_surface_rate,
+               fine = mean_residual(400, fem::CapillaryForm::balanced).of_surface_rate;
+  EXPECT_LT(coarse, 0.03);
+  EXPECT_NEAR(std::log(coarse / fine) / std::log(400.0 / 110.0), 1.0, 0.15);
 }
 
 }  // namespace
