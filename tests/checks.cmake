@@ -41,17 +41,35 @@ add_test(NAME remesh COMMAND Python3::Interpreter
   $<TARGET_FILE:meniscus_program> ${CMAKE_CURRENT_BINARY_DIR}/remesh)
 set_tests_properties(remesh PROPERTIES TIMEOUT 900)
 
-add_test(NAME events COMMAND Python3::Interpreter
-  ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/events.py
-  $<TARGET_FILE:meniscus_program> ${CMAKE_CURRENT_BINARY_DIR}/events)
-set_tests_properties(events PROPERTIES TIMEOUT 900)
+foreach(solver boundary-integral P1-P1 P2-P1)
+  add_test(NAME events_${solver} COMMAND Python3::Interpreter
+    ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/events.py
+    $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/events/${solver}
+    ${solver})
+  set_tests_properties(events_${solver} PROPERTIES TIMEOUT 900)
+endforeach()
+
+# The validation cases, those of their runs that take seconds.
+add_test(NAME short_cases COMMAND meniscus_program check --all --short -q
+  --cases ${PROJECT_SOURCE_DIR}/cases -o ${CMAKE_CURRENT_BINARY_DIR}/short_cases)
+set_tests_properties(short_cases PROPERTIES TIMEOUT 900)
+# One run of a case as it was recorded: nothing is simulated.
+add_test(NAME recorded_case COMMAND meniscus_program check --recorded
+  --run "boundary integral, N0 = 110" -o ${CMAKE_CURRENT_BINARY_DIR}/recorded_case
+  ${PROJECT_SOURCE_DIR}/cases/small-deformation)
 
 add_test(NAME variants COMMAND Python3::Interpreter
   ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/variants.py
   $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/variants)
 set_tests_properties(variants PROPERTIES TIMEOUT 900)
 
-# Dynamics against independent references: most of an hour on two cores.
+add_test(NAME ranks COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/ranks.py
+  $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/ranks
+  ${MPIEXEC_EXECUTABLE})
+set_tests_properties(ranks PROPERTIES TIMEOUT 900 LABELS mpi PROCESSORS 3
+  ENVIRONMENT "${MENISCUS_RANKS_ENVIRONMENT}")
+
+# Dynamics against independent references, all runs but those made once: an hour or more.
 if(MENISCUS_LONG_TESTS)
   add_test(NAME cases COMMAND meniscus_program check --all --quiet
     --cases ${PROJECT_SOURCE_DIR}/cases --output ${CMAKE_CURRENT_BINARY_DIR}/cases)

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""The transient of one drop in unbounded simple shear, lambda = 1, to six digits: reference data for the cases.
+"""The transient of one drop in unbounded simple shear or uniaxial extension, lambda = 1, to six digits: reference data for the cases.
 
-    spectral_drop.py CA [--degree P] [--dt DT] [--end T] [--interval I]
+    spectral_drop.py CA [--flow extension] [--degree P] [--dt DT] [--end T] [--interval I]
 
-Writes t,D,L,B,W,extent_x and the volume drift to standard output. Needs numpy; shares nothing with the program.
+Writes t,D,L,B,W,extent_x,D_inertia and the volume drift to standard output. Needs numpy; shares nothing with the program.
 
 The interface is x(theta, phi, t) = s(theta, phi, t) M y with y on the unit sphere, s a sum of spherical harmonics up to
 degree P, and M a fixed ellipsoid between the shapes at the start and at the end, so that s decays fast: at Ca = 0.38 the
 last two degrees are below 5e-5, 3e-6 and 2e-7 of the first for P = 12, 16 and 20. It moves with the normal velocity,
 
-    v(x0) = (y, 0, 0) - 1/(8 pi Ca) oint (I/r + r r/r^3) . n kappa dS,     ds/dt = v.n / (n . M y),
+    v(x0) = G x0 - 1/(8 pi Ca) oint (I/r + r r/r^3) . n kappa dS,     ds/dt = v.n / (n . M y),
 
 which for lambda = 1 is all there is: no double layer. The integral is taken in polar coordinates about each target, whose
 Jacobian cancels 1/r: Gauss-Legendre points in the polar angle and equal ones around it, where the fields come from their
@@ -109,9 +109,18 @@ class Grid:
         return (harmonics(degree, self.theta, self.phi) * self.weights[:, None]).T
 
 
+# Velocity gradient, half-axes of M and their angle to the x-axis. Both flows are their own mirror image in z and stay as they are when
+# turned by pi about it, of which `single_layer` makes use.
+FLOWS = {
+    "shear": (np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]), (1.36, 0.81, 0.90), np.pi / 6),
+    "extension": (np.diag([1.0, -0.5, -0.5]), (1.07, 0.967, 0.967), 0.0),
+}
+
+
 class Drop:
-    def __init__(self, Ca, degree, axes=(1.36, 0.81, 0.90), tilt=np.pi / 6):
+    def __init__(self, Ca, degree, flow="shear"):
         self.Ca, self.degree = Ca, degree
+        self.G, axes, tilt = FLOWS[flow]
         self.M = turn_about_z(tilt) @ np.diag(axes) @ turn_about_z(tilt).T
         self.fine_degree = degree + degree // 2  # of the force density, a product
         self.fine = Grid(self.fine_degree, degree)
@@ -189,10 +198,10 @@ class Drop:
         return result
 
     def rate(self, s):
-        """ds/dt in simple shear."""
+        """ds/dt in the flow."""
         x, n, _, _ = self.geometry(self.targets, s)
         v = -self.single_layer(s, x) / (8 * np.pi * self.Ca)
-        v[:, 0] += x[:, 1]
+        v += x @ self.G.T
         along = self.targets.directions[0] @ self.M.T
         return self.to_shape @ (np.einsum("ij,ij->i", v, n) / np.einsum("ij,ij->i", n, along))
 
@@ -213,10 +222,12 @@ class Drop:
         L, B = peak(r), -peak(-r)
         return (L - B) / (L + B), L, B, pole[0] * self.M[2, 2], peak(x[:, 0])
 
-    def volume_drift(self):
+    def moments(self):
+        """Volume, and D_inertia as in docs/notation.md."""
         x, n, J, _ = self.geometry(self.fine, self.s)
-        volume = (self.fine.weights * J / np.sin(self.fine.theta) * np.einsum("ij,ij->i", x, n)).sum() / 3
-        return volume / (4 * np.pi / 3) - 1
+        flux = self.fine.weights * J / np.sin(self.fine.theta) * np.einsum("ij,ij->i", x, n)
+        axes = np.sqrt(np.linalg.eigvalsh(np.einsum("i,ij,ik->jk", flux, x, x)))  # but for one factor
+        return flux.sum() / 3, (axes[2] - axes[0]) / (axes[2] + axes[0])
 
 
 def peak(values):
@@ -229,20 +240,22 @@ def peak(values):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("Ca", type=float)
+    parser.add_argument("--flow", choices=FLOWS, default="shear")
     parser.add_argument("--degree", type=int, default=20)
     parser.add_argument("--dt", type=float, default=0.1)
     parser.add_argument("--end", type=float, default=20.0)
     parser.add_argument("--interval", type=float, default=1.0)
     options = parser.parse_args()
 
-    drop = Drop(options.Ca, options.degree)
-    print("t,D,L,B,W,extent_x,volume_drift")
+    drop = Drop(options.Ca, options.degree, options.flow)
+    print("t,D,L,B,W,extent_x,D_inertia,volume_drift")
     for k in range(round(options.end / options.dt) + 1):
         if k > 0:
             drop.step(options.dt)
         if k % round(options.interval / options.dt) == 0:
-            print(f"{k * options.dt:g}," + ",".join(f"{value:.6f}" for value in drop.measures())
-                  + f",{drop.volume_drift():.1e}", flush=True)
+            volume, inertia = drop.moments()
+            print(f"{k * options.dt:g}," + ",".join(f"{value:.6f}" for value in (*drop.measures(), inertia))
+                  + f",{volume / (4 * np.pi / 3) - 1:.1e}", flush=True)
 
 
 if __name__ == "__main__":

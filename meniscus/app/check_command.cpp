@@ -46,6 +46,14 @@ std::vector<fs::path> chosen_cases(const CheckArguments& arguments) {
   return folders;
 }
 
+/// Whether the options leave a run in; a run made once is made again only when they ask for it.
+bool is_chosen(const CheckedRun& run, const CheckArguments& arguments) {
+  if (!arguments.runs.empty())
+    return std::ranges::find(arguments.runs, run.name) != arguments.runs.end();
+  if (arguments.is_short) return run.is_short;
+  return !run.is_once || arguments.is_once || arguments.is_recorded;
+}
+
 /// Makes the run a check asks for, or takes it up where it was left. False: it could not end.
 bool simulate(const fs::path& case_file, const CheckedRun& run, const fs::path& folder,
               bool is_quiet) {
@@ -77,7 +85,7 @@ std::map<std::string, RunTables> tables_of(const fs::path& folder, const std::st
                                            const CheckArguments& arguments) {
   std::map<std::string, RunTables> tables;
   for (const CheckedRun& run : check.runs) {
-    if (arguments.is_short && !run.is_short) continue;
+    if (!is_chosen(run, arguments)) continue;
     if (arguments.is_recorded) {
       if (fs::exists(folder / "results" / (file_name_of(run.name) + "-drops.csv")))
         tables[run.name] = read_record(folder / "results", run.name);
@@ -134,8 +142,11 @@ std::vector<CheckRow> check_case(const fs::path& folder, const CheckArguments& a
     reference = io::read_commented_table(folder / "reference.csv");
   std::vector<CheckRow> rows =
       compare(name, check, tables_of(folder, name, check, arguments), reference);
-  if (arguments.is_short)
-    std::erase_if(rows, [](const CheckRow& row) { return !row.worst && row.note == "not run"; });
+  // What was not asked for is passed over; of the records those that there are not are named.
+  if (!arguments.is_recorded || !arguments.runs.empty())
+    std::erase_if(rows, [](const CheckRow& row) {
+      return row.note == "not run" || row.note.starts_with("without");
+    });
   return rows;
 }
 

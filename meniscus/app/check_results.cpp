@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <fstream>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -19,7 +21,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 /// Steps that a record keeps, besides the last.
-constexpr std::size_t kRecordedSteps = 250;
+constexpr std::size_t kRecordedSteps = 120;
 
 Json read_run_json(const fs::path& folder) {
   std::ifstream file(folder / "run.json");
@@ -35,7 +37,17 @@ std::string provenance(const fs::path& folder) {
                      run.value("wall_seconds", 0.0));
 }
 
-/// Every k-th step and the last.
+/// The step with the smallest gap, which falls between others that are kept; none without gaps.
+std::optional<std::string> narrowest_step(const io::Table& history) {
+  const std::vector<double> gaps = history.column("min_gap");
+  std::optional<std::size_t> narrowest;
+  for (std::size_t i = 0; i < gaps.size(); ++i)
+    if (std::isfinite(gaps[i]) && (!narrowest || gaps[i] < gaps[*narrowest])) narrowest = i;
+  if (!narrowest) return std::nullopt;
+  return history.rows[*narrowest][history.find("step").value()];
+}
+
+/// Every k-th step, the last and the narrowest.
 std::set<std::string> kept_steps(const io::Table& history) {
   const std::size_t column = history.find("step").value(), count = history.rows.size();
   const std::size_t stride =
@@ -43,15 +55,16 @@ std::set<std::string> kept_steps(const io::Table& history) {
   std::set<std::string> steps;
   for (std::size_t i = 0; i < count; ++i)
     if (i % stride == 0 || i + 1 == count) steps.insert(history.rows[i][column]);
+  if (const auto step = narrowest_step(history)) steps.insert(*step);
   return steps;
 }
 
-/// A number with nine significant digits, beyond any figure compared; other cells as they are.
+/// A number with seven significant digits, beyond any figure compared; other cells as they are.
 std::string shortened(const std::string& cell) {
   if (cell.find_first_of(".e") == std::string::npos) return cell;
   char* end = nullptr;
   const double value = std::strtod(cell.c_str(), &end);
-  return end == cell.c_str() + cell.size() ? fmt::format("{:.9g}", value) : cell;
+  return end == cell.c_str() + cell.size() ? fmt::format("{:.7g}", value) : cell;
 }
 
 std::string thinned(const io::Table& table, const std::set<std::string>& steps) {
@@ -92,13 +105,16 @@ RunState state_of_run(const fs::path& folder, const Case& c) {
 }
 
 RunTables read_run_tables(const fs::path& folder) {
-  return {io::read_table(folder / "drops.csv"), io::read_table(folder / "history.csv")};
+  return {io::read_table(folder / "drops.csv"), io::read_table(folder / "history.csv"),
+          io::read_table(folder / "events.csv")};
 }
 
 RunTables read_record(const fs::path& results, const std::string& run) {
   const std::string name = file_name_of(run);
+  const fs::path events = results / (name + "-events.csv");
   return {io::read_commented_table(results / (name + "-drops.csv")),
-          io::read_commented_table(results / (name + "-history.csv"))};
+          io::read_commented_table(results / (name + "-history.csv")),
+          fs::exists(events) ? io::read_commented_table(events) : io::Table{}};
 }
 
 void write_record(const fs::path& results, const std::string& run, const fs::path& folder) {
@@ -108,6 +124,11 @@ void write_record(const fs::path& results, const std::string& run, const fs::pat
   fs::create_directories(results);
   io::write_file(results / (name + "-drops.csv"), head + thinned(tables.drops, steps));
   io::write_file(results / (name + "-history.csv"), head + thinned(tables.history, steps));
+  if (tables.events.rows.empty()) return;
+  std::set<std::string> all;
+  const std::size_t step = tables.events.find("step").value();
+  for (const auto& row : tables.events.rows) all.insert(row[step]);
+  io::write_file(results / (name + "-events.csv"), head + thinned(tables.events, all));
 }
 
 }  // namespace meniscus

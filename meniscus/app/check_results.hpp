@@ -17,8 +17,9 @@ enum class RunState { absent, unfinished, finished };
 
 [[nodiscard]] RunTables read_run_tables(const std::filesystem::path& folder);
 
-/// What is kept of a run beside its case: drops.csv and history.csv thinned to a few hundred steps,
-/// each headed by who made it and at what cost. Throws InvalidInput when there is no such record.
+/// What is kept of a run beside its case: drops.csv and history.csv thinned to a hundred-odd steps,
+/// and events.csv if anything happened, each headed by who made it and at what cost. Throws
+/// InvalidInput when there is no such record.
 [[nodiscard]] RunTables read_record(const std::filesystem::path& results, const std::string& run);
 void write_record(const std::filesystem::path& results, const std::string& run,
                   const std::filesystem::path& folder);

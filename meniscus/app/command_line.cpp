@@ -143,6 +143,11 @@ void add_check(CLI::App& app, Action& action) {
   command->add_option("-o,--output", arguments->output,
                       "Folder for the runs and check.html [out/check]");
   command->add_flag("--short", arguments->is_short, "Only the runs that take seconds");
+  command->add_flag("--once", arguments->is_once, "Also the runs that take hours")
+      ->excludes("--short");
+  command->add_option("--run", arguments->runs, "Only the run of this name; may be repeated")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
   CLI::Option* recorded = command->add_flag("--recorded", arguments->is_recorded,
                                             "Run nothing: compare the results kept with the cases");
   command->add_flag("--record", arguments->is_record, "Keep the results with the cases")

@@ -71,9 +71,11 @@ struct CheckArguments {
   std::string cases = "cases";       ///< where --all looks
   std::string output = "out/check";  ///< runs, and check.html
   bool is_all = false;
-  bool is_short = false;     ///< only the runs marked short
-  bool is_recorded = false;  ///< compares the results kept beside the cases, runs nothing
-  bool is_record = false;    ///< keeps the results there
+  bool is_short = false;          ///< only the runs marked short
+  bool is_once = false;           ///< also the runs marked once
+  std::vector<std::string> runs;  ///< only those of these names; empty: all
+  bool is_recorded = false;       ///< compares the results kept beside the cases, runs nothing
+  bool is_record = false;         ///< keeps the results there
   bool is_quiet = false;
 };
 int check_command(const CheckArguments& arguments);

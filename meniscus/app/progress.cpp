@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "meniscus/app/ranks.hpp"
+
 namespace meniscus {
 namespace {
 
@@ -31,8 +33,12 @@ std::string bar(double fraction) {
 
 }  // namespace
 
+// Open MPI gives its ranks a terminal of their own, wherever what they write goes.
 Progress::Progress(double start, double end, bool is_quiet)
-    : start_(start), end_(end), is_quiet_(is_quiet), is_terminal_(isatty(STDOUT_FILENO) == 1) {}
+    : start_(start),
+      end_(end),
+      is_quiet_(is_quiet || !is_first_rank()),
+      is_terminal_(num_ranks() == 1 && isatty(STDOUT_FILENO) == 1) {}
 
 void Progress::show(const HistoryRow& history, const std::vector<DropRow>& drops) {
   if (is_quiet_) return;

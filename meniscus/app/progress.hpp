@@ -8,7 +8,8 @@
 namespace meniscus {
 
 /// The progress of a run on standard output: one line rewritten in place on a terminal; into a pipe
-/// or file, plain lines, at most one every few seconds; nothing when quiet.
+/// or file or under mpirun, plain lines, at most one every few seconds; nothing when quiet, and on
+/// rank 0 alone.
 class Progress {
  public:
   Progress(double start, double end, bool is_quiet);

@@ -6,6 +6,7 @@
 #include "meniscus/app/commands.hpp"
 #include "meniscus/app/interrupt.hpp"
 #include "meniscus/app/live_view.hpp"
+#include "meniscus/app/ranks.hpp"
 #include "meniscus/app/run_record.hpp"
 #include "meniscus/app/simulation.hpp"
 #include "meniscus/case/case.hpp"
@@ -28,6 +29,15 @@ Evolution make_evolution(const Case& c, Scene scene) {
   return {std::move(scene), c.evolution, make_flow_solver(c)};
 }
 
+/// Finite elements are shared out to all ranks.
+Case shared_case(Case c) {
+  if (num_ranks() > 1 && c.method == FlowMethod::boundary_integral)
+    reject_input("{}: \"boundary-integral\" runs on one rank, with threads: not on {}",
+                 c.settings.place("solver.method"), num_ranks());
+  c.flow_solver.processes = fem::Processes::all;
+  return c;
+}
+
 /// What a checkpoint must say for `resume` to build the evolution again.
 std::function<void(Archive&)> case_description(const Case& c, const fs::path& folder) {
   return [text = case_toml(c), folder = fs::absolute(folder / ".").string()](Archive& archive) {
@@ -41,19 +51,24 @@ Case described_case(const Archive& archive, const fs::path& checkpoint,
   const auto text = archive.texts.find("case/toml"), folder = archive.texts.find("case/folder");
   if (text == archive.texts.end() || folder == archive.texts.end())
     reject_input("{}: not the checkpoint of a run", checkpoint.string());
-  return parse_case(text->second, checkpoint.string(), folder->second, overrides);
+  return shared_case(parse_case(text->second, checkpoint.string(), folder->second, overrides));
 }
 
 void finish(const Simulation& simulation, const RunRecord& record, const std::string& status) {
-  record.write(simulation, status);
-  write_report(simulation.directory().path());
+  on_first_rank([&] {
+    record.write(simulation, status);
+    write_report(simulation.directory().path());
+  });
 }
 
 /// The live view, if one is wanted: it listens before the run begins, so that nothing is written
 /// when it cannot.
 std::unique_ptr<LiveView> make_live_view(const WatchArguments& watch) {
-  return watch.is_on ? std::make_unique<LiveView>(WatchAddress{watch.address, watch.port})
-                     : nullptr;
+  std::unique_ptr<LiveView> view;
+  on_first_rank([&] {
+    if (watch.is_on) view = std::make_unique<LiveView>(WatchAddress{watch.address, watch.port});
+  });
+  return view;
 }
 
 void begin_live_view(LiveView* view, Simulation& simulation, const Progress& progress) {
@@ -67,9 +82,12 @@ void begin_live_view(LiveView* view, Simulation& simulation, const Progress& pro
 /// Runs to the end, keeping run.json and the report true however it ends.
 int simulate(Simulation& simulation, const RunRecord& record, Progress& progress, LiveView* view) {
   watch_for_interrupts();
-  record.write(simulation, "running");
-  begin_live_view(view, simulation, progress);
-  const std::string folder = simulation.directory().path().string();
+  std::string folder;
+  on_first_rank([&] {
+    record.write(simulation, "running");
+    begin_live_view(view, simulation, progress);
+    folder = simulation.directory().path().string();
+  });
   try {
     const Outcome outcome = simulation.run(progress);
     progress.close();
@@ -83,6 +101,7 @@ int simulate(Simulation& simulation, const RunRecord& record, Progress& progress
     }
   } catch (const std::exception& failure) {
     progress.close();
+    require_all_failed(failure);
     try {
       finish(simulation, record, fmt::format("failed: {}", failure.what()));
     } catch (const std::exception&) {
@@ -144,12 +163,10 @@ void require_first_step(const Evolution& evolution, const Case& c) {
       c.settings.place("time.min-step"), c.evolution.min_step, evolution.step_length());
 }
 
-}  // namespace
-
-int run_command(const RunArguments& arguments) {
+int run(const RunArguments& arguments) {
   if (arguments.is_quiet) log::set_level(log::Level::error);
   const fs::path file(arguments.case_file);
-  const Case c = read_case(file, arguments.overrides);
+  const Case c = shared_case(read_case(file, arguments.overrides));
   const std::string text = io::read_file(file);
   Scene scene = build_scene(c);
   const fs::path folder = arguments.output.empty() ? file.stem() : fs::path(arguments.output);
@@ -160,15 +177,18 @@ int run_command(const RunArguments& arguments) {
   require_first_step(evolution, c);
   const std::unique_ptr<LiveView> view = make_live_view(arguments.watch);
   // Only now that the run can begin is anything written.
-  RunDirectory directory = RunDirectory::create(folder, arguments.is_overwrite);
-  copy_reference(file.parent_path(), folder);
+  std::optional<RunDirectory> directory;
+  on_first_rank([&] {
+    directory = RunDirectory::create(folder, arguments.is_overwrite);
+    copy_reference(file.parent_path(), folder);
+  });
   Simulation simulation(std::move(evolution), std::move(directory), output_schedule(c.output),
                         case_description(c, file.parent_path()));
   Progress progress(0.0, c.evolution.end, arguments.is_quiet);
   return simulate(simulation, RunRecord(c, arguments.case_file, text), progress, view.get());
 }
 
-int resume_command(const ResumeArguments& arguments) {
+int resume(const ResumeArguments& arguments) {
   if (arguments.is_quiet) log::set_level(log::Level::error);
   const fs::path source(arguments.directory);
   const fs::path checkpoint =
@@ -186,17 +206,30 @@ int resume_command(const ResumeArguments& arguments) {
   if (!arguments.output.empty()) {
     require_usable(folder, false);
     require_same_run(archive, checkpoint, source);
-    copy_run(source, folder);
+    on_first_rank([&] { copy_run(source, folder); });
   }
   const std::unique_ptr<LiveView> view = make_live_view(arguments.watch);
   RunRecord record(c, "", "");
-  record.go_on_from(folder / "run.json");
+  std::optional<RunDirectory> directory;
+  on_first_rank([&] {
+    record.go_on_from(folder / "run.json");
+    directory = RunDirectory::take_up(folder, evolution.step(), evolution.t());
+  });
   Progress progress(evolution.t(), c.evolution.end, arguments.is_quiet);
-  RunDirectory directory = RunDirectory::take_up(folder, evolution.step(), evolution.t());
   Simulation simulation(std::move(evolution), std::move(directory), output_schedule(c.output),
                         case_description(c, archive.texts.at("case/folder")));
   simulation.load_schedule(archive);
   return simulate(simulation, record, progress, view.get());
+}
+
+}  // namespace
+
+int run_command(const RunArguments& arguments) {
+  return on_all_ranks([&] { return run(arguments); });
+}
+
+int resume_command(const ResumeArguments& arguments) {
+  return on_all_ranks([&] { return resume(arguments); });
 }
 
 }  // namespace meniscus

@@ -40,6 +40,7 @@ std::map<double, double> by_step(const RunTables& run, const std::string& column
 
 std::string name_of(const CheckedQuantity& quantity) {
   std::string name = quantity.column;
+  if (quantity.event) return fmt::format("{} of event {}", name, *quantity.event);
   if (quantity.minus_drop) name += fmt::format(" of {} − {}", quantity.drop, *quantity.minus_drop);
   if (quantity.measure == Measure::largest) return "largest " + name;
   if (quantity.measure == Measure::smallest) return "smallest " + name;
@@ -58,8 +59,16 @@ double extreme(const CheckedQuantity& quantity, const Series& series) {
   return series.y.back();
 }
 
-/// The number a quantity has in one run: an extreme, or the value of its curve at its one place.
+/// Of the events in the order in which they were made; none where there were fewer.
+std::optional<double> event_value(const RunTables& run, const std::string& column, int event) {
+  if (event < 0 || event >= static_cast<int>(run.events.rows.size())) return std::nullopt;
+  return run.events.column(column).at(static_cast<std::size_t>(event));
+}
+
+/// The number a quantity has in one run: of an event, an extreme, or the value of its curve at its
+/// one place.
 std::optional<double> single_value(const CheckedQuantity& quantity, const RunTables& run) {
+  if (quantity.event) return event_value(run, quantity.column, *quantity.event);
   const Series series = series_of(run, quantity);
   if (quantity.measure == Measure::curve) return value_at(series, quantity.at.at(0));
   return series.y.empty() ? std::nullopt : std::optional(extreme(quantity, series));

@@ -14,6 +14,7 @@ namespace meniscus {
 /// The rows of one run that checks read.
 struct RunTables {
   io::Table drops, history;
+  io::Table events = {};  ///< without columns where nothing happened
 };
 
 /// One quantity as a function of another, ordered as the run made it.

@@ -59,7 +59,8 @@ const std::vector<std::string> kDropColumns{"step",
                                             "angle_deg",
                                             "extent_x",
                                             "H_max",
-                                            "D_inertia"};
+                                            "D_inertia",
+                                            "neck_radius"};
 const std::vector<std::string> kEventColumns{"step",
                                              "t",
                                              "kind",
@@ -176,13 +177,33 @@ RunDirectory RunDirectory::take_up(const fs::path& path, std::int64_t first_step
 void RunDirectory::add_rows(const HistoryRow& h, const std::vector<DropRow>& drops) {
   for (const DropRow& row : drops) {
     const DropShape& s = row.shape;
-    drops_.add({h.step, h.t, std::int64_t{row.drop},
-                row.parent < 0 ? io::Cell() : io::Cell(std::int64_t{row.parent}), s.volume,
-                row.volume_drift, row.volume_correction, s.area, s.centroid.x(), s.centroid.y(),
-                s.centroid.z(), s.L, s.B, s.W, s.D, cell(s.angle_deg), s.extent_x, s.H_max,
-                s.D_inertia});
+    drops_.add({h.step,
+                h.t,
+                std::int64_t{row.drop},
+                row.parent < 0 ? io::Cell() : io::Cell(std::int64_t{row.parent}),
+                s.volume,
+                row.volume_drift,
+                row.volume_correction,
+                s.area,
+                s.centroid.x(),
+                s.centroid.y(),
+                s.centroid.z(),
+                s.L,
+                s.B,
+                s.W,
+                s.D,
+                cell(s.angle_deg),
+                s.extent_x,
+                s.H_max,
+                s.D_inertia,
+                cell(row.neck_radius)});
   }
-  const Mat3& stress = h.stress;
+  const auto stress = [&h](int i, int j) {
+    return h.stress ? io::Cell((*h.stress)(i, j)) : io::Cell();
+  };
+  const auto difference = [&h](int i, int j) {
+    return h.stress ? io::Cell((*h.stress)(i, i) - (*h.stress)(j, j)) : io::Cell();
+  };
   history_.add({h.step,
                 h.t,
                 h.dt,
@@ -203,8 +224,8 @@ void RunDirectory::add_rows(const HistoryRow& h, const std::vector<DropRow>& dro
                 stress(0, 1),
                 stress(0, 2),
                 stress(1, 2),
-                stress(0, 0) - stress(1, 1),
-                stress(1, 1) - stress(2, 2)});
+                difference(0, 1),
+                difference(1, 2)});
 }
 
 void RunDirectory::add_events(std::int64_t step, double t,

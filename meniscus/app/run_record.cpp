@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "meniscus/app/ranks.hpp"
 #include "meniscus/core/version.hpp"
 
 namespace meniscus {
@@ -63,7 +64,7 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
                     {"case_text", case_text_},
                     {"case", Json::parse(case_json_)},
                     {"host", host_name()},
-                    {"ranks", 1},
+                    {"ranks", num_ranks()},
                     {"started", started_},
                     {"finished", now_utc()},
                     {"wall_seconds", wall_before_ + wall},

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "meniscus/app/interrupt.hpp"
+#include "meniscus/app/ranks.hpp"
 #include "meniscus/core/error.hpp"
 
 namespace meniscus {
@@ -17,8 +18,8 @@ double next_multiple(double interval, double t) {
 
 }  // namespace
 
-Simulation::Simulation(Evolution evolution, RunDirectory directory, const OutputSchedule& schedule,
-                       std::function<void(Archive&)> describe)
+Simulation::Simulation(Evolution evolution, std::optional<RunDirectory> directory,
+                       const OutputSchedule& schedule, std::function<void(Archive&)> describe)
     : evolution_(std::move(evolution)),
       directory_(std::move(directory)),
       schedule_(schedule),
@@ -36,8 +37,9 @@ void Simulation::load_schedule(const Archive& archive) {
 Outcome Simulation::run(Progress& progress) {
   bool is_after_event = false;
   for (bool is_first = true;; is_first = false) {
-    const bool is_last = evolution_.is_finished(), is_stopped = !is_last && is_interrupted();
-    const Archive state = state_before_solve();
+    const bool is_last = evolution_.is_finished(),
+               is_stopped = !is_last && any_rank(is_interrupted());
+    const Archive state = is_first_rank() ? state_before_solve() : Archive();
     if (is_first || is_last || is_stopped || is_after_event ||
         evolution_.step() % schedule_.checkpoint_every == 0)
       write_checkpoint(state);
@@ -47,7 +49,7 @@ Outcome Simulation::run(Progress& progress) {
       throw RunFailure(fmt::format("the flow at t = {:.6g} could not be solved: {}", evolution_.t(),
                                    solved.failure));
     }
-    record(progress, is_last);
+    on_first_rank([&] { record(progress, is_last); });
     if (is_last) return Outcome::done;
     if (const EvolutionReport advanced = evolution_.advance(); !advanced.ok) {
       write_checkpoint(state);
@@ -68,8 +70,10 @@ Archive Simulation::state_before_solve() const {
 }
 
 void Simulation::write_checkpoint(const Archive& state) {
-  const PhaseTimer timer(output_times_, "output");
-  directory_.write_checkpoint(state, state.integers.at("evolution/step").front());
+  on_first_rank([&] {
+    const PhaseTimer timer(output_times_, "output");
+    directory_->write_checkpoint(state, state.integers.at("evolution/step").front());
+  });
 }
 
 void Simulation::record(Progress& progress, bool is_last) {
@@ -79,23 +83,23 @@ void Simulation::record(Progress& progress, bool is_last) {
     const PhaseTimer timer(output_times_, "output");
     const double t = evolution_.t();
     if (t >= next_surface_frame_ || is_last) {
-      directory_.add_surface_frame(evolution_);
+      directory_->add_surface_frame(evolution_);
       next_surface_frame_ = next_multiple(schedule_.surface_interval, t);
     }
     if (t >= next_volume_frame_ || is_last) {
-      directory_.add_volume_frame(evolution_);
+      directory_->add_volume_frame(evolution_);
       next_volume_frame_ =
           schedule_.volume_interval > 0.0 ? next_multiple(schedule_.volume_interval, t) : HUGE_VAL;
     }
-    directory_.add_rows(history, drops);
-    directory_.add_events(history.step, history.t, evolution_.events());
-    if (observer_) observer_(directory_);
+    directory_->add_rows(history, drops);
+    directory_->add_events(history.step, history.t, evolution_.events());
+    if (observer_) observer_(*directory_);
   }
   const auto now = seconds();
   auto spent = now;
   for (std::size_t i = 0; i < spent.size(); ++i) spent[i].second -= timed_[i].second;
   timed_ = now;
-  directory_.add_timing(history.step, history.t, spent);
+  directory_->add_timing(history.step, history.t, spent);
   progress.show(history, drops);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "meniscus/app/progress.hpp"
 #include "meniscus/app/run_directory.hpp"
@@ -23,9 +24,10 @@ enum class Outcome { done, stopped };
 /// between.
 class Simulation {
  public:
-  /// `describe` adds to a checkpoint what it takes to build the evolution again.
-  Simulation(Evolution evolution, RunDirectory directory, const OutputSchedule& schedule,
-             std::function<void(Archive&)> describe);
+  /// `describe` adds to a checkpoint what it takes to build the evolution again. Rank 0 has the
+  /// directory, and it alone.
+  Simulation(Evolution evolution, std::optional<RunDirectory> directory,
+             const OutputSchedule& schedule, std::function<void(Archive&)> describe);
 
   /// When the next frames are due, from the checkpoint the evolution was loaded from.
   void load_schedule(const Archive& archive);
@@ -33,11 +35,12 @@ class Simulation {
   void set_observer(std::function<void(const RunDirectory&)> observer) {
     observer_ = std::move(observer);
   }
-  /// Throws RunFailure, a checkpoint being left, when the run cannot go on.
+  /// Throws RunFailure, a checkpoint being left, when the run cannot go on. Collective.
   Outcome run(Progress& progress);
 
   [[nodiscard]] const Evolution& evolution() const { return evolution_; }
-  [[nodiscard]] const RunDirectory& directory() const { return directory_; }
+  /// On rank 0.
+  [[nodiscard]] const RunDirectory& directory() const { return *directory_; }
   /// Seconds by phase since this process began to simulate.
   [[nodiscard]] std::vector<std::pair<std::string, double>> seconds() const;
 
@@ -48,7 +51,7 @@ class Simulation {
   [[nodiscard]] double seconds_in(const std::string& phase) const;
 
   Evolution evolution_;
-  RunDirectory directory_;
+  std::optional<RunDirectory> directory_;
   OutputSchedule schedule_;
   std::function<void(Archive&)> describe_;
   std::function<void(const RunDirectory&)> observer_;

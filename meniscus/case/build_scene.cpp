@@ -152,9 +152,10 @@ Scene build_surroundings(const Case& c) {
   scene.flow = c.flow;
   scene.is_unbounded = c.domain.shape == DomainCase::Shape::unbounded;
   if (!scene.is_unbounded) scene.boundary = build_boundary(c);
-  scene.liquids.add({.viscosity = 1.0, .body_force = c.matrix_body_force});
+  scene.liquids.add({.viscosity = 1.0, .body_force = c.matrix_body_force, .law = c.matrix_law});
   for (const DropCase& drop : c.drops)
-    scene.liquids.add({.viscosity = drop.viscosity_ratio, .body_force = drop.body_force});
+    scene.liquids.add(
+        {.viscosity = drop.viscosity_ratio, .body_force = drop.body_force, .law = drop.law});
   return scene;
 }
 

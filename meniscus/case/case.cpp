@@ -64,6 +64,16 @@ void require_capillary_time(const Case& c) {
                       "in mu_out R0/sigma");
 }
 
+/// The keys that the file by itself makes use of; none if it is no whole case by itself.
+std::map<std::string, schema::Value> used_by_file(std::string_view text, const std::string& name,
+                                                  const std::filesystem::path& folder) {
+  try {
+    return parse_case(text, name, folder, {}).settings.used();
+  } catch (const InvalidInput&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 Case parse_case(std::string_view text, const std::string& name, const std::filesystem::path& folder,
@@ -74,10 +84,12 @@ Case parse_case(std::string_view text, const std::string& name, const std::files
   c.Ca = read_scale(c.settings);
   c.flow = read_flow(c.settings);
   c.matrix_body_force = c.settings.vector("matrix.body-force");
+  c.matrix_law = read_viscosity_law(c.settings, "matrix");
   c.drops = read_drops(c.settings);
   c.domain = read_domain(c.settings, c.flow);
   require_capillary_time(c);
   c.method = read_method(c.settings, c.domain);
+  if (c.method == FlowMethod::boundary_integral) require_newtonian(c);
   if (c.method == FlowMethod::boundary_integral)
     c.boundary_integral = read_boundary_integrals(c.settings);
   else
@@ -85,7 +97,12 @@ Case parse_case(std::string_view text, const std::string& name, const std::files
   c.evolution = read_evolution(c.settings, c.method, c.flow_solver.elements);
   c.output = read_output(c.settings, c.method);
   read_fixed_keys(c.settings, c.method);
-  c.settings.require_all_used();
+  // One override may choose another solver or boundary: what the file says of the first one is no
+  // mistake then.
+  if (overrides.empty())
+    c.settings.require_all_used({});
+  else
+    c.settings.require_all_used(used_by_file(text, name, folder));
   return c;
 }
 

@@ -36,6 +36,7 @@ struct DropCase {
   DropShapeCase shape;
   Vec3 center = Vec3::Zero();
   double viscosity_ratio = 1.0;
+  ViscosityLaw law = {};
   double tension_ratio = 1.0;
   int nodes = 110;  ///< N0
   Vec3 body_force = Vec3::Zero();
@@ -82,6 +83,7 @@ struct Case {
   double Ca = 1.0;
   ImposedFlow flow;
   Vec3 matrix_body_force = Vec3::Zero();
+  ViscosityLaw matrix_law = {};
   std::vector<DropCase> drops;
   DomainCase domain;
   EvolutionOptions evolution;
@@ -91,8 +93,9 @@ struct Case {
   OutputOptions output;
 };
 
-/// Reads a case file; each override is "key=value" and wins over the file. Every fault throws
-/// InvalidInput with one line: file:line (or the override), key, value, what is allowed.
+/// Reads a case file; each override is "key=value" and wins over the file. A key of the file that
+/// loses its effect by an override is passed over. Every fault throws InvalidInput with one line:
+/// file:line (or the override), key, value, what is allowed.
 [[nodiscard]] Case read_case(const std::filesystem::path& file,
                              std::span<const std::string> overrides = {});
 /// The same from text; `name` stands for the file in messages, relative file names start from

@@ -107,6 +107,8 @@ CheckedQuantity read_quantity(const Reader& reader) {
   quantity.drop = reader.whole("drop").value_or(0);
   quantity.minus_drop = reader.whole("minus-drop");
   quantity.measure = read_measure(reader);
+  quantity.event = reader.whole("event");
+  if (quantity.event) quantity.measure = CheckedQuantity::Measure::last;
   quantity.over = reader.text("over").value_or("t");
   quantity.at = reader.list<double>("at", "numbers");
   quantity.against = reader.text("against").value_or("");
@@ -127,22 +129,26 @@ CheckedQuantity read_quantity(const Reader& reader) {
 }
 
 CheckedRun read_run(const Reader& reader) {
-  reader.allow({"name", "set", "short", "quantity"});
+  reader.allow({"name", "set", "short", "once", "quantity"});
   CheckedRun run;
   run.name = reader.required_text("name");
   run.overrides = reader.list<std::string>("set", "texts");
   run.is_short = reader.flag("short");
+  run.is_once = reader.flag("once");
+  if (run.is_short && run.is_once)
+    reader.reject(reader.table(), "short and once: only one of them");
   for (const Reader& entry : reader.tables("quantity")) {
-    entry.allow({"column", "drop", "minus-drop", "measure", "over", "at", "against", "reference",
-                 "source", "tolerance", "absolute"});
+    entry.allow({"column", "event", "drop", "minus-drop", "measure", "over", "at", "against",
+                 "reference", "source", "tolerance", "absolute"});
     run.quantities.push_back(read_quantity(entry));
   }
   return run;
 }
 
 CheckedExtrapolation read_extrapolation(const Reader& reader) {
-  reader.allow({"name", "runs", "nodes", "order", "column", "drop", "minus-drop", "measure", "over",
-                "at", "against", "reference", "source", "tolerance", "absolute"});
+  reader.allow({"name", "runs", "nodes", "order", "column", "event", "drop", "minus-drop",
+                "measure", "over", "at", "against", "reference", "source", "tolerance",
+                "absolute"});
   CheckedExtrapolation result;
   result.name = reader.required_text("name");
   result.runs = reader.list<std::string>("runs", "names of runs");

@@ -12,6 +12,7 @@ struct CheckedQuantity {
   enum class Measure { curve, largest, smallest, last };
 
   std::string column;             ///< of drops.csv, else of history.csv
+  std::optional<int> event;       ///< row of events.csv, from 0, that the column is of instead
   int drop = 0;                   ///< whose row of drops.csv
   std::optional<int> minus_drop;  ///< the column of this drop is taken off
   Measure measure = Measure::curve;
@@ -29,6 +30,7 @@ struct CheckedRun {
   std::vector<std::string> overrides;  ///< key=value
   bool is_short = false;               ///< cheap enough for every test
   std::vector<CheckedQuantity> quantities;
+  bool is_once = false;  ///< so dear that it is made only when it is asked for
 };
 
 /// The limit N0 → ∞ of one quantity, from the runs at several N0: least squares of

@@ -52,6 +52,7 @@ std::vector<DropCase> read_drops(Settings& settings) {
     drops.push_back({.shape = read_shape(settings, table),
                      .center = settings.vector(table + ".center"),
                      .viscosity_ratio = settings.number(table + ".viscosity-ratio"),
+                     .law = read_viscosity_law(settings, table),
                      .tension_ratio = settings.number(table + ".tension-ratio"),
                      .nodes = settings.whole(table + ".nodes"),
                      .body_force = settings.vector(table + ".body-force")});

@@ -39,16 +39,16 @@ TopologyOptions read_topology(Settings& settings, double edge_floor) {
 
 EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elements elements) {
   EvolutionOptions options;
-  const bool is_curved = method == FlowMethod::finite_element && elements == fem::Elements::p2_p1;
+  const bool is_curved =
+      method == FlowMethod::boundary_integral || elements == fem::Elements::p2_p1;
   options.surface = is_curved ? SurfaceShape::curved : SurfaceShape::faceted;
   options.scheme = settings.choice<TimeScheme>(
       "time.scheme", {{"rk2", TimeScheme::rk2}, {"euler", TimeScheme::euler}});
+  if (is_curved) settings.prefer("interface.motion-normal", "smooth");
   options.motion_normal = settings.choice<MotionNormal>("interface.motion-normal",
                                                         {{"area-vector", MotionNormal::area_vector},
                                                          {"fit", MotionNormal::fit},
                                                          {"smooth", MotionNormal::smooth}});
-  if (is_curved && !settings.is_given("interface.motion-normal"))
-    options.motion_normal = MotionNormal::smooth;
   options.end = settings.number("time.end");
   options.step_factor = settings.number("time.step-factor");
   options.step_edges = settings.choice<StepEdges>(

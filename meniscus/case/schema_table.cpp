@@ -25,6 +25,26 @@ constexpr Range kCount{.min = 1, .max = 1e9};
 constexpr std::string_view kWithElements = "with method = \"finite-element\"";
 constexpr std::string_view kWithIntegrals = "with method = \"boundary-integral\"";
 
+const std::vector<std::string_view> kViscosityLaws{"newtonian", "carreau-yasuda", "power-law"};
+// Above 3 no liquid is known, and Newton's method has not been tried.
+constexpr Range kPowerIndex{.min = 0.0, .max = 3.0, .open_min = true};
+constexpr std::string_view kWithLaw = "with viscosity-law = \"carreau-yasuda\" or \"power-law\"";
+constexpr std::string_view kWithCarreau = "with viscosity-law = \"carreau-yasuda\"";
+constexpr std::string_view kWithPowerLaw = "with viscosity-law = \"power-law\"";
+constexpr std::string_view kLawSentence =
+    "How the viscosity depends on the rate of shear g = sqrt(2 D:D): it is the liquid's own "
+    "(viscosity-ratio of a drop, 1 of the matrix) times 1, or r + (1 - r) (1 + (t g)^a)^((n - "
+    "1)/a), or g^(n - 1) between a floor and a ceiling.";
+constexpr std::string_view kIndexSentence =
+    "n: below 1 the liquid thins with shear, above 1 it "
+    "thickens.";
+constexpr std::string_view kConstantSentence = "t: the liquid begins to thin at rates about 1/t.";
+constexpr std::string_view kYasudaSentence = "a: how sharply; 2 is Carreau's law.";
+constexpr std::string_view kInfiniteSentence = "r: viscosity at infinite rate over that at rest.";
+constexpr std::string_view kFloorSentence =
+    "The least that the power law may multiply the liquid's viscosity by.";
+constexpr std::string_view kCeilingSentence = "The most: what a thinning liquid has at rest.";
+
 const std::vector<std::string_view> kFlowKinds{"simple-shear", "uniaxial-extension",
                                                "planar-extension", "quiescent"};
 
@@ -128,6 +148,42 @@ const std::vector<Key> kKeys{
      .value = Vec3(Vec3::Zero()),
      .sentence = "Uniform force per volume on the liquid around the drops. Only its difference "
                  "from that of a drop moves anything."},
+    {.path = "matrix.viscosity-law",
+     .type = word,
+     .words = kViscosityLaws,
+     .value = "newtonian"s,
+     .sentence = kLawSentence},
+    {.path = "matrix.power-index",
+     .range = kPowerIndex,
+     .default_note = "required with such a law",
+     .applies = kWithLaw,
+     .sentence = kIndexSentence},
+    {.path = "matrix.time-constant",
+     .dimension = Dimension::time,
+     .range = kPositive,
+     .default_note = "required with carreau-yasuda",
+     .applies = kWithCarreau,
+     .sentence = kConstantSentence},
+    {.path = "matrix.yasuda-exponent",
+     .range = {.min = 0.0, .max = 10.0, .open_min = true},
+     .value = 2.0,
+     .applies = kWithCarreau,
+     .sentence = kYasudaSentence},
+    {.path = "matrix.infinite-shear-ratio",
+     .range = {.min = 0.0, .max = 1.0},
+     .value = 0.0,
+     .applies = kWithCarreau,
+     .sentence = kInfiniteSentence},
+    {.path = "matrix.viscosity-floor",
+     .range = {.min = 0.0, .max = 1.0, .open_min = true},
+     .value = 1e-3,
+     .applies = kWithPowerLaw,
+     .sentence = kFloorSentence},
+    {.path = "matrix.viscosity-ceiling",
+     .range = {.min = 1.0, .max = 1e6},
+     .value = 1e3,
+     .applies = kWithPowerLaw,
+     .sentence = kCeilingSentence},
 
     {.path = "drop[].center",
      .type = vector,
@@ -167,7 +223,44 @@ const std::vector<Key> kKeys{
     {.path = "drop[].viscosity-ratio",
      .range = kPositive,
      .value = 1.0,
-     .sentence = "lambda: the drop's viscosity over the matrix's."},
+     .sentence = "lambda: the drop's viscosity over the matrix's; where one depends on the rate of "
+                 "shear, that at rest (carreau-yasuda) or at the rate G (power-law)."},
+    {.path = "drop[].viscosity-law",
+     .type = word,
+     .words = kViscosityLaws,
+     .value = "newtonian"s,
+     .sentence = kLawSentence},
+    {.path = "drop[].power-index",
+     .range = kPowerIndex,
+     .default_note = "required with such a law",
+     .applies = kWithLaw,
+     .sentence = kIndexSentence},
+    {.path = "drop[].time-constant",
+     .dimension = Dimension::time,
+     .range = kPositive,
+     .default_note = "required with carreau-yasuda",
+     .applies = kWithCarreau,
+     .sentence = kConstantSentence},
+    {.path = "drop[].yasuda-exponent",
+     .range = {.min = 0.0, .max = 10.0, .open_min = true},
+     .value = 2.0,
+     .applies = kWithCarreau,
+     .sentence = kYasudaSentence},
+    {.path = "drop[].infinite-shear-ratio",
+     .range = {.min = 0.0, .max = 1.0},
+     .value = 0.0,
+     .applies = kWithCarreau,
+     .sentence = kInfiniteSentence},
+    {.path = "drop[].viscosity-floor",
+     .range = {.min = 0.0, .max = 1.0, .open_min = true},
+     .value = 1e-3,
+     .applies = kWithPowerLaw,
+     .sentence = kFloorSentence},
+    {.path = "drop[].viscosity-ceiling",
+     .range = {.min = 1.0, .max = 1e6},
+     .value = 1e3,
+     .applies = kWithPowerLaw,
+     .sentence = kCeilingSentence},
     {.path = "drop[].tension-ratio",
      .range = kNotNegative,
      .value = 1.0,
@@ -310,7 +403,7 @@ const std::vector<Key> kKeys{
      .value = "area-vector"s,
      .sentence = "Normal along which vertices move: area-vector keeps the volume's rate of change "
                  "at round-off, fit is the paper's paraboloid, smooth that of the fitted surface "
-                 "(what P2-P1 elements take unless told otherwise)."},
+                 "(what P2-P1 elements and boundary integrals take unless told otherwise)."},
     {.path = "interface.volume-motion",
      .type = word,
      .words = {"spines", "lagrangian", "harmonic"},

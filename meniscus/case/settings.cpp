@@ -125,9 +125,10 @@ void Settings::reject_value(const std::string& path, const std::string& complain
   reject_input("{}: {} = {} {}", place(path), name(path), schema::to_toml(*value), complaint);
 }
 
-void Settings::require_all_used() const {
+void Settings::require_all_used(const std::map<std::string, Value>& used_without_overrides) const {
   for (const auto& [path, given] : document_.values) {
     if (used_.contains(path)) continue;
+    if (!given.is_override && used_without_overrides.contains(path)) continue;
     const schema::Key* key = schema::find_key(schema::generic_path(path));
     if (key->applies.empty())
       reject_input("{}: {} has no effect in this case", given.place, name(path));

@@ -59,6 +59,11 @@ class Settings {
   [[nodiscard]] Enum choice(const std::string& path,
                             std::initializer_list<std::pair<std::string_view, Enum>> words);
 
+  /// From here on the word is what a key that is not given means, here and in the checkpoints.
+  void prefer(const std::string& path, const std::string& word) {
+    if (!is_given(path)) used_[path] = word;
+  }
+
   void set_scale(const Scale& scale) { scale_ = scale; }
   [[nodiscard]] const std::optional<Scale>& scale() const { return scale_; }
 
@@ -76,8 +81,10 @@ class Settings {
                            Args&&... args) const {
     reject_value(path, fmt::format(format, std::forward<Args>(args)...));
   }
-  /// Throws InvalidInput naming the first given key that nothing has asked for.
-  void require_all_used() const;
+  /// Throws InvalidInput naming the first given key that nothing has asked for. Keys of the file
+  /// that are used when it is read without overrides are passed over: they lost their effect to
+  /// an override.
+  void require_all_used(const std::map<std::string, schema::Value>& used_without_overrides) const;
 
   /// Every key asked for with its value, given or default, in the case's own units; by path.
   [[nodiscard]] const std::map<std::string, schema::Value>& used() const { return used_; }

@@ -25,7 +25,8 @@ Mat3 viscous_part(const SurfaceMesh& mesh, const VertexField<Vec3>& u) {
 
 }  // namespace
 
-Mat3 drop_stress(const Scene& scene, std::span<const VertexField<Vec3>> velocity) {
+Mat3 drop_stress(const Scene& scene, std::span<const VertexField<Vec3>> velocity,
+                 std::span<const Mat3> excess) {
   Mat3 total = Mat3::Zero();
   double volume = 0.0;
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
@@ -36,6 +37,7 @@ Mat3 drop_stress(const Scene& scene, std::span<const VertexField<Vec3>> velocity
              contrast * viscous_part(interface.mesh, velocity[i]);
     if (interface.outside == RegionId{0}) volume += enclosed_volume(interface.mesh);
   }
+  for (std::size_t region = 1; region < excess.size(); ++region) total += excess[region];
   return volume > 0.0 ? Mat3(total / volume) : total;
 }
 

@@ -10,8 +10,11 @@ namespace meniscus {
 /// G]:
 ///   Σ = V⁻¹ Σ_drops [ tension ∫_S (I − nn − 2/3 I) dS + (λ − λ_out) ∫_S (un + nu) dS ]
 /// (kennedy1994, eq. 10; loewenberg1996, eq. 8), V the volume the outermost interfaces enclose,
-/// λ and λ_out the viscosities inside and outside each interface. Deviatoric up to the trace of the
+/// λ and λ_out the viscosities inside and outside each interface. `excess`, by region, is what the
+/// laws of generalised-Newtonian drops add to the stress in them (FlowSolver::excess_stress); the
+/// matrix has to be Newtonian. Deviatoric up to the trace of the
 /// second integral, which incompressible flow makes zero.
-[[nodiscard]] Mat3 drop_stress(const Scene& scene, std::span<const VertexField<Vec3>> velocity);
+[[nodiscard]] Mat3 drop_stress(const Scene& scene, std::span<const VertexField<Vec3>> velocity,
+                               std::span<const Mat3> excess = {});
 
 }  // namespace meniscus

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -13,6 +14,8 @@
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/remesh.hpp"
+#include "meniscus/topology/mend.hpp"
+#include "meniscus/topology/necks.hpp"
 #include "meniscus/volume/quality.hpp"
 
 namespace meniscus {
@@ -45,6 +48,17 @@ SurfaceMotion surface_motion(const Scene& scene, const InterfaceMotion& motion) 
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
     result.add(scene.interfaces[i].mesh, motion[i]);
   return result;
+}
+
+/// The radius of the circle of the same area as the section of the thinnest neck, of those thinner
+/// than half of the sphere of the same volume. Of the triangulation: where its vertices lie on the
+/// surface, π²/3n² short with n edges around.
+std::optional<double> thinnest_neck(const Interface& interface) {
+  const double sphere = std::cbrt(0.75 * interface.volume / std::numbers::pi);
+  const std::vector<Neck> necks = find_necks(interface.mesh, SurfaceTree(interface.mesh),
+                                             Side::inside, 0.5 * sphere, SurfaceMotion());
+  return necks.empty() ? std::nullopt
+                       : std::optional(std::sqrt(necks.front().area / std::numbers::pi));
 }
 
 std::string text_of(std::span<const int> ids) { return fmt::format("{}", fmt::join(ids, ", ")); }
@@ -187,7 +201,17 @@ void Evolution::remesh_interfaces() {
     for (std::size_t j = 0; j < trees.size(); ++j)
       if (j != i) options.neighbours.push_back(&trees[j]);
     options.find_fault = find_self_intersection;
-    const RemeshReport report = remesh(interface.mesh, options);
+    // Only flows through changes of topology draw creases that nothing will smooth again.
+    const MendReport mended = options_.topology.is_off()
+                                  ? MendReport{.remesh = remesh(interface.mesh, options)}
+                                  : remesh_or_mend(interface.mesh, options);
+    const RemeshReport& report = mended.remesh;
+    if (mended.is_mended) {
+      warnings_.push_back(fmt::format(
+          "t = {:.6g}: creases of drop {} were rounded, {} holes through it closed, to remesh it",
+          t_, interface.drop, mended.closed_holes));
+      log::warning("{}", warnings_.back());
+    }
     correction_[i] = report.volume_shift;
     if (report.ok && options_.surface == SurfaceShape::curved)
       correction_[i] = std::abs(restore_volume(interface.mesh, interface.volume, options_.surface));
@@ -221,8 +245,8 @@ EvolutionReport Evolution::change_topology(const Scene& moved, const InterfaceMo
 
 void Evolution::restore_volumes() {
   for (std::size_t i = 0; i < scene_.interfaces.size(); ++i)
-    correction_[i] =
-        std::abs(restore_volume(scene_.interfaces[i].mesh, scene_.interfaces[i].volume));
+    correction_[i] = std::abs(
+        restore_volume(scene_.interfaces[i].mesh, scene_.interfaces[i].volume, options_.surface));
 }
 
 FlowReport Evolution::solve_flow(double t) {
@@ -254,7 +278,8 @@ HistoryRow Evolution::history_row() const {
     row.dissipation = power->dissipation;
   }
   row.surface_rate = surface_energy_rate(scene_, motion_, options_.surface);
-  row.stress = drop_stress(scene_, flow_->velocity());
+  if (is_newtonian(scene_.liquids[RegionId{0}].law))
+    row.stress = drop_stress(scene_, flow_->velocity(), flow_->excess_stress());
   return row;
 }
 
@@ -269,6 +294,7 @@ std::vector<DropRow> Evolution::drop_rows() const {
     row.shape.volume = volume_of(interface.mesh, options_.surface);
     row.volume_drift = row.shape.volume / interface.initial_volume - 1.0;
     row.volume_correction = correction_[i];
+    if (options_.topology.breakup_radius > 0.0) row.neck_radius = thinnest_neck(interface);
   }
   return rows;
 }

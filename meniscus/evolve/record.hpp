@@ -21,7 +21,7 @@ struct HistoryRow {
   int linear_iterations = 0;                    ///< all solves since the row before
   std::optional<double> power_in, dissipation;  ///< empty in an unbounded liquid
   double surface_rate = 0.0;
-  Mat3 stress = Mat3::Zero();
+  std::optional<Mat3> stress;  ///< empty where the matrix is not Newtonian
 
   [[nodiscard]] std::optional<double> power_residual() const {
     if (!power_in || !dissipation) return std::nullopt;
@@ -35,6 +35,9 @@ struct DropRow {
   double volume_drift = 0.0;       ///< V/V0 − 1
   double volume_correction = 0.0;  ///< largest shift by the last restoration of volume [R0]
   DropShape shape;
+  /// (area/π)^½ of the section of the thinnest neck thinner than half of the sphere of the same
+  /// volume [R0]; empty where there is none, and in runs without breakup.
+  std::optional<double> neck_radius;
 };
 
 }  // namespace meniscus

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <array>
+
 #include <fmt/format.h>
 
 #include "meniscus/core/error.hpp"
@@ -67,12 +70,41 @@ void save_liquids(const Scene& scene, Archive& archive) {
                                  liquid.body_force.z()});
 }
 
+// Kind and numbers of each law; of Newtonian liquids nothing, so that their checkpoints are what
+// they were before there were laws.
+void save_laws(const Scene& scene, Archive& archive) {
+  if (std::ranges::all_of(scene.liquids, is_newtonian, &Liquid::law)) return;
+  std::vector<double>& values = archive.reals["evolution/liquid-laws"];
+  for (const Liquid& liquid : scene.liquids) {
+    std::array<double, 5> row{static_cast<double>(liquid.law.index()), 0.0, 0.0, 0.0, 0.0};
+    if (const auto* law = std::get_if<CarreauYasuda>(&liquid.law))
+      row = {row[0], law->time_constant, law->power_index, law->yasuda_exponent,
+             law->infinite_ratio};
+    if (const auto* law = std::get_if<PowerLaw>(&liquid.law))
+      row = {row[0], law->power_index, law->floor, law->ceiling, 0.0};
+    values.insert(values.end(), row.begin(), row.end());
+  }
+}
+
+void load_laws(const Archive& archive, Field<RegionId, Liquid>& liquids) {
+  if (!archive.reals.contains("evolution/liquid-laws")) return;
+  const auto count = static_cast<std::size_t>(liquids.size());
+  const auto& values = entry(archive.reals, "evolution/liquid-laws", 5 * count);
+  for (const RegionId region : liquids.ids()) {
+    const double* row = values.data() + 5 * region.value;
+    ViscosityLaw& law = liquids[region].law;
+    if (row[0] == 1.0) law = CarreauYasuda{row[1], row[2], row[3], row[4]};
+    if (row[0] == 2.0) law = PowerLaw{row[1], row[2], row[3]};
+  }
+}
+
 Field<RegionId, Liquid> load_liquids(const Archive& archive, std::size_t num_interfaces) {
   const auto& values = entry(archive.reals, "evolution/liquids", 4 * (num_interfaces + 1));
   Field<RegionId, Liquid> liquids;
   for (std::size_t k = 0; k < values.size(); k += 4)
     liquids.add(
         {.viscosity = values[k], .body_force = Vec3(values[k + 1], values[k + 2], values[k + 3])});
+  load_laws(archive, liquids);
   return liquids;
 }
 
@@ -86,6 +118,7 @@ void Evolution::save(Archive& archive) const {
   for (std::size_t i = 0; i < scene_.interfaces.size(); ++i)
     save_interface(scene_.interfaces[i], i, archive);
   save_liquids(scene_, archive);
+  save_laws(scene_, archive);
   save_events(events_, archive);
   flow_->save(archive);
 }

@@ -44,6 +44,10 @@ class FlowSolver {
   /// Empty where the flow fills an unbounded space: its power and dissipation are infinite.
   [[nodiscard]] virtual std::optional<Power> power() const = 0;
 
+  /// ∫2(μ(γ̇) − μ)D over the liquid of each region, μ its own viscosity: what a law adds to the
+  /// stress in it [μ_out G R0³]. Empty where all liquids are Newtonian.
+  [[nodiscard]] virtual std::span<const Mat3> excess_stress() const { return {}; }
+
   /// Remembers the derived mesh as it is at the start of a step (Ω_t of the paper's Table 1).
   virtual void mark(const Scene& scene) = 0;
   /// Carries the derived mesh from the marked state by dt under the last solution: interface

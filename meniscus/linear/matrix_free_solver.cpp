@@ -68,7 +68,8 @@ LinearReport solve_matrix_free(const LinearOperator& matrix,
   try {
     start_petsc();
     const Matrix operator_matrix = shell(matrix, solution.size());
-    const Vector b = borrowed_vector(right_hand_side), x = borrowed_vector(solution);
+    const Vector b = borrowed_vector(PETSC_COMM_SELF, right_hand_side),
+                 x = borrowed_vector(PETSC_COMM_SELF, solution);
     const KrylovSolver solver = gmres(operator_matrix, options);
     petsc_check(KSPSolve(solver.get(), b.get(), x.get()), "KSPSolve");
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;

@@ -2,17 +2,129 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <type_traits>
+#include <vector>
+
+#include "meniscus/linear/collective.hpp"
 
 namespace meniscus::linear {
 
 static_assert(std::is_same_v<PetscScalar, double>, "PETSc must be built for real double numbers");
 static_assert(std::is_same_v<PetscInt, std::int32_t>, "PETSc must be built with 32-bit indices");
 
-Matrix borrowed_matrix(const CsrView& csr) {
+namespace {
+
+using Container = Owned<PetscContainer, PetscContainerDestroy>;
+
+bool is_shared(MPI_Comm comm) {
+  int size = 1;
+  MPI_Comm_size(comm, &size);
+  return size > 1;
+}
+
+/// The rows of a shared matrix as PETSc keeps them: own columns, numbered from the first of them,
+/// apart from the others.
+struct SplitRows {
+  std::vector<PetscInt> start = {0}, columns, start_of_others = {0}, others;
+  std::vector<PetscScalar> values, values_of_others;
+
+  SplitRows(const CsrView& csr, PetscInt first_column) {
+    const auto num_entries = static_cast<std::size_t>(csr.row_start[at(csr.num_rows)]);
+    columns.reserve(num_entries);
+    values.reserve(num_entries);
+    start.reserve(at(csr.num_rows) + 1);
+    start_of_others.reserve(at(csr.num_rows) + 1);
+    for (std::int32_t i = 0; i < csr.num_rows; ++i) add_row(csr, i, first_column);
+  }
+
+ private:
+  static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+  void add_row(const CsrView& csr, std::int32_t i, PetscInt first_column) {
+    const auto end = at(csr.row_start[at(i) + 1]);
+    auto k = at(csr.row_start[at(i)]);
+    const auto own = [&] {
+      const PetscInt column = csr.columns[k] - first_column;
+      return column >= 0 && column < csr.num_columns;
+    };
+    const auto begin = static_cast<std::ptrdiff_t>(k);
+    for (; k < end && own(); ++k) columns.push_back(csr.columns[k] - first_column);
+    const auto middle = static_cast<std::ptrdiff_t>(k), last = static_cast<std::ptrdiff_t>(end);
+    values.insert(values.end(), csr.values.begin() + begin, csr.values.begin() + middle);
+    others.insert(others.end(), csr.columns.begin() + middle, csr.columns.begin() + last);
+    values_of_others.insert(values_of_others.end(), csr.values.begin() + middle,
+                            csr.values.begin() + last);
+    start.push_back(static_cast<PetscInt>(columns.size()));
+    start_of_others.push_back(static_cast<PetscInt>(others.size()));
+  }
+};
+
+PetscErrorCode destroy_rows(void* rows) {
+  const std::unique_ptr<SplitRows> owner(static_cast<SplitRows*>(rows));
+  return 0;
+}
+
+/// Gives a matrix the arrays that it was made on, to keep as long as it lives.
+void keep_with(Mat matrix, std::unique_ptr<SplitRows> rows) {
+  Container container;
+  petsc_check(PetscContainerCreate(PETSC_COMM_SELF, container.out()), "PetscContainerCreate");
+  petsc_check(PetscContainerSetUserDestroy(container.get(), destroy_rows),
+              "PetscContainerSetUserDestroy");
+  petsc_check(PetscContainerSetPointer(container.get(), rows.release()),
+              "PetscContainerSetPointer");
+  petsc_check(PetscObjectCompose(reinterpret_cast<PetscObject>(matrix), "rows",
+                                 reinterpret_cast<PetscObject>(container.get())),
+              "PetscObjectCompose");
+}
+
+Matrix shared_matrix(MPI_Comm comm, const CsrView& csr) {
+  PetscInt first_column = 0;
+  MPI_Exscan(&csr.num_columns, &first_column, 1, MPIU_INT, MPI_SUM, comm);
+  auto rows = std::make_unique<SplitRows>(csr, first_column);
+  Matrix matrix;
+  petsc_check(MatCreateMPIAIJWithSplitArrays(comm, csr.num_rows, csr.num_columns, PETSC_DETERMINE,
+                                             PETSC_DETERMINE, rows->start.data(),
+                                             rows->columns.data(), rows->values.data(),
+                                             rows->start_of_others.data(), rows->others.data(),
+                                             rows->values_of_others.data(), matrix.out()),
+              "MatCreateMPIAIJWithSplitArrays");
+  keep_with(matrix.get(), std::move(rows));
+  return matrix;
+}
+
+Matrix nest_of(MPI_Comm comm, std::array<Mat, 4> blocks) {
+  Matrix nest;
+  petsc_check(MatCreateNest(comm, 2, nullptr, 2, nullptr, blocks.data(), nest.out()),
+              "MatCreateNest");
+  return nest;
+}
+
+Matrix scaled(MPI_Comm comm, const CsrView& csr, double scale) {
+  Matrix copy;
+  petsc_check(MatDuplicate(borrowed_matrix(comm, csr).get(), MAT_COPY_VALUES, copy.out()),
+              "MatDuplicate");
+  petsc_check(MatScale(copy.get(), scale), "MatScale");
+  return copy;
+}
+
+/// Rank 0 adds to the diagonal entry of its first pressure.
+void add_pin(Mat matrix, std::int32_t num_velocities, double pin) {
+  PetscInt first = 0;
+  petsc_check(MatGetOwnershipRange(matrix, &first, nullptr), "MatGetOwnershipRange");
+  if (first == 0)
+    petsc_check(MatSetValue(matrix, num_velocities, num_velocities, pin, ADD_VALUES),
+                "MatSetValue");
+  petsc_check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
+  petsc_check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
+}
+
+}  // namespace
+
+Matrix borrowed_matrix(MPI_Comm comm, const CsrView& csr) {
+  if (is_shared(comm)) return shared_matrix(comm, csr);
   Matrix matrix;
   // PETSc's interface is not const-correct: it neither writes nor frees these arrays.
-  petsc_check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, csr.num_rows, csr.num_columns,
+  petsc_check(MatCreateSeqAIJWithArrays(comm, csr.num_rows, csr.num_columns,
                                         const_cast<PetscInt*>(csr.row_start.data()),
                                         const_cast<PetscInt*>(csr.columns.data()),
                                         const_cast<PetscScalar*>(csr.values.data()), matrix.out()),
@@ -20,43 +132,73 @@ Matrix borrowed_matrix(const CsrView& csr) {
   return matrix;
 }
 
-Vector zero_vector(PetscInt size) {
+Vector zero_vector(MPI_Comm comm, PetscInt size) {
   Vector vector;
-  petsc_check(VecCreateSeq(PETSC_COMM_SELF, size, vector.out()), "VecCreateSeq");
+  if (is_shared(comm))
+    petsc_check(VecCreateMPI(comm, size, PETSC_DETERMINE, vector.out()), "VecCreateMPI");
+  else
+    petsc_check(VecCreateSeq(comm, size, vector.out()), "VecCreateSeq");
   petsc_check(VecSet(vector.get(), 0.0), "VecSet");
   return vector;
 }
 
-Vector borrowed_vector(std::span<const double> values) {
+Vector borrowed_vector(MPI_Comm comm, std::span<const double> values) {
   Vector vector;
-  petsc_check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(values.size()),
-                                    values.data(), vector.out()),
-              "VecCreateSeqWithArray");
+  const auto size = static_cast<PetscInt>(values.size());
+  if (is_shared(comm))
+    petsc_check(VecCreateMPIWithArray(comm, 1, size, PETSC_DETERMINE, values.data(), vector.out()),
+                "VecCreateMPIWithArray");
+  else
+    petsc_check(VecCreateSeqWithArray(comm, 1, size, values.data(), vector.out()),
+                "VecCreateSeqWithArray");
   return vector;
 }
 
-Matrix nested_operator(const SaddleSystem& system) {
-  const Matrix A = borrowed_matrix(system.A), B = borrowed_matrix(system.B);
-  Matrix C = borrowed_matrix(system.C), gradient, minus_C, nest;
-  petsc_check(MatCreateTranspose(B.get(), gradient.out()), "MatCreateTranspose");
-  petsc_check(MatDuplicate(C.get(), MAT_COPY_VALUES, minus_C.out()), "MatDuplicate");
-  petsc_check(MatScale(minus_C.get(), -1.0), "MatScale");
-  std::array<Mat, 4> blocks = {A.get(), gradient.get(), B.get(), minus_C.get()};
-  petsc_check(MatCreateNest(PETSC_COMM_SELF, 2, nullptr, 2, nullptr, blocks.data(), nest.out()),
-              "MatCreateNest");
-  return nest;
+NestedOperator nested_operator(MPI_Comm comm, const SaddleSystem& system) {
+  NestedOperator result;
+  result.B = borrowed_matrix(comm, system.B);
+  const Matrix A = borrowed_matrix(comm, system.A), minus_C = scaled(comm, system.C, -1.0);
+  Matrix gradient, own_lower_left;
+  petsc_check(MatCreateTranspose(result.B.get(), gradient.out()), "MatCreateTranspose");
+  if (!system.lower_left.empty()) own_lower_left = borrowed_matrix(comm, system.lower_left_block());
+  Mat lower_left = own_lower_left ? own_lower_left.get() : result.B.get();
+  result.nest = nest_of(comm, {A.get(), gradient.get(), lower_left, minus_C.get()});
+  return result;
 }
 
-void attach_constant_pressure(Mat matrix, std::int32_t num_velocities, std::int32_t num_pressures) {
-  const Vector constant = zero_vector(num_velocities + num_pressures);
+MergedMatrix merged_matrix(MPI_Comm comm, const SaddleSystem& system, double continuity_sign,
+                           double pin) {
+  MergedMatrix result;
+  if (!is_shared(comm)) {
+    result.arrays = merged(system, continuity_sign, pin);
+    result.handle = borrowed_matrix(comm, result.arrays.view());
+    return result;
+  }
+  const Matrix A = borrowed_matrix(comm, system.A), B = borrowed_matrix(comm, system.B),
+               lower_left = scaled(comm, system.lower_left_block(), continuity_sign),
+               corner = scaled(comm, system.C, -continuity_sign);
+  Matrix gradient;
+  petsc_check(MatTranspose(B.get(), MAT_INITIAL_MATRIX, gradient.out()), "MatTranspose");
+  const Matrix nest = nest_of(comm, {A.get(), gradient.get(), lower_left.get(), corner.get()});
+  petsc_check(MatConvert(nest.get(), MATAIJ, MAT_INITIAL_MATRIX, result.handle.out()),
+              "MatConvert");
+  if (pin != 0.0) add_pin(result.handle.get(), system.num_velocities(), -continuity_sign * pin);
+  return result;
+}
+
+void attach_constant_pressure(Communicator communicator, Mat matrix, std::int32_t num_velocities,
+                              std::int32_t num_pressures) {
+  MPI_Comm comm = mpi_communicator(communicator);
+  const auto all_pressures = sum(communicator, std::int64_t{num_pressures});
+  const Vector constant = zero_vector(comm, num_velocities + num_pressures);
   PetscScalar* values = nullptr;
   petsc_check(VecGetArray(constant.get(), &values), "VecGetArray");
   for (std::int32_t i = 0; i < num_pressures; ++i)
-    values[num_velocities + i] = 1.0 / std::sqrt(static_cast<double>(num_pressures));
+    values[num_velocities + i] = 1.0 / std::sqrt(static_cast<double>(all_pressures));
   petsc_check(VecRestoreArray(constant.get(), &values), "VecRestoreArray");
   std::array<Vec, 1> vectors = {constant.get()};
   NullSpace space;
-  petsc_check(MatNullSpaceCreate(PETSC_COMM_SELF, PETSC_FALSE, 1, vectors.data(), space.out()),
+  petsc_check(MatNullSpaceCreate(comm, PETSC_FALSE, 1, vectors.data(), space.out()),
               "MatNullSpaceCreate");
   petsc_check(MatSetNullSpace(matrix, space.get()), "MatSetNullSpace");
   petsc_check(MatSetTransposeNullSpace(matrix, space.get()), "MatSetTransposeNullSpace");

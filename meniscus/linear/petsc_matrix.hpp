@@ -8,15 +8,29 @@
 
 namespace meniscus::linear {
 
-/// A PETSc matrix on the caller's arrays: nothing is copied.
-[[nodiscard]] Matrix borrowed_matrix(const CsrView& csr);
-/// A PETSc vector of `size` zeros.
-[[nodiscard]] Vector zero_vector(PetscInt size);
+// All are collective on the communicator, whose ranks give their own parts.
+
+/// A PETSc matrix of this rank's rows: on the caller's arrays where there is one rank, else a copy.
+[[nodiscard]] Matrix borrowed_matrix(MPI_Comm comm, const CsrView& csr);
+/// A PETSc vector of `size` zeros here.
+[[nodiscard]] Vector zero_vector(MPI_Comm comm, PetscInt size);
 /// A PETSc vector on the caller's array, which it never writes to when only read.
-[[nodiscard]] Vector borrowed_vector(std::span<const double> values);
-/// The operator [A Bᵀ; B −C] as a nest of borrowed matrices. The nest refers to its blocks.
-[[nodiscard]] Matrix nested_operator(const SaddleSystem& system);
+[[nodiscard]] Vector borrowed_vector(MPI_Comm comm, std::span<const double> values);
+/// The operator [A Bᵀ; B −C] as a nest of borrowed matrices, and the B that it refers to. A rank
+/// has its velocities, then its pressures, side by side.
+struct NestedOperator {
+  Matrix B, nest;
+};
+[[nodiscard]] NestedOperator nested_operator(MPI_Comm comm, const SaddleSystem& system);
+/// The same as one matrix [A Bᵀ; sB −sC], with `pin` as `merged` takes it, numbered as the nest is.
+struct MergedMatrix {
+  CsrMatrix arrays;  ///< those that the handle borrows
+  Matrix handle;
+};
+[[nodiscard]] MergedMatrix merged_matrix(MPI_Comm comm, const SaddleSystem& system,
+                                         double continuity_sign, double pin);
 /// Tells a matrix of the whole system that the constant pressure is its null vector.
-void attach_constant_pressure(Mat matrix, std::int32_t num_velocities, std::int32_t num_pressures);
+void attach_constant_pressure(Communicator communicator, Mat matrix, std::int32_t num_velocities,
+                              std::int32_t num_pressures);
 
 }  // namespace meniscus::linear

@@ -35,6 +35,8 @@ void start_petsc() {
   if (is_running) return;
   // Open MPI's own choice maps a file of megabytes, which a small limit on file sizes forbids.
   setenv("PMIX_MCA_gds", "hash", 0);
+  // Scotch's threads make its partitions depend on chance.
+  setenv("SCOTCH_PTHREAD_NUMBER", "1", 1);
   petsc_check(PetscOptionsSetValue(nullptr, "-no_signal_handler", "true"), "PetscOptionsSetValue");
   petsc_check(PetscOptionsSetValue(nullptr, "-skip_petscrc", "true"), "PetscOptionsSetValue");
   petsc_check(PetscInitializeNoArguments(), "PetscInitializeNoArguments");
@@ -44,7 +46,10 @@ void start_petsc() {
 }
 
 MPI_Comm mpi_communicator(Communicator communicator) {
-  return MPI_Comm_f2c(static_cast<MPI_Fint>(communicator.handle()));
+  MPI_Comm comm = MPI_Comm_f2c(static_cast<MPI_Fint>(communicator.handle()));
+  int size = 1;
+  MPI_Comm_size(comm, &size);
+  return size == 1 ? PETSC_COMM_SELF : comm;
 }
 
 Communicator Communicator::self() {

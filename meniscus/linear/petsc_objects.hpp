@@ -21,6 +21,7 @@ void petsc_check(PetscErrorCode code, const char* function);
 /// Starts PETSc (and MPI) unless it runs: no arguments, no resource files, no signal handlers, and
 /// an error handler that returns codes in silence.
 void start_petsc();
+/// PETSc's own for one process where there is but one.
 [[nodiscard]] MPI_Comm mpi_communicator(Communicator communicator);
 
 /// Sole owner of a PETSc object. `out()` is for the functions that create one.

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "meniscus/linear/petsc_matrix.hpp"
+#include "meniscus/linear/collective.hpp"
 
 namespace meniscus::linear {
 namespace {
@@ -23,23 +23,23 @@ void with_arrays(Vec from, Vec to, Action action) {
 }
 
 /// Two levels, quadratic over linear functions; what the coarse one does is the options' business.
-void use_interpolation(KSP cycle, const CsrView& interpolation) {
+void use_interpolation(MPI_Comm comm, KSP cycle, const CsrView& interpolation) {
   PC pc = nullptr;
   petsc_check(KSPGetPC(cycle, &pc), "KSPGetPC");
   petsc_check(PCSetType(pc, PCMG), "PCSetType");
   petsc_check(PCMGSetLevels(pc, 2, nullptr), "PCMGSetLevels");
   petsc_check(PCMGSetGalerkin(pc, PC_MG_GALERKIN_BOTH), "PCMGSetGalerkin");
   Matrix copy;
-  petsc_check(MatDuplicate(borrowed_matrix(interpolation).get(), MAT_COPY_VALUES, copy.out()),
+  petsc_check(MatDuplicate(borrowed_matrix(comm, interpolation).get(), MAT_COPY_VALUES, copy.out()),
               "MatDuplicate");
   petsc_check(PCMGSetInterpolation(pc, 1, copy.get()), "PCMGSetInterpolation");
 }
 
-KrylovSolver multigrid_cycle(Mat laplacian, const CsrView* interpolation) {
+KrylovSolver multigrid_cycle(MPI_Comm comm, Mat laplacian, const CsrView* interpolation) {
   KrylovSolver cycle;
-  petsc_check(KSPCreate(PETSC_COMM_SELF, cycle.out()), "KSPCreate");
+  petsc_check(KSPCreate(comm, cycle.out()), "KSPCreate");
   petsc_check(KSPSetOptionsPrefix(cycle.get(), "v_"), "KSPSetOptionsPrefix");
-  if (interpolation != nullptr) use_interpolation(cycle.get(), *interpolation);
+  if (interpolation != nullptr) use_interpolation(comm, cycle.get(), *interpolation);
   petsc_check(KSPSetOperators(cycle.get(), laplacian, laplacian), "KSPSetOperators");
   petsc_check(KSPSetFromOptions(cycle.get()), "KSPSetFromOptions");
   petsc_check(KSPSetUp(cycle.get()), "KSPSetUp");
@@ -48,18 +48,19 @@ KrylovSolver multigrid_cycle(Mat laplacian, const CsrView* interpolation) {
 
 }  // namespace
 
-VelocityMultigrid::VelocityMultigrid(const SaddleSystem& system)
+VelocityMultigrid::VelocityMultigrid(Communicator communicator, const SaddleSystem& system)
     : num_nodes_(system.num_velocities() / 3),
       laplacian_of_(system.laplacian_of),
-      component_r_(zero_vector(num_nodes_)),
-      component_z_(zero_vector(num_nodes_)) {
+      component_r_(zero_vector(mpi_communicator(communicator), num_nodes_)),
+      component_z_(zero_vector(mpi_communicator(communicator), num_nodes_)) {
+  MPI_Comm comm = mpi_communicator(communicator);
   for (std::size_t k = 0; k < system.laplacians.size(); ++k) {
     Matrix copy;
-    petsc_check(
-        MatDuplicate(borrowed_matrix(system.laplacians[k]).get(), MAT_COPY_VALUES, copy.out()),
-        "MatDuplicate");
+    petsc_check(MatDuplicate(borrowed_matrix(comm, system.laplacians[k]).get(), MAT_COPY_VALUES,
+                             copy.out()),
+                "MatDuplicate");
     cycles_.push_back(multigrid_cycle(
-        copy.get(), system.interpolations.empty() ? nullptr : &system.interpolations[k]));
+        comm, copy.get(), system.interpolations.empty() ? nullptr : &system.interpolations[k]));
     laplacians_.push_back(std::move(copy));
   }
 }
@@ -78,14 +79,16 @@ void VelocityMultigrid::apply(Vec r, Vec z) const {
   }
 }
 
-BlockPreconditioner::BlockPreconditioner(Shape shape, const SaddleSystem& system,
-                                         const VelocityMultigrid& multigrid)
-    : shape_(shape),
+BlockPreconditioner::BlockPreconditioner(Communicator communicator, Shape shape,
+                                         const SaddleSystem& system,
+                                         const VelocityMultigrid& multigrid, Mat B)
+    : communicator_(communicator),
+      shape_(shape),
       system_(system),
       multigrid_(multigrid),
-      B_(borrowed_matrix(system.B)),
-      velocity_(zero_vector(system.num_velocities())),
-      pressure_(zero_vector(system.num_pressures())) {}
+      B_(B),
+      velocity_(zero_vector(mpi_communicator(communicator), system.num_velocities())),
+      pressure_(zero_vector(mpi_communicator(communicator), system.num_pressures())) {}
 
 void BlockPreconditioner::apply(Vec r, Vec z) const {
   const auto num_velocities = static_cast<std::size_t>(system_.num_velocities());
@@ -95,11 +98,12 @@ void BlockPreconditioner::apply(Vec r, Vec z) const {
     for (std::size_t i = 0; i < num_pressures; ++i)
       p[i] = sign * from[num_velocities + i] / system_.pressure_mass[i];
     if (!system_.constant_pressure_is_null) return;
-    const double mean = std::accumulate(p, p + num_pressures, 0.0) / double(num_pressures);
+    const double total = sum(communicator_, std::accumulate(p, p + num_pressures, 0.0));
+    const double mean = total / double(sum(communicator_, std::int64_t{system_.num_pressures()}));
     for (std::size_t i = 0; i < num_pressures; ++i) p[i] -= mean;
   });
   if (shape_ == Shape::upper_triangular)
-    petsc_check(MatMultTranspose(B_.get(), pressure_.get(), velocity_.get()), "MatMultTranspose");
+    petsc_check(MatMultTranspose(B_, pressure_.get(), velocity_.get()), "MatMultTranspose");
   with_arrays(r, velocity_.get(), [&](const double* from, double* v) {
     const double keep = shape_ == Shape::upper_triangular ? 1.0 : 0.0;
     for (std::size_t i = 0; i < num_velocities; ++i) v[i] = from[i] - keep * v[i];
@@ -107,7 +111,7 @@ void BlockPreconditioner::apply(Vec r, Vec z) const {
   const Vector z_velocity = [&] {
     const PetscScalar* values = nullptr;
     petsc_check(VecGetArrayRead(z, &values), "VecGetArrayRead");
-    Vector part = borrowed_vector({values, num_velocities});
+    Vector part = borrowed_vector(mpi_communicator(communicator_), {values, num_velocities});
     petsc_check(VecRestoreArrayRead(z, &values), "VecRestoreArrayRead");
     return part;
   }();
@@ -117,15 +121,17 @@ void BlockPreconditioner::apply(Vec r, Vec z) const {
   });
 }
 
-Factorization::Factorization(const SaddleSystem& system)
-    : matrix_(merged(system, 1.0,
-                     system.constant_pressure_is_null ? system.pressure_mass.front() : 0.0)),
-      handle_(borrowed_matrix(matrix_.view())) {
-  petsc_check(MatSetOption(handle_.get(), MAT_SYMMETRIC, PETSC_TRUE), "MatSetOption");
-  petsc_check(MatSetOptionsPrefix(handle_.get(), "f_"), "MatSetOptionsPrefix");
-  petsc_check(KSPCreate(PETSC_COMM_SELF, solver_.out()), "KSPCreate");
+Factorization::Factorization(Communicator communicator, const SaddleSystem& system)
+    : size_(system.size()),
+      matrix_(
+          merged_matrix(mpi_communicator(communicator), system.symmetric_part(), 1.0,
+                        system.constant_pressure_is_null ? system.pressure_mass.front() : 0.0)) {
+  Mat handle = matrix_.handle.get();
+  petsc_check(MatSetOption(handle, MAT_SYMMETRIC, PETSC_TRUE), "MatSetOption");
+  petsc_check(MatSetOptionsPrefix(handle, "f_"), "MatSetOptionsPrefix");
+  petsc_check(KSPCreate(mpi_communicator(communicator), solver_.out()), "KSPCreate");
   petsc_check(KSPSetOptionsPrefix(solver_.get(), "f_"), "KSPSetOptionsPrefix");
-  petsc_check(KSPSetOperators(solver_.get(), handle_.get(), handle_.get()), "KSPSetOperators");
+  petsc_check(KSPSetOperators(solver_.get(), handle, handle), "KSPSetOperators");
   petsc_check(KSPSetFromOptions(solver_.get()), "KSPSetFromOptions");
   petsc_check(KSPSetUp(solver_.get()), "KSPSetUp");
   PCFailedReason failure = PC_NOERROR;
@@ -139,17 +145,14 @@ void Factorization::apply(Vec r, Vec z) const {
   petsc_check(KSPSolve(solver_.get(), r, z), "KSPSolve");
 }
 
-DiagonalScaling::DiagonalScaling(const CsrView& matrix) : root_(zero_vector(matrix.num_rows)) {
+DiagonalScaling::DiagonalScaling(Mat matrix) {
+  petsc_check(MatCreateVecs(matrix, root_.out(), nullptr), "MatCreateVecs");
+  petsc_check(MatGetDiagonal(matrix, root_.get()), "MatGetDiagonal");
+  PetscInt size = 0;
+  petsc_check(VecGetLocalSize(root_.get(), &size), "VecGetLocalSize");
   PetscScalar* root = nullptr;
   petsc_check(VecGetArray(root_.get(), &root), "VecGetArray");
-  for (std::int32_t i = 0; i < matrix.num_rows; ++i) {
-    double diagonal = 0.0;
-    const auto row = static_cast<std::size_t>(i);
-    for (auto k = matrix.row_start[row]; k < matrix.row_start[row + 1]; ++k)
-      if (matrix.columns[static_cast<std::size_t>(k)] == i)
-        diagonal = matrix.values[static_cast<std::size_t>(k)];
-    root[i] = std::sqrt(std::abs(diagonal)) + 1e-6;  // ε of eq. 14
-  }
+  for (PetscInt i = 0; i < size; ++i) root[i] = std::sqrt(std::abs(root[i])) + 1e-6;  // ε of eq. 14
   petsc_check(VecRestoreArray(root_.get(), &root), "VecRestoreArray");
 }
 

@@ -4,16 +4,18 @@
 #include <array>
 #include <vector>
 
-#include "meniscus/linear/petsc_objects.hpp"
+#include "meniscus/linear/petsc_matrix.hpp"
 #include "meniscus/linear/saddle_system.hpp"
 
 namespace meniscus::linear {
+
+// Collective, as PETSc's own.
 
 /// One multigrid cycle per velocity component on a scalar μ-weighted Laplacian: spectrally close
 /// to 2μ D:D by Korn's inequality, at a ninth of its entries. Keeps its own copy of the Laplacians.
 class VelocityMultigrid {
  public:
-  explicit VelocityMultigrid(const SaddleSystem& system);
+  VelocityMultigrid(Communicator communicator, const SaddleSystem& system);
   /// z = M⁻¹ r for the 3n velocities, components side by side.
   void apply(Vec r, Vec z) const;
   [[nodiscard]] std::int32_t num_nodes() const { return num_nodes_; }
@@ -31,34 +33,38 @@ class VelocityMultigrid {
 class BlockPreconditioner {
  public:
   enum class Shape { upper_triangular, diagonal };
-  BlockPreconditioner(Shape shape, const SaddleSystem& system, const VelocityMultigrid& multigrid);
+  /// B is the system's, and must outlive this as system and multigrid must.
+  BlockPreconditioner(Communicator communicator, Shape shape, const SaddleSystem& system,
+                      const VelocityMultigrid& multigrid, Mat B);
   void apply(Vec r, Vec z) const;
 
  private:
+  Communicator communicator_;
   Shape shape_;
   const SaddleSystem& system_;
   const VelocityMultigrid& multigrid_;
-  Matrix B_;
+  Mat B_;
   Vector velocity_, pressure_;
 };
 
 /// LDLᵀ by MUMPS of the merged system, one pressure pinned where the constant is a null vector.
 class Factorization {
  public:
-  explicit Factorization(const SaddleSystem& system);
+  Factorization(Communicator communicator, const SaddleSystem& system);
   void apply(Vec r, Vec z) const;
-  [[nodiscard]] std::int32_t size() const { return matrix_.num_columns; }
+  /// The system's, of this rank.
+  [[nodiscard]] std::int32_t size() const { return size_; }
 
  private:
-  CsrMatrix matrix_;
-  Matrix handle_;
+  std::int32_t size_;
+  MergedMatrix matrix_;
   KrylovSolver solver_;
 };
 
 /// z = D^(−½) r with D^½_ii = sqrt|J_ii| + 1e-6 (eq. 14 of hooper2001).
 class DiagonalScaling {
  public:
-  explicit DiagonalScaling(const CsrView& matrix);
+  explicit DiagonalScaling(Mat matrix);
   void apply(Vec r, Vec z) const;
 
  private:

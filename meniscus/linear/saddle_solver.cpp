@@ -13,6 +13,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
+#include "meniscus/linear/collective.hpp"
 #include "meniscus/linear/petsc_matrix.hpp"
 #include "meniscus/linear/preconditioners.hpp"
 
@@ -20,6 +21,9 @@ namespace meniscus::linear {
 namespace {
 
 using Apply = std::function<void(Vec, Vec)>;
+
+// Ranks that meet the same error do so within a collective call of each other.
+constexpr std::chrono::seconds kPatience{10};
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -79,15 +83,17 @@ PetscErrorCode apply_shell(PC pc, Vec r, Vec z) {
   return 0;
 }
 
+double mean_of(Communicator communicator, std::span<const double> values) {
+  return sum(communicator, std::accumulate(values.begin(), values.end(), 0.0)) /
+         double(sum(communicator, static_cast<std::int64_t>(values.size())));
+}
+
 /// Right-hand side of a consistent system: the pressures' part sums to zero where it must.
-std::vector<double> consistent(const SaddleSystem& system, std::span<const double> given,
-                               double continuity_sign) {
+std::vector<double> consistent(Communicator communicator, const SaddleSystem& system,
+                               std::span<const double> given, double continuity_sign) {
   std::vector<double> values(given.begin(), given.end());
   const auto pressures = std::span(values).subspan(std::size_t(system.num_velocities()));
-  const double mean =
-      system.constant_pressure_is_null
-          ? std::accumulate(pressures.begin(), pressures.end(), 0.0) / double(pressures.size())
-          : 0.0;
+  const double mean = system.constant_pressure_is_null ? mean_of(communicator, pressures) : 0.0;
   for (double& value : pressures) value = continuity_sign * (value - mean);
   return values;
 }
@@ -121,8 +127,8 @@ void warn_of_unused(PetscOptions table, const std::string& given) {
   }
 }
 
-void remove_mean(std::span<double> values) {
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+void remove_mean(Communicator communicator, std::span<double> values) {
+  const double mean = mean_of(communicator, values);
   for (double& value : values) value -= mean;
 }
 
@@ -170,6 +176,7 @@ class SaddleSolver::Implementation {
       report.solve_seconds = seconds_since(start) - report.setup_seconds;
       if (!std::exchange(is_checked_, true)) warn_of_unused(table_.get(), options_.petsc_options);
     } catch (const PetscFailure& failure) {
+      require_company(failure);
       report.converged = false;
       report.reason = failure.what();
       forget();
@@ -183,13 +190,24 @@ class SaddleSolver::Implementation {
     forget();
     try {
       prepare(system);
-    } catch (const PetscFailure&) {  // the solve that wants it will report why
+    } catch (const PetscFailure& failure) {  // the solve that wants it will report why
+      require_company(failure);
       forget();
     }
     release();
   }
 
  private:
+  [[nodiscard]] MPI_Comm comm() const { return mpi_communicator(communicator_); }
+
+  /// An error that one rank meets alone leaves the others waiting for it forever.
+  void require_company(const PetscFailure& failure) const {
+    if (all_arrive(communicator_, kPatience)) return;
+    log::write(log::Level::error,
+               fmt::format("rank {} alone: {}", communicator_.rank(), failure.what()));
+    abort(communicator_, 1);
+  }
+
   void forget() {
     multigrid_.reset();
     factorization_.reset();
@@ -199,33 +217,38 @@ class SaddleSolver::Implementation {
   void prepare(const SaddleSystem& system) {
     const bool is_paper = options_.method == SaddleMethod::paper_gmres;
     if (is_paper) {
-      merged_ = merged(system, -1.0, 0.0);
-      operator_ = borrowed_matrix(merged_.view());
-      scaling_.emplace(merged_.view());
+      merged_ = merged_matrix(comm(), system, -1.0, 0.0);
+      operator_ = std::move(merged_.handle);
+      scaling_.emplace(operator_.get());
       apply_ = [this](Vec r, Vec z) { scaling_->apply(r, z); };
     } else {
-      operator_ = nested_operator(system);
+      NestedOperator nested = nested_operator(
+          comm(), options_.method == SaddleMethod::minres ? system.symmetric_part() : system);
+      operator_ = std::move(nested.nest);
+      B_ = std::move(nested.B);
     }
     if (system.constant_pressure_is_null)
-      attach_constant_pressure(operator_.get(), system.num_velocities(), system.num_pressures());
+      attach_constant_pressure(communicator_, operator_.get(), system.num_velocities(),
+                               system.num_pressures());
     if (options_.method == SaddleMethod::mumps) {
       if (!factorization_ || factorization_->size() != system.size())
-        factorization_ = std::make_unique<Factorization>(system);
+        factorization_ = std::make_unique<Factorization>(communicator_, system);
       apply_ = [this](Vec r, Vec z) { factorization_->apply(r, z); };
     } else if (!is_paper) {
       if (!multigrid_ || 3 * multigrid_->num_nodes() != system.num_velocities())
-        multigrid_ = std::make_unique<VelocityMultigrid>(system);
+        multigrid_ = std::make_unique<VelocityMultigrid>(communicator_, system);
       using Shape = BlockPreconditioner::Shape;
       block_.emplace(
+          communicator_,
           options_.method == SaddleMethod::minres ? Shape::diagonal : Shape::upper_triangular,
-          system, *multigrid_);
+          system, *multigrid_, B_.get());
       apply_ = [this](Vec r, Vec z) { block_->apply(r, z); };
     }
   }
 
   KrylovSolver make_outer_solver(double rtol) {
     KrylovSolver outer;
-    petsc_check(KSPCreate(PETSC_COMM_SELF, outer.out()), "KSPCreate");
+    petsc_check(KSPCreate(comm(), outer.out()), "KSPCreate");
     petsc_check(KSPSetOperators(outer.get(), operator_.get(), operator_.get()), "KSPSetOperators");
     // A relative tolerance of one or more is refused by PETSc; the absolute one must not interfere.
     petsc_check(KSPSetTolerances(outer.get(), std::min(rtol, 0.9), 1e-300, PETSC_DEFAULT,
@@ -243,8 +266,10 @@ class SaddleSolver::Implementation {
   void iterate(const SaddleSystem& system, std::span<const double> right_hand_side,
                std::span<double> solution, double rtol, LinearReport& report) {
     const double sign = options_.method == SaddleMethod::paper_gmres ? -1.0 : 1.0;
-    const std::vector<double> consistent_side = consistent(system, right_hand_side, sign);
-    const Vector b = borrowed_vector(consistent_side), x = borrowed_vector(solution);
+    const std::vector<double> consistent_side =
+        consistent(communicator_, system, right_hand_side, sign);
+    const Vector b = borrowed_vector(comm(), consistent_side),
+                 x = borrowed_vector(comm(), solution);
     const KrylovSolver outer = make_outer_solver(rtol);
     std::vector<PetscReal> history(static_cast<std::size_t>(options_.max_iterations) + 1);
     petsc_check(KSPSetResidualHistory(outer.get(), history.data(),
@@ -261,7 +286,7 @@ class SaddleSolver::Implementation {
     report.iterations = iterations;
     report.residuals.assign(history.begin(), history.begin() + recorded);
     if (system.constant_pressure_is_null)
-      remove_mean(solution.subspan(std::size_t(system.num_velocities())));
+      remove_mean(communicator_, solution.subspan(std::size_t(system.num_velocities())));
   }
 
   /// What refers to the caller's arrays goes; what may be kept stays.
@@ -270,6 +295,7 @@ class SaddleSolver::Implementation {
     block_.reset();
     scaling_.reset();
     operator_.reset();
+    B_.reset();
     merged_ = {};
   }
 
@@ -277,8 +303,8 @@ class SaddleSolver::Implementation {
   SaddleOptions options_;
   OptionTable table_;
   bool is_checked_ = false;  ///< the user's options, after a first solve
-  Matrix operator_;
-  CsrMatrix merged_;
+  Matrix operator_, B_;
+  MergedMatrix merged_;
   Apply apply_;
   std::optional<BlockPreconditioner> block_;
   std::optional<DiagonalScaling> scaling_;

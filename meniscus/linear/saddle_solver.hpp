@@ -40,8 +40,8 @@ struct [[nodiscard]] LinearReport {
 
 enum class Preconditioner { fresh, kept };
 
-/// Solves saddle systems one after the other, keeping a preconditioner where asked to.
-/// Sequential systems on every process of the communicator, for now.
+/// Solves saddle systems one after the other, keeping a preconditioner where asked to. Each process
+/// of the communicator gives its part of the system, the right-hand side and the solution.
 class SaddleSolver {
  public:
   SaddleSolver(Communicator communicator, SaddleOptions options);

@@ -44,6 +44,7 @@ void end_row(CsrMatrix& matrix) {
 CsrMatrix merged(const SaddleSystem& system, double continuity_sign, double pin) {
   const std::int32_t num_velocities = system.num_velocities();
   const CsrMatrix gradient = transposed(system.B);
+  const CsrView lower_left = system.lower_left_block();
   CsrMatrix result;
   result.num_columns = system.size();
   const std::size_t entries =
@@ -58,7 +59,7 @@ CsrMatrix merged(const SaddleSystem& system, double continuity_sign, double pin)
     end_row(result);
   }
   for (std::int32_t i = 0; i < system.num_pressures(); ++i) {
-    append_row(result, system.B, i, 0, continuity_sign);
+    append_row(result, lower_left, i, 0, continuity_sign);
     const std::size_t first = result.columns.size();
     append_row(result, system.C, i, num_velocities, -continuity_sign);
     for (std::size_t k = first; i == 0 && k < result.columns.size(); ++k)

@@ -9,6 +9,11 @@ namespace meniscus::linear {
 
 /// A sparse matrix in compressed rows, columns rising in each row. The arrays are the caller's and
 /// must outlive every solver that was given the view.
+///
+/// Of a matrix that several processes share each has its own rows, and its own part of vectors: the
+/// `num_rows` first and `num_columns` first of those not taken by processes before it. `columns`
+/// holds the numbers that follow from that for the whole matrix, this process's own first in each
+/// row; arrays may go on beyond the last row.
 struct CsrView {
   std::int32_t num_rows = 0, num_columns = 0;
   std::span<const std::int32_t> row_start;  ///< num_rows + 1
@@ -21,6 +26,8 @@ struct CsrView {
 ///   [B  −C] [p] = [g],
 /// the velocity's three components side by side at each node, all velocities before all pressures.
 /// Constrained unknowns have been eliminated: their rows and columns hold the diagonal alone.
+/// Shared by several processes, n and m are their own, and each has its velocities, then its
+/// pressures.
 struct SaddleSystem {
   CsrView A;  ///< 3n × 3n, positive definite
   CsrView B;  ///< m × 3n
@@ -36,14 +43,28 @@ struct SaddleSystem {
   /// For quadratic velocities, per Laplacian, the interpolation from the linear functions of the
   /// same mesh: one level of multigrid by degree above the algebraic ones. Else empty.
   std::vector<CsrView> interpolations = {};
+  /// Values of the lower left block where it is not B, on B's pattern: a stabilisation by a
+  /// viscosity that depends on the velocity. Empty: B. MINRES, which needs symmetry, takes B, and
+  /// so does every preconditioner.
+  std::span<const double> lower_left = {};
 
   [[nodiscard]] std::int32_t num_velocities() const { return A.num_rows; }
   [[nodiscard]] std::int32_t num_pressures() const { return B.num_rows; }
   [[nodiscard]] std::int32_t size() const { return num_velocities() + num_pressures(); }
+  [[nodiscard]] CsrView lower_left_block() const {
+    CsrView block = B;
+    if (!lower_left.empty()) block.values = lower_left;
+    return block;
+  }
+  [[nodiscard]] SaddleSystem symmetric_part() const {
+    SaddleSystem system = *this;
+    system.lower_left = {};
+    return system;
+  }
 };
 
-/// The whole system as one matrix [A Bᵀ; sB −sC], s = ±1, with `pin` added to the diagonal entry
-/// −sC_00 as −s·pin.
+/// The whole system as one matrix [A Bᵀ; sB −sC], s = ±1, the lower left block being its own, with
+/// `pin` added to the diagonal entry −sC_00 as −s·pin.
 struct CsrMatrix {
   std::int32_t num_columns = 0;
   std::vector<std::int32_t> row_start, columns;

@@ -7,6 +7,7 @@
 
 #include "meniscus/mesh/tet_mesh.hpp"
 #include "meniscus/scene/imposed_flow.hpp"
+#include "meniscus/scene/viscosity.hpp"
 
 namespace meniscus {
 
@@ -14,6 +15,7 @@ namespace meniscus {
 struct Liquid {
   double viscosity = 1.0;          ///< over the matrix's [μ_out]
   Vec3 body_force = Vec3::Zero();  ///< force per volume [μ_out G / R0]
+  ViscosityLaw law = {};           ///< multiplies the viscosity
 };
 
 /// A closed interface between the liquid inside it and the one outside. n points out.

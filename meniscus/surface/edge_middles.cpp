@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <tuple>
 
 #include <Eigen/LU>
@@ -17,7 +16,8 @@ constexpr Eigen::Index kTerms = 15;  // of a polynomial of degree four
 // Vertices are taken in the order of their distance; more cost time and add nothing.
 constexpr std::size_t kMostPoints = 32;
 // Σ|weights| of the vertices: 1.6 to 3 where they are spread evenly. Above this the noise of
-// vertices is amplified more than the lower degree's truncation is worth.
+// vertices is amplified more than the lower degree's truncation is worth. The spline fades out
+// until twice that, so that middles, and the volume under them, follow the vertices without jumps.
 constexpr double kMostAmplification = 4.0;
 
 using Vec2 = Eigen::Vector2d;
@@ -46,11 +46,11 @@ struct LevelFrame {
   }
 };
 
-/// The spline's value at the frame's origin: Σ w_i g_i, the weights w solving
-/// [Φ P; Pᵀ 0] (w, ·) = (φ(0 − x_i), p(0)).
-std::optional<double> interpolated_level(const LevelFrame& frame, std::span<const Vec3> points) {
+/// The spline's value at the frame's origin, Σ w_i g_i, the weights w solving
+/// [Φ P; Pᵀ 0] (w, ·) = (φ(0 − x_i), p(0)), times how far it is to be trusted, 0 to 1.
+double interpolated_level(const LevelFrame& frame, std::span<const Vec3> points) {
   const auto count = static_cast<Eigen::Index>(points.size());
-  if (count < kTerms) return std::nullopt;
+  if (count < kTerms) return 0.0;
   const double h = (points.back() - frame.axes.x).norm();
   std::vector<Vec2> at;
   for (const Vec3& p : points) {
@@ -69,12 +69,14 @@ std::optional<double> interpolated_level(const LevelFrame& frame, std::span<cons
   }
   side.tail<kTerms>() = monomials(Vec2::Zero());
   const Eigen::VectorXd weights = matrix.partialPivLu().solve(side).head(count);
+  const double amplification = weights.lpNorm<1>();
   // A singular matrix leaves weights that are large or not numbers.
-  if (!(weights.lpNorm<1>() <= kMostAmplification)) return std::nullopt;
+  if (!(amplification < 2.0 * kMostAmplification)) return 0.0;
+  const double trust = std::min(1.0, 2.0 - amplification / kMostAmplification);
   double level = 0.0;
   for (Eigen::Index i = 0; i < count; ++i)
     level += weights[i] * frame.g(points[static_cast<std::size_t>(i)]);
-  return level;
+  return trust * level;
 }
 
 /// z of z + ½H z² = g.
@@ -110,8 +112,7 @@ std::vector<Vec3> edge_middles(const SurfaceMesh& mesh, const SurfaceTopology& t
         flat_patch(smooth.edge_point(edge.a, edge.b, 0.5), (at_a.n + at_b.n).normalized()),
         0.5 * (at_a.half_sum() + at_b.half_sum())};
     gather(rings, edge, frame.axes.x, points);
-    const auto level = interpolated_level(frame, points);
-    const double z = level ? height_of_level(*level, frame.half_sum) : 0.0;
+    const double z = height_of_level(interpolated_level(frame, points), frame.half_sum);
     middles.push_back(frame.axes.x + z * frame.axes.n);
   }
   return middles;

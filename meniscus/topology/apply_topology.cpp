@@ -17,6 +17,7 @@
 #include "meniscus/surface/sizing.hpp"
 #include "meniscus/topology/bridge_gap.hpp"
 #include "meniscus/topology/cut_neck.hpp"
+#include "meniscus/topology/mend.hpp"
 #include "meniscus/topology/successors.hpp"
 
 namespace meniscus {
@@ -146,6 +147,7 @@ std::string unlikeness(const Scene& scene, const Gap& gap) {
                &second = scene.liquids[is_nested && b.inside == a.outside ? b.outside : b.inside];
   if (first.viscosity != second.viscosity)
     return fmt::format("viscosity ratios {:g} and {:g}", first.viscosity, second.viscosity);
+  if (first.law != second.law) return "different laws of viscosity";
   if (a.tension != b.tension)
     return fmt::format("surface tensions {:g} and {:g}", a.tension, b.tension);
   if (first.body_force != second.body_force) return "different body forces";
@@ -222,7 +224,7 @@ void finish_new_interfaces(Scene& scene, int first_id, const TopologyOptions& to
     options.edge_floor = topology.edge_floor;
     options.find_fault = find_self_intersection;
     for (int i = 0; i < kRemeshings; ++i)
-      if (const RemeshReport report = remesh(interface.mesh, options); !report.ok) break;
+      if (!remesh_or_mend(interface.mesh, options).remesh.ok) break;
     if (interface.mesh.num_vertices() < options.min_vertices) give_vertices(interface, options);
   }
   if (!find_conflict(scene).empty()) scene = before;

@@ -23,11 +23,19 @@ namespace {
 /// Radius of the hole, in limits. A tube of length h and radius a has less area than the two discs
 /// it stands for from a = h on; twice that leaves room for a patch that is no circle.
 constexpr double kHole = 2.0;
+/// The holes that are tried, and whether they take all of the thin film around with them: smaller
+/// ones where the rim of a larger one comes round to the back of a drop or to another fold.
+constexpr std::array<std::pair<double, bool>, 4> kHoles{
+    {{kHole, true}, {kHole, false}, {1.5, false}, {1.0, false}}};
+/// Area that an opening may add, in limits²; at the default limit of 0.01 it is 1.5e-4. Taking much
+/// film out adds more, where its liquid swells the rest.
+constexpr double kMostAddedArea = 1.5;
 /// Edges at the hole, in limits: the rim of the film turns round within one limit.
 constexpr double kEdge = 0.5;
 constexpr int kRefinements = 8;  // remeshings at most: each can make edges four times shorter
 /// A patch of film wider than this many of its edges is refined less: its rim is what matters.
 constexpr double kPatchVertices = 2000.0;
+constexpr double kMargin = 1.0;  // limits: beyond it a film is thicker than the edges of its rim
 constexpr int kSmoothRings = 2;  // rings of faces around the tube that are smoothed with it
 
 /// The edge that the surfaces are given around a gap.
@@ -97,23 +105,40 @@ VertexId nearest_vertex(const Film& film, const Vec3& x, const Vec3& into) {
   return best;
 }
 
+/// The faces around vertices, and around those that a walk along edges reaches without going
+/// farther than `margin` from the one it began at.
+FacePatch faces_around(const Film& film, std::vector<VertexId> vertices, double margin) {
+  VertexField<VertexId> origin(film.mesh.num_vertices());
+  for (const VertexId v : vertices) origin[v] = v;
+  FacePatch patch(film.mesh.num_faces(), false);
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    const VertexId v = vertices[k];
+    for (const FaceId f : film.topology.faces_around(v)) patch[f] = true;
+    for (const VertexId w : film.topology.ring(v)) {
+      if (origin[w].is_valid() || (film.mesh.x[w] - film.mesh.x[origin[v]]).norm() > margin)
+        continue;
+      origin[w] = origin[v];
+      vertices.push_back(w);
+    }
+  }
+  return patch;
+}
+
 /// The faces around the vertices that can be reached from `start` through vertices within `hole` of
-/// it or, with `limit` > 0, on a film thinner than that.
+/// it or, with `limit` > 0, on a film thinner than that. With the film goes a margin as wide as the
+/// limit: the rim is left where the film is thicker and can turn round, and it is less ragged.
 FacePatch hole_around(const Film& film, VertexId start, double hole, double limit) {
   VertexField<char> is_seen(film.mesh.num_vertices(), false);
   std::vector<VertexId> front{start};
   is_seen[start] = true;
-  FacePatch patch(film.mesh.num_faces(), false);
-  for (std::size_t k = 0; k < front.size(); ++k) {
-    for (const FaceId f : film.topology.faces_around(front[k])) patch[f] = true;
+  for (std::size_t k = 0; k < front.size(); ++k)
     for (const VertexId w : film.topology.ring(front[k])) {
       if (is_seen[w]) continue;
       is_seen[w] = true;
       const bool is_close = (film.mesh.x[w] - film.mesh.x[start]).norm() < hole;
       if (is_close || (limit > 0.0 && film.width(w, limit) < limit)) front.push_back(w);
     }
-  }
-  return patch;
+  return faces_around(film, std::move(front), kMargin * limit);
 }
 
 /// Volume of the film over the faces that making a patch a disc has added to it: half of what is
@@ -130,35 +155,44 @@ double enclosed_film(const Film& film, const FacePatch& before, const FacePatch&
   return 0.5 * volume;
 }
 
-/// The two holes; none when they cannot be made, or when they run into one another.
-std::optional<std::array<FacePatch, 2>> holes(const Film& film, const std::array<VertexId, 2>& at,
-                                              double hole, const BridgeOptions& options) {
-  const double resolved = std::max(2.0 * options.limit, 4.0 * options.edge_floor);
-  for (const double limit : {options.limit, 0.0}) {
-    std::array<FacePatch, 2> patches;
-    double enclosed = 0.0;
-    bool are_discs = true;
-    for (std::size_t k = 0; k < 2; ++k) {
-      patches[k] = hole_around(film, at[k], hole, limit);
-      const FacePatch before = patches[k];
-      are_discs = are_discs && make_disc(film.mesh, film.topology, film.neighbours, patches[k]);
-      enclosed += enclosed_film(film, before, patches[k]);
-    }
-    const double radius = std::cbrt(0.75 * enclosed / std::numbers::pi);
-    if (!are_discs || (limit > 0.0 && radius > resolved)) continue;
-    const bool are_apart = std::ranges::none_of(film.mesh.x.ids(), [&](VertexId v) {
-      const auto faces = film.topology.faces_around(v);
-      return std::ranges::any_of(faces, [&](FaceId f) { return patches[0][f]; }) &&
-             std::ranges::any_of(faces, [&](FaceId f) { return patches[1][f]; });
-    });
-    if (are_apart) return patches;
+/// Discs of faces on the two sides of a film that are to be taken out.
+using Holes = std::array<FacePatch, 2>;
+
+/// Whether no vertex belongs to both and no edge joins one to the other: the tube between them
+/// would have that edge a second time.
+bool are_apart(const Film& film, const Holes& patches) {
+  const auto touches = [&](VertexId v, std::size_t k) {
+    return std::ranges::any_of(film.topology.faces_around(v),
+                               [&](FaceId f) { return patches[k][f]; });
+  };
+  return std::ranges::none_of(film.mesh.x.ids(), [&](VertexId v) {
+    if (!touches(v, 0)) return false;
+    return touches(v, 1) ||
+           std::ranges::any_of(film.topology.ring(v), [&](VertexId w) { return touches(w, 1); });
+  });
+}
+
+/// The holes within `hole` of the closest place and, with `limit` > 0, of all film around it that
+/// is thinner than that; none when they are no discs, run into one another, or would take out film
+/// that can be resolved.
+std::optional<Holes> holes(const Film& film, const std::array<VertexId, 2>& at, double hole,
+                           double limit, const BridgeOptions& options) {
+  Holes patches;
+  double enclosed = 0.0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    patches[k] = hole_around(film, at[k], hole, limit);
+    const FacePatch before = patches[k];
+    if (!make_disc(film.mesh, film.topology, film.neighbours, patches[k])) return std::nullopt;
+    enclosed += enclosed_film(film, before, patches[k]);
   }
-  return std::nullopt;
+  const double resolved = std::max(2.0 * options.limit, 4.0 * options.edge_floor);
+  const double radius = std::cbrt(0.75 * enclosed / std::numbers::pi);
+  if ((limit > 0.0 && radius > resolved) || !are_apart(film, patches)) return std::nullopt;
+  return patches;
 }
 
 /// The surface with a tube between two holes in it.
-std::string join(const SurfaceMesh& mesh, const std::array<FacePatch, 2>& patches,
-                 SurfaceMesh& result) {
+std::string join(const SurfaceMesh& mesh, const Holes& patches, SurfaceMesh& result) {
   const auto first = boundary_curves(mesh, patches[0]), second = boundary_curves(mesh, patches[1]);
   FacePatch both = patches[0];
   for (const FaceId f : both.ids()) both[f] = both[f] || patches[1][f];
@@ -172,7 +206,32 @@ std::string join(const SurfaceMesh& mesh, const std::array<FacePatch, 2>& patche
     result = std::move(smooth);
     return {};
   }
-  return find_self_intersection(result);
+  return find_defect(joined(connected_pieces(result)));
+}
+
+/// What a surgery adds to the area, the volume being restored.
+double added_area(const SurfaceMesh& before, SurfaceMesh after) {
+  restore_volume(after, enclosed_volume(before));
+  return surface_area(after) - surface_area(before);
+}
+
+/// The first of the openings that leaves a sound surface and adds little area; why none does, else.
+Surgery opened(const Film& film, const std::array<VertexId, 2>& at, double edge,
+               const BridgeOptions& options) {
+  const double unit = edge / kEdge;  // the limit, but for patches too large for its edges
+  Surgery surgery{{}, "no two discs can be opened there"};
+  for (const auto& [radius, takes_film] : kHoles) {
+    const auto patches = holes(film, at, radius * unit, takes_film ? options.limit : 0.0, options);
+    if (!patches) continue;
+    SurfaceMesh result;
+    surgery.failure = join(film.mesh, *patches, result);
+    if (!surgery.failure.empty()) continue;
+    std::vector<SurfaceMesh> pieces = connected_pieces(result);  // without the vertices taken out
+    if (added_area(film.mesh, joined(pieces)) <= kMostAddedArea * unit * unit)
+      return {std::move(pieces), {}};
+    surgery.failure = "the bridge would add area";
+  }
+  return surgery;
 }
 
 }  // namespace
@@ -195,13 +254,7 @@ Surgery bridge_gap(const Scene& scene, const Gap& gap, const BridgeOptions& opti
   const std::array<VertexId, 2> at{nearest_vertex(film, gap.from, across),
                                    nearest_vertex(film, gap.to, -across)};
   if (!at[0].is_valid() || !at[1].is_valid()) return {{}, "the two sides are not to be found"};
-  const auto patches = holes(film, at, kHole / kEdge * edge, options);
-  if (!patches) return {{}, "no two discs can be opened there"};
-  Surgery surgery;
-  SurfaceMesh result;
-  surgery.failure = join(mesh, *patches, result);
-  if (surgery.failure.empty()) surgery.pieces = connected_pieces(result);
-  return surgery;
+  return opened(film, at, edge, options);
 }
 
 }  // namespace meniscus

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/topology/face_patch.hpp"
 #include "meniscus/topology/thread.hpp"
 
 namespace meniscus {
@@ -63,6 +64,51 @@ bool is_around_vertex(const SurfaceMesh& mesh, const Section& section) {
       return std::ranges::find(mesh.faces[f], v) != mesh.faces[f].end();
     });
   });
+}
+
+/// How far beyond a section, in its radii, the thread goes on at least: a ball as wide as the
+/// thread reaches 1.9.
+constexpr double kBeyond = 1.5;
+
+/// How far what lies beyond a section on one side of its plane reaches from that plane, in its
+/// radii; the other side where a torus comes round to it.
+double reach_beyond(const SurfaceMesh& mesh, const FaceNeighbours& neighbours,
+                    const Section& section, double side) {
+  double reach = 0.0;
+  const auto height = [&](VertexId v) {
+    return side * section.axis.dot(mesh.x[v] - section.center);
+  };
+  const auto visit = [&](FaceId f) {
+    for (const VertexId v : mesh.faces[f]) reach = std::max(reach, height(v));
+  };
+  FacePatch is_seen(mesh.num_faces(), false);
+  for (const FaceId f : section.faces) is_seen[f] = true;
+  std::vector<FaceId> part;
+  const auto add_unseen = [&](FaceId f) {
+    if (std::exchange(is_seen[f], true)) return;
+    part.push_back(f);
+  };
+  for (const FaceId f : section.faces) {
+    visit(f);
+    for (const FaceId g : neighbours[f])
+      // What two faces share that the curve does not cross lies on one side.
+      if (std::ranges::any_of(mesh.faces[g], [&](VertexId v) {
+            return height(v) > 0.0 && std::ranges::find(mesh.faces[f], v) != mesh.faces[f].end();
+          }))
+        add_unseen(g);
+  }
+  for (std::size_t k = 0; k < part.size(); ++k) {
+    visit(part[k]);
+    for (const FaceId f : neighbours[part[k]]) add_unseen(f);
+  }
+  return reach / section.radius;
+}
+
+/// Whether a section of a drop cuts no more than the end of a point or the rim of a lens off.
+bool is_near_end(const SurfaceMesh& mesh, const FaceNeighbours& neighbours,
+                 const Section& section) {
+  return std::min(reach_beyond(mesh, neighbours, section, 1.0),
+                  reach_beyond(mesh, neighbours, section, -1.0)) < kBeyond;
 }
 
 /// Whether a thread widens enough, beyond index k in the direction `step`, before it thins.
@@ -151,6 +197,7 @@ std::vector<Neck> well_apart(std::vector<Neck> necks) {
 std::vector<Neck> find_necks(const SurfaceMesh& mesh, const SurfaceTree& tree, Side side,
                              double radius, const SurfaceMotion& motion) {
   const double widest = kWidest * radius;
+  const FaceNeighbours neighbours = face_neighbours(mesh, SurfaceTopology(mesh));
   std::vector<Thread> threads;
   std::vector<Neck> necks;
   for (const ThinPlace& place : thin_places(mesh, tree, side, widest)) {
@@ -162,10 +209,13 @@ std::vector<Neck> find_necks(const SurfaceMesh& mesh, const SurfaceTree& tree, S
       const Section& section = thread.sections[static_cast<std::size_t>(k)];
       if (section.radius >= radius || !widens(thread, k, 1) || !widens(thread, k, -1)) continue;
       const Section thinnest = refined(mesh, tree, section);
-      if (thinnest.faces.size() < kFewestFaces || is_around_vertex(mesh, thinnest)) continue;
+      if (thinnest.faces.size() < kFewestFaces || is_around_vertex(mesh, thinnest) ||
+          (side == Side::inside && is_near_end(mesh, neighbours, thinnest)))
+        continue;
       const double rate = widening_rate(thinnest, motion);
       if (rate < 0.0 || motion.is_unknown())
-        necks.push_back({thinnest.center, thinnest.axis, thinnest.radius, rate, thinnest.faces});
+        necks.push_back(
+            {thinnest.center, thinnest.axis, thinnest.radius, thinnest.area, rate, thinnest.faces});
     }
     threads.push_back(std::move(thread));
   }

@@ -13,6 +13,7 @@ struct Neck {
   Vec3 center = Vec3::Zero();
   Vec3 axis = Vec3::UnitX();
   double radius = 0.0;  ///< perimeter of the section/2π [R0]
+  double area = 0.0;    ///< of the section [R0²]
   double rate = 0.0;    ///< mean of v·e over it, e away from the centre: < 0 thins [G R0]
   std::vector<FaceId> faces = {};  ///< the ring of faces that the section crosses
 };

@@ -80,14 +80,16 @@ Section followed(const SurfaceMesh& mesh, const Plane& plane, EdgeKey start, Cro
 
 void measure(Section& section) {
   double perimeter = 0.0;
-  Vec3 moment = Vec3::Zero();
+  Vec3 moment = Vec3::Zero(), area = Vec3::Zero();
   for (std::size_t k = 0; k < section.points.size(); ++k) {
     const Vec3 &a = section.points[k], &b = section.points[(k + 1) % section.points.size()];
     const double length = (b - a).norm();
     perimeter += length;
+    area += 0.5 * (a - section.points.front()).cross(b - section.points.front());
     moment += 0.5 * length * (a + b);
   }
   section.radius = perimeter / (2.0 * std::numbers::pi);
+  section.area = std::abs(area.dot(section.axis));
   section.center = perimeter > 0.0 ? Vec3(moment / perimeter) : section.points.front();
 }
 

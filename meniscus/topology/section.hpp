@@ -12,6 +12,7 @@ struct Section {
   Vec3 center = Vec3::Zero();  ///< centroid of the curve
   Vec3 axis = Vec3::UnitX();   ///< unit normal of the plane
   double radius = 0.0;         ///< perimeter/2π [R0]
+  double area = 0.0;           ///< enclosed [R0²]
   std::vector<Vec3> points;    ///< corners of the curve, in order
   std::vector<FaceId> faces;   ///< the face between each point and the next
 };

@@ -35,10 +35,17 @@ std::vector<CgalMesh::Vertex_index> vertices_within(const CgalMesh& mesh,
   return {found.begin(), found.end()};
 }
 
+/// CGAL does not take in a face that has an edge for the third time, or that makes a vertex the
+/// meeting point of two sheets.
+bool has_all_faces(const CgalMesh& cgal, const SurfaceMesh& mesh) {
+  return static_cast<std::int32_t>(cgal.number_of_faces()) == mesh.num_faces();
+}
+
 }  // namespace
 
 bool cap_holes(SurfaceMesh& mesh) {
   CgalMesh cgal = to_cgal(mesh);
+  if (!has_all_faces(cgal, mesh)) return false;
   std::vector<CgalMesh::Halfedge_index> holes;
   pmp::extract_boundary_cycles(cgal, std::back_inserter(holes));
   for (const auto hole : holes) {
@@ -54,6 +61,7 @@ bool cap_holes(SurfaceMesh& mesh) {
 
 bool smooth_part(SurfaceMesh& mesh, const FacePatch& part, int rings) {
   CgalMesh cgal = to_cgal(mesh);
+  if (!has_all_faces(cgal, mesh)) return false;
   std::vector<CgalMesh::Face_index> faces;
   for (const FaceId f : part.ids())
     if (part[f]) faces.emplace_back(static_cast<std::uint32_t>(f.value));

@@ -46,7 +46,8 @@ LiquidVolume liquid_volume(const Scene& scene, std::span<const std::size_t> pare
 std::size_t largest(const Scene& scene, std::span<const std::size_t> parents) {
   return *std::ranges::max_element(parents, [&](std::size_t i, std::size_t j) {
     const Interface &a = scene.interfaces[i], &b = scene.interfaces[j];
-    return a.volume != b.volume ? a.volume < b.volume : a.drop > b.drop;
+    const bool are_equal = std::abs(a.volume - b.volume) <= 1e-12 * std::max(a.volume, b.volume);
+    return are_equal ? a.drop > b.drop : a.volume < b.volume;
   });
 }
 

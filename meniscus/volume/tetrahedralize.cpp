@@ -5,6 +5,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/volume/facets.hpp"
+#include "meniscus/volume/mesh_order.hpp"
 #include "meniscus/volume/size_law.hpp"
 #include "meniscus/volume/tetgen_mesher.hpp"
 
@@ -93,6 +94,7 @@ std::string try_to_mesh(const Scene& scene, const SurfaceComplex& complex,
                         const std::string& switches, const SizeLaw& size, TetMesh& mesh) {
   MesherResult result = run_tetgen(complex, switches, size, kVolumeFactor);
   if (!result.failure.empty()) return result.failure;
+  order_by_neighbourhood(static_cast<std::int32_t>(complex.x.size()), result.x, result.cells);
   mesh = {};
   mesh.x = std::move(result.x);
   mesh.cells = std::move(result.cells);

@@ -54,6 +54,26 @@ io::Table reference_of(double factor) {
            {"3", fmt::format("{}", 9.0 * factor)}}};
 }
 
+TEST(RunComparison, TakesAnEventsRowAndSaysSoWhereThereIsNone) {
+  RunTables run = made_run([](double t) { return t; });
+  run.events = {{"step", "t", "x"}, {{"4", "0.4", "-2.8"}, {"5", "0.5", "2.9"}}};
+  CheckFile check;
+  CheckedQuantity q = quantity("x");
+  q.measure = Measure::last;
+  q.reference = 2.88;
+  q.is_absolute = true;
+  for (const int event : {0, 1, 2}) {
+    q.event = event;
+    check.runs.assign(1, {"one", {}, false, {q}});
+    const CheckRow row = compare("a case", check, {{"one", run}}, std::nullopt).at(0);
+    EXPECT_EQ(row.quantity, fmt::format("x of event {}", event));
+    ASSERT_EQ(row.worst.has_value(), event < 2);
+    if (event == 1) {
+      EXPECT_NEAR(row.worst->deviation, 0.02, 1e-12);
+    }
+  }
+}
+
 TEST(RunComparison, FindsTheWorstPlaceOfACurveWithinTheRun) {
   const CheckRow row = only_row(quantity("D"), reference_of(1.005));
   ASSERT_TRUE(row.worst);

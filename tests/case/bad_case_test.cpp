@@ -63,6 +63,29 @@ const std::vector<BadCase> kValues{
     {"elements there are none of", shear_with("[solver]\nelements = \"P2-P2\"\n"),
      "case.toml:7: solver.elements = \"P2-P2\" must be one of \"P1-P1\", \"P2-P1\"; did you mean "
      "\"P2-P1\"?"},
+    {"an unknown law of viscosity", shear_with("viscosity-law = \"carreau\"\n"),
+     "case.toml:6: drop.viscosity-law = \"carreau\" must be one of \"newtonian\", "
+     "\"carreau-yasuda\", \"power-law\""},
+    {"a power law without index", shear_with("viscosity-law = \"power-law\"\n"),
+     "case.toml:4: drop.power-index is missing"},
+    {"a law of the matrix without time",
+     shear_with("[matrix]\nviscosity-law = \"carreau-yasuda\"\n"),
+     "case.toml:6: matrix.time-constant is missing"},
+    {"an index of no law", shear_with("power-index = 0.5\n"),
+     "case.toml:6: drop.power-index has no effect here: it applies with viscosity-law = "
+     "\"carreau-yasuda\" or \"power-law\""},
+    {"a ceiling of Carreau's",
+     shear_with("viscosity-law = \"carreau-yasuda\"\npower-index = 0.5\ntime-constant = 1.0\n"
+                "viscosity-ceiling = 10.0\n"),
+     "case.toml:9: drop.viscosity-ceiling has no effect here: it applies with viscosity-law = "
+     "\"power-law\""},
+    {"an index of nothing", shear_with("viscosity-law = \"power-law\"\npower-index = 0.0\n"),
+     "case.toml:7: drop.power-index = 0.0 must be between 0 and 3, 0 excluded"},
+    {"boundary integrals of a thinning drop",
+     shear_with("viscosity-law = \"power-law\"\npower-index = 0.5\n[domain]\nshape = "
+                "\"unbounded\"\n[solver]\nmethod = \"boundary-integral\"\n"),
+     "case.toml:6: drop.viscosity-law = \"power-law\" needs solver.method = \"finite-element\": "
+     "boundary integrals describe Newtonian liquids alone"},
     {"boundary integrals in a box", shear_with("[solver]\nmethod = \"boundary-integral\"\n"),
      "case.toml:7: solver.method = \"boundary-integral\" needs domain.shape = \"unbounded\""},
     {"unbounded domain", shear_with("[domain]\nshape = \"unbounded\"\n"),

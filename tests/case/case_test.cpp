@@ -65,6 +65,8 @@ TEST(Case, BoundaryIntegralsTakeTheirOptionsAndAnUnboundedScene) {
   EXPECT_EQ(plain.boundary_integral.max_iterations, options.max_iterations);
   EXPECT_EQ(plain.boundary_integral.threads, options.threads);
   EXPECT_FALSE(plain.output.volume);
+  EXPECT_EQ(plain.evolution.surface, SurfaceShape::curved);
+  EXPECT_EQ(plain.evolution.motion_normal, MotionNormal::smooth);
   const Case c = shear_case(solver + "rtol = 1e-9\nmax-iterations = 50\nthreads = 3\n");
   EXPECT_EQ(c.boundary_integral.rtol, 1e-9);
   EXPECT_EQ(c.boundary_integral.max_iterations, 50);
@@ -101,6 +103,22 @@ TEST(Case, OverridesWinAndAddDrops) {
   ASSERT_EQ(c.drops.size(), 2u);
   EXPECT_EQ(c.drops[1].center, Vec3(0, 0, 3));
   EXPECT_EQ(c.evolution.scheme, TimeScheme::euler);
+}
+
+TEST(Case, OverridesMayTakeTheEffectOfWhatTheFileSays) {
+  constexpr const char* kElements =
+      "[domain]\nhalf-width = 20\n[interface]\nsurface-tension = \"nodal\"\n";
+  const std::vector<std::string> integrals = {"solver.method=boundary-integral",
+                                              "domain.shape=unbounded"};
+  EXPECT_EQ(shear_case(kElements, integrals).method, FlowMethod::boundary_integral);
+  // Not so what has no effect in the file either, and what is itself an override.
+  EXPECT_EQ(test::message_of(std::string(test::kShear) + "[domain]\nradius = 20\n", integrals),
+            "case.toml:7: domain.radius has no effect here: it applies with shape = \"sphere\" or "
+            "\"cylinder\"");
+  EXPECT_EQ(test::message_of(test::kShear, {"solver.method=boundary-integral",
+                                            "domain.shape=unbounded", "domain.half-width=5"}),
+            "--set domain.half-width=5: domain.half-width has no effect here: it applies with "
+            "shape = \"box\", without half-widths");
 }
 
 TEST(Case, OverridesNeedNoIndexWhereThereIsOneTable) {

@@ -34,6 +34,21 @@ class CheckFileTest : public testing::Test {
   }
 };
 
+TEST_F(CheckFileTest, ReadsAnEventsColumnAsOneNumber) {
+  const CheckFile check = read(R"(
+[[run]]
+name = "pinch"
+  [[run.quantity]]
+  column = "x"
+  event = 1
+  reference = 2.88
+  source = "a computation"
+)");
+  const CheckedQuantity& quantity = check.runs.at(0).quantities.at(0);
+  EXPECT_EQ(quantity.event, 1);
+  EXPECT_EQ(quantity.measure, CheckedQuantity::Measure::last);
+}
+
 TEST_F(CheckFileTest, ReadsRunsQuantitiesAndExtrapolations) {
   const CheckFile check = read(R"(
 [[run]]
@@ -45,6 +60,7 @@ short = true
   tolerance = 0.015
 [[run]]
 name = "N0 = 400"
+once = true
   [[run.quantity]]
   column = "y"
   drop = 1
@@ -64,6 +80,8 @@ source = "axisymmetric"
 )");
   ASSERT_EQ(check.runs.size(), 2U);
   EXPECT_TRUE(check.runs[0].is_short);
+  EXPECT_FALSE(check.runs[0].is_once);
+  EXPECT_TRUE(check.runs[1].is_once);
   EXPECT_EQ(check.runs[0].quantities.at(0).tolerance, 0.015);
   const CheckedQuantity& y = check.runs[1].quantities.at(0);
   EXPECT_EQ(y.measure, CheckedQuantity::Measure::largest);

@@ -38,6 +38,20 @@ TEST(DropStress, LinearVelocityGivesTwiceTheViscosityContrastTimesTheStrain) {
   EXPECT_LT((drop_stress(scene, u) - expected).norm(), 1e-12);
 }
 
+// A drop whose law doubles its viscosity: what the law adds counts as viscosity does.
+TEST(DropStress, OfALawCountsLikeThatOfTheViscosityItAddsUpTo) {
+  const SurfaceMesh mesh = stretched_sphere(150, Vec3(1.3, 0.8, 1.0));
+  Mat3 gradient = Mat3::Zero();
+  gradient(0, 1) = 1.0;
+  const std::vector<VertexField<Vec3>> u{velocity_on(mesh, gradient)};
+  const std::vector<Mat3> excess{Mat3::Zero(),
+                                 enclosed_volume(mesh) * 4.0 * (gradient + gradient.transpose())};
+  EXPECT_LT(
+      (drop_stress(one_drop(mesh, 4.0, 0.3), u, excess) - drop_stress(one_drop(mesh, 8.0, 0.3), u))
+          .norm(),
+      1e-12);
+}
+
 TEST(DropStress, SphereUnderTensionCarriesNoDeviator) {
   const Scene scene = one_drop(sphere(400), 1.0, 0.5);
   const std::vector<VertexField<Vec3>> u{VertexField<Vec3>(400, Vec3::Zero())};

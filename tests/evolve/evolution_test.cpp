@@ -175,5 +175,17 @@ TEST(Evolution, SavedStateGoesOnToTheSameBits) {
             whole.evolution.scene().interfaces[0].mesh);
 }
 
+TEST(Evolution, SavedLiquidsKeepTheirLaws) {
+  Scene scene = one_drop(42, 1.0);
+  scene.liquids[RegionId{0}].law = PowerLaw{0.4, 1e-2, 50.0};
+  scene.liquids[RegionId{1}].law = CarreauYasuda{2.0, 0.3, 1.5, 0.1};
+  Archive archive;
+  make_run(scene, {}, stretching).evolution.save(archive);
+  auto again = make_run(one_drop(42, 3.0), {}, stretching);
+  again.evolution.load(archive);
+  EXPECT_EQ(again.evolution.scene().liquids[RegionId{0}].law, scene.liquids[RegionId{0}].law);
+  EXPECT_EQ(again.evolution.scene().liquids[RegionId{1}].law, scene.liquids[RegionId{1}].law);
+}
+
 }  // namespace
 }  // namespace meniscus

@@ -73,6 +73,11 @@ TEST(Coalescence, OfUnlikeLiquidsIsRefused) {
   EXPECT_TRUE(report.events.empty());
   EXPECT_EQ(scene.interfaces[0].mesh, before.interfaces[0].mesh);
   scene.liquids[RegionId{2}].viscosity = 1.0;
+  scene.liquids[RegionId{2}].law = PowerLaw{.power_index = 0.5};
+  report = apply_topology(scene, kMerge, {});
+  EXPECT_NE(report.refusal.find("different laws of viscosity"), std::string::npos)
+      << report.refusal;
+  scene.liquids[RegionId{2}].law = {};
   scene.interfaces[1].tension = 2.0;
   report = apply_topology(scene, kMerge, {});
   EXPECT_NE(report.refusal.find("surface tensions 1 and 2"), std::string::npos) << report.refusal;
@@ -157,7 +162,7 @@ TEST(Coalescence, OfTheHoleToAPocketLeavesAVoid) {
   // A sphere with a pocket that a thin channel joins to the outside: made by opening the film
   // between a drop and a drop in it.
   const std::vector<SurfaceMesh> meshes{unit_sphere(Vec3::Zero()),
-                                        sphere(200, 0.4, Vec3(0.6 - 0.5 * kGap, 0, 0))};
+                                        sphere(200, 0.4, Vec3(0.6 - 0.9 * kGap, 0, 0))};
   const double inner_volume = enclosed_volume(meshes[1]);
   Scene scene = scene_of(meshes, 400 / (4.0 * std::numbers::pi));
   ASSERT_EQ(apply_topology(scene, kMerge, {}).events.size(), 1U);

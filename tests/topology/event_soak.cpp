@@ -13,6 +13,7 @@
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/remesh.hpp"
+#include "meniscus/topology/mend.hpp"
 #include "tests/topology/scenes.hpp"
 
 namespace meniscus::test {
@@ -22,6 +23,7 @@ namespace {
 constexpr double kBreakupRadius = 0.08, kGap = 0.08, kFloor = 0.04;
 constexpr double kC0 = 42.0 / (4.0 * std::numbers::pi);
 constexpr double kBox = 3.0;
+constexpr double kStep = 0.04;
 
 /// v = Σ a × k sin(k·x + φ): smooth and free of divergence.
 class RandomFlow {
@@ -84,7 +86,7 @@ bool remeshed(Scene& scene) {
     options.volume = drop.volume;
     options.edge_floor = kFloor;
     options.find_fault = find_self_intersection;
-    if (!remesh(drop.mesh, options).ok) restore_volume(drop.mesh, drop.volume);
+    if (!remesh_or_mend(drop.mesh, options).remesh.ok) restore_volume(drop.mesh, drop.volume);
     if (!find_defect(drop.mesh).empty()) return false;
   }
   return find_touching_drops(scene).empty();
@@ -115,7 +117,7 @@ EventSoak event_soak(unsigned seed, int events, int max_steps) {
                                 .coalescence = true,
                                 .coalescence_gap = kGap,
                                 .edge_floor = kFloor};
-  double dt = 0.02;
+  double dt = kStep;
   while (soak.breakups + soak.coalescences < events && soak.steps < max_steps) {
     if (soak.steps++ % 15 == 0) flow = RandomFlow(random);
     Scene moved = scene;
@@ -131,7 +133,7 @@ EventSoak event_soak(unsigned seed, int events, int max_steps) {
       flow = RandomFlow(random);
       continue;
     }
-    dt = std::min(0.02, 1.5 * dt);
+    dt = std::min(kStep, 1.5 * dt);
     const Scene before = moved;
     const TopologyReport report = apply_topology(moved, options, motion);
     record(report, soak);

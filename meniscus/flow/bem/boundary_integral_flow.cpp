@@ -1,5 +1,6 @@
 #include "meniscus/flow/bem/boundary_integral_flow.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -31,6 +32,8 @@ class BoundaryIntegralFlow final : public FlowSolver {
   FlowReport rebuild(const Scene& scene) override {
     if (!scene.is_unbounded)
       return failure("the boundary-integral solver needs an unbounded scene");
+    if (!std::ranges::all_of(scene.liquids, is_newtonian, &Liquid::law))
+      return failure("boundary integrals describe Newtonian liquids alone");
     velocity_.clear();
     return {};
   }

@@ -37,6 +37,14 @@ struct CellMatrices {
     return divergence.template block<1, 3>(static_cast<Eigen::Index>(k),
                                            static_cast<Eigen::Index>(3 * j));
   }
+  /// The same of the lower left block, which is B's in Newtonian liquids.
+  [[nodiscard]] Vec3 lower_left_of(std::size_t k, std::size_t j) const {
+    return divergence_of(k, j);
+  }
+
+ protected:
+  CellMatrices();
+  void add(const typename Element::Point& point, double viscosity);
 
  private:
   [[nodiscard]] auto at(std::size_t i, std::size_t j) const {
@@ -46,24 +54,31 @@ struct CellMatrices {
 };
 
 template <class Element>
-CellMatrices<Element>::CellMatrices(const StokesProblem& problem,
-                                    std::span<const typename Element::Point> points, CellId c) {
+CellMatrices<Element>::CellMatrices() {
   products.setZero();
   divergence.setZero();
-  const double viscosity = problem.viscosity[c];
-  for (const auto& point : points) {
-    // The gradients one below the other: row 3i + a holds ∂_aφ_i.
-    const Eigen::Map<const Eigen::Matrix<double, kRows, 1>> gradients(point.gradient.data());
-    products.noalias() += (point.weight * viscosity * gradients) * gradients.transpose();
-    const Eigen::Map<const Eigen::Vector4d> psi(point.pressure.data());
-    divergence.noalias() -= (point.weight * psi) * gradients.transpose();
-    for (std::size_t k = 0; k < 4; ++k)
-      pressure_mass[k] += point.weight * point.pressure[k] / viscosity;
-  }
   stabilisation.setZero();
-  if constexpr (Element::is_stabilized)
-    stabilisation = pspg_parameter(points[0].weight, viscosity) * points[0].weight *
-                    points[0].gradient.transpose() * points[0].gradient;
+}
+
+template <class Element>
+void CellMatrices<Element>::add(const typename Element::Point& point, double viscosity) {
+  // The gradients one below the other: row 3i + a holds ∂_aφ_i.
+  const Eigen::Map<const Eigen::Matrix<double, kRows, 1>> gradients(point.gradient.data());
+  products.noalias() += (point.weight * viscosity * gradients) * gradients.transpose();
+  const Eigen::Map<const Eigen::Vector4d> psi(point.pressure.data());
+  divergence.noalias() -= (point.weight * psi) * gradients.transpose();
+  for (std::size_t k = 0; k < 4; ++k)
+    pressure_mass[k] += point.weight * point.pressure[k] / viscosity;
+  if constexpr (Element::is_stabilized)  // on cells with one point
+    stabilisation = pspg_parameter(point.weight, viscosity) * point.weight *
+                    point.gradient.transpose() * point.gradient;
+}
+
+template <class Element>
+CellMatrices<Element>::CellMatrices(const StokesProblem& problem,
+                                    std::span<const typename Element::Point> points, CellId c)
+    : CellMatrices() {
+  for (const auto& point : points) add(point, problem.viscosity[c]);
 }
 
 }  // namespace meniscus::fem

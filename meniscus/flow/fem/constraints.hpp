@@ -32,6 +32,13 @@ class Constraints {
   /// a coordinate axis leave the frame Cartesian.
   void forbid_penetration(NodeId i, std::span<const Vec3> normals);
 
+  /// What is asked of a node elsewhere, for one here.
+  void copy(NodeId i, const NodeConstraint& constraint) {
+    NodeConstraint& here = at(i);
+    here = constraint;
+    here.node = i;
+  }
+
   [[nodiscard]] std::span<const NodeConstraint> all() const { return constraints_; }
   /// Null for a free node.
   [[nodiscard]] const NodeConstraint* find(NodeId i) const {

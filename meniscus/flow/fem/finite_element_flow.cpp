@@ -1,11 +1,13 @@
 #include "meniscus/flow/fem/finite_element_flow.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/boundary_conditions.hpp"
 #include "meniscus/flow/fem/capillary_force.hpp"
+#include "meniscus/flow/fem/excess_stress.hpp"
 #include "meniscus/flow/fem/face_elements.hpp"
 #include "meniscus/flow/fem/mesh_archive.hpp"
 #include "meniscus/flow/fem/stokes_residual.hpp"
@@ -50,6 +52,8 @@ InstantProblem instant_problem(const Scene& scene, const TetMesh& mesh, const Fl
     problem.stokes.viscosity[c] = liquid.viscosity;
     problem.stokes.body_force[c] = liquid.body_force;
   }
+  if (!std::ranges::all_of(scene.liquids, is_newtonian, &Liquid::law))
+    for (const Liquid& liquid : scene.liquids) problem.stokes.laws.add(liquid.law);
   BoundaryConditions conditions = boundary_conditions(scene.boundary, nodes.boundary, at, t);
   problem.failure = std::move(conditions.failure);
   problem.stokes.constraints = std::move(conditions.constraints);
@@ -117,6 +121,8 @@ class FiniteElementFlow final : public FlowSolver {
   std::span<const VertexField<Vec3>> velocity() const override { return velocity_; }
   std::optional<Power> power() const override { return power_; }
 
+  std::span<const Mat3> excess_stress() const override { return excess_stress_; }
+
   void mark(const Scene& scene) override {
     follow_interfaces(scene);
     marked_ = mesh_.x;
@@ -167,6 +173,7 @@ class FiniteElementFlow final : public FlowSolver {
   std::vector<VertexField<Vec3>> velocity_;
   std::vector<double> corner_pressure_;
   Power power_;
+  std::vector<Mat3> excess_stress_;
   PhaseTimes times_;
 };
 
@@ -203,8 +210,9 @@ FlowReport FiniteElementFlow::solve(const Scene& scene, double t) {
   const StokesReport report = stokes_->solve(
       problem->stokes, *state_,
       is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh, times_);
-  const bool was_made =
-      !is_kept && report.ok && report.solver == options_.linear && report.iterations > 0;
+  // The steps of generalised-Newtonian liquids make their own.
+  const bool was_made = !is_kept && report.ok && report.solver == options_.linear &&
+                        report.iterations > 0 && !problem->stokes.is_generalised();
   prepared_at_.reset();
   if (was_made) prepared_at_ = problem->stokes.positions;
   FlowReport result = straightened_report(problem->stokes.positions);
@@ -229,10 +237,11 @@ void FiniteElementFlow::take_solution(const Scene& scene, const InstantProblem& 
     remove_net_flux(surface, net_flux(faces, positions, state_->v), v);
     velocity_.push_back(std::move(v));
   }
-  const StokesPower power = fem::power(problem.stokes, *state_);
+  const StokesPower power = stokes_->power(problem.stokes, *state_);
   double traction = 0.0;
   for (const NodeId i : problem.traction.ids()) traction += problem.traction[i].dot(state_->v[i]);
   power_ = {power.reaction + traction + power.body_force, power.dissipation};
+  excess_stress_ = fem::excess_stress(problem.stokes, *state_);
   corner_pressure_.clear();
   for (const std::int32_t node : space_.pressure.nodes.cell_nodes)
     corner_pressure_.push_back(state_->p[static_cast<std::size_t>(node)]);

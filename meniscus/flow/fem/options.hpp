@@ -21,6 +21,12 @@ enum class CapillaryForm {
              ///< constant κ
 };
 
+/// Which processes share the work.
+enum class Processes {
+  alone,  ///< none: each that calls does all
+  all     ///< those that mpirun started, which must all make the same calls
+};
+
 enum class LinearSolver { block, paper_gmres, minres, mumps };
 
 struct Options {
@@ -31,6 +37,7 @@ struct Options {
   int max_iterations = 2000;
   VolumeMeshOptions volume_mesh;
   VolumeMotion volume_motion = VolumeMotion::spines;
+  Processes processes = Processes::alone;
   std::string petsc_options;  ///< further PETSc options, as on its command line
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "meniscus/flow/fem/cell_matrices.hpp"
+#include "meniscus/linear/collective.hpp"
 
 namespace meniscus::fem {
 namespace {
@@ -43,39 +44,54 @@ Vec3 free_divergence(const Vec3& divergence, const NodeConstraint* column) {
 
 /// Linear functions as quadratic ones: a vertex keeps its value, the middle of an edge has the mean
 /// of its ends. Fixed nodes are zero, but that fixed vertices keep their own equation.
-linear::CsrMatrix interpolation_from_linear(const FlowSpace& space,
+linear::CsrMatrix interpolation_from_linear(const LinearFunctions& coarse, std::int32_t num_rows,
                                             const std::vector<bool>& is_fixed) {
   linear::CsrMatrix matrix;
-  matrix.num_columns = space.num_vertices();
+  matrix.num_columns = coarse.num_own;
   matrix.row_start.push_back(0);
-  const auto end_row = [&] {
-    matrix.row_start.push_back(static_cast<std::int32_t>(matrix.columns.size()));
-  };
-  for (std::int32_t v = 0; v < space.num_vertices(); ++v) {
-    matrix.columns.push_back(v);
-    matrix.values.push_back(1.0);
-    end_row();
-  }
-  for (std::size_t e = 0; e < space.edges.size(); ++e) {
-    for (const TetVertexId end : space.edges[e]) {  // in rising order
-      if (is_fixed[at(space.num_vertices()) + e] || is_fixed[at(end.value)]) continue;
-      matrix.columns.push_back(end.value);
+  for (std::size_t i = 0; i < at(num_rows); ++i) {
+    const auto& [a, b] = coarse.ends[i];
+    if (a == b) {
+      matrix.columns.push_back(coarse.number[at(a)]);
+      matrix.values.push_back(1.0);
+    }
+    for (const std::int32_t end : coarse.ends[i]) {  // in rising order
+      if (a == b || is_fixed[i] || is_fixed[at(end)]) continue;
+      matrix.columns.push_back(coarse.number[at(end)]);
       matrix.values.push_back(0.5);
     }
-    end_row();
+    matrix.row_start.push_back(static_cast<std::int32_t>(matrix.columns.size()));
   }
   return matrix;
 }
 
+/// Columns of a rank's share, numbered as all ranks do.
+void renumber(NodeGraph& graph, const std::vector<std::int32_t>& number) {
+  for (std::int32_t& column : graph.columns) column = number[at(column)];
+}
+
 }  // namespace
 
-StokesJacobian::StokesJacobian(const FlowSpace& space)
+StokesJacobian::StokesJacobian(const FlowSpace& space, const Share* share)
     : space_(space),
+      share_(share),
+      own_(share != nullptr ? share->own : all_of(space)),
+      coarse_(share != nullptr ? share->coarse : linear_functions(space)),
       velocity_graph_(node_graph(space.velocity, space.velocity)),
       coupling_graph_(node_graph(space.pressure.nodes, space.velocity)),
-      pressure_graph_(node_graph(space.pressure.nodes, space.pressure.nodes)),
-      A_pattern_(expanded(velocity_graph_, 3, 3)),
-      B_pattern_(expanded(coupling_graph_, 1, 3)) {}
+      pressure_graph_(node_graph(space.pressure.nodes, space.pressure.nodes)) {
+  if (share != nullptr) {
+    renumber(velocity_graph_, share->node_number);
+    renumber(coupling_graph_, share->node_number);
+    renumber(pressure_graph_, share->pressure_number);
+  }
+  A_pattern_ = expanded(velocity_graph_, 3, 3);
+  B_pattern_ = expanded(coupling_graph_, 1, 3);
+}
+
+bool StokesJacobian::is_same(const std::vector<bool>& a, const std::vector<bool>& b) const {
+  return share_ == nullptr ? a == b : !linear::any(share_->communicator, a != b);
+}
 
 void StokesJacobian::choose_laplacians(const Constraints& constraints) {
   laplacians_.clear();
@@ -84,40 +100,55 @@ void StokesJacobian::choose_laplacians(const Constraints& constraints) {
     std::vector<bool> is_fixed(num_nodes, false);
     for (const NodeConstraint& constraint : constraints.all())
       is_fixed[at(constraint.node.value)] = constraint.is_fixed[k];
-    const auto same = std::ranges::find(laplacians_, is_fixed, &Laplacian::is_fixed);
+    const auto same = std::ranges::find_if(
+        laplacians_, [&](const Laplacian& other) { return is_same(other.is_fixed, is_fixed); });
     laplacian_of_[k] = static_cast<int>(same - laplacians_.begin());
     if (same != laplacians_.end()) continue;
     linear::CsrMatrix from_linear;
-    if (!space_.edges.empty()) from_linear = interpolation_from_linear(space_, is_fixed);
+    if (!coarse_.ends.empty())
+      from_linear = interpolation_from_linear(coarse_, own_.num_nodes, is_fixed);
     laplacians_.push_back({std::move(is_fixed),
                            std::vector<double>(velocity_graph_.num_entries(), 0.0),
                            std::move(from_linear)});
   }
 }
 
-void StokesJacobian::assemble(const StokesProblem& problem) {
+void StokesJacobian::assemble(const StokesProblem& problem, const Linearization* about) {
   choose_laplacians(problem.constraints);
   A_.assign(9 * velocity_graph_.num_entries(), 0.0);
   B_.assign(3 * coupling_graph_.num_entries(), 0.0);
   C_.assign(pressure_graph_.num_entries(), 0.0);
   pressure_mass_.assign(at(pressure_graph_.num_rows()), 0.0);
+  const bool has_lower_left = about != nullptr && about->kind == Linearization::Kind::newton &&
+                              space_.elements == Elements::p1_p1;
+  lower_left_.assign(has_lower_left ? B_.size() : 0, 0.0);
   constant_pressure_is_null_ = !problem.has_open_boundary;
-  with_element(space_, problem.positions, [&](auto& element) { add_cells(problem, element); });
+  with_element(space_, problem.positions,
+               [&](auto& element) { add_cells(problem, about, element); });
 }
 
 template <class Element>
-void StokesJacobian::add_cells(const StokesProblem& problem, Element& element) {
+void StokesJacobian::add_cells(const StokesProblem& problem, const Linearization* about,
+                               Element& element) {
   for (const CellId c : problem.mesh.cells.ids()) {
-    const CellMatrices<Element> matrices(problem, element.points(c), c);
-    const bool is_free = std::ranges::all_of(space_.velocity.of(c), [&](std::int32_t i) {
-      return problem.constraints.find(NodeId{i}) == nullptr;
-    });
-    if (is_free)
-      add_free_cell(matrices, c);
+    if (about != nullptr && problem.law(c) != nullptr)
+      add_cell(problem, TangentMatrices<Element>(problem, element.points(c), c, *about), c);
     else
-      add_constrained_cell(problem, matrices, c);
-    add_pressure_blocks(matrices, c);
+      add_cell(problem, CellMatrices<Element>(problem, element.points(c), c), c);
   }
+}
+
+template <class Matrices>
+void StokesJacobian::add_cell(const StokesProblem& problem, const Matrices& matrices, CellId c) {
+  const bool is_free = std::ranges::all_of(space_.velocity.of(c), [&](std::int32_t i) {
+    return problem.constraints.find(NodeId{i}) == nullptr;
+  });
+  if (is_free)
+    add_free_cell(matrices, c);
+  else
+    add_constrained_cell(problem, matrices, c);
+  if (!lower_left_.empty()) add_lower_left(problem, matrices, c);
+  add_pressure_blocks(matrices, c);
 }
 
 template <class Matrices>
@@ -163,6 +194,18 @@ void StokesJacobian::add_constrained_cell(const StokesProblem& problem, const Ma
 }
 
 template <class Matrices>
+void StokesJacobian::add_lower_left(const StokesProblem& problem, const Matrices& matrices,
+                                    CellId c) {
+  constexpr std::size_t n = Matrices::num_nodes;
+  const auto nodes = space_.velocity.of(c);
+  const std::size_t first = 4 * n * at(c.value);
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t j = 0; j < n; ++j)
+      Eigen::Map<Vec3>(lower_left_.data() + 3 * at(coupling_graph_.position[first + n * k + j])) +=
+          free_divergence(matrices.lower_left_of(k, j), problem.constraints.find(NodeId{nodes[j]}));
+}
+
+template <class Matrices>
 void StokesJacobian::add_pressure_blocks(const Matrices& matrices, CellId c) {
   const auto nodes = space_.pressure.nodes.of(c);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -174,20 +217,19 @@ void StokesJacobian::add_pressure_blocks(const Matrices& matrices, CellId c) {
 }
 
 linear::SaddleSystem StokesJacobian::system() const {
-  const std::int32_t num_velocities = 3 * velocity_graph_.num_rows();
-  const std::int32_t num_pressures = pressure_graph_.num_rows();
+  const std::int32_t num_velocities = 3 * own_.num_nodes, num_pressures = own_.num_pressures;
   linear::SaddleSystem system;
   system.A = {num_velocities, num_velocities, A_pattern_.row_start, A_pattern_.columns, A_};
   system.B = {num_pressures, num_velocities, B_pattern_.row_start, B_pattern_.columns, B_};
   system.C = {num_pressures, num_pressures, pressure_graph_.row_start, pressure_graph_.columns, C_};
   for (const Laplacian& laplacian : laplacians_) {
-    system.laplacians.push_back({velocity_graph_.num_rows(), velocity_graph_.num_rows(),
-                                 velocity_graph_.row_start, velocity_graph_.columns,
-                                 laplacian.values});
-    if (!space_.edges.empty()) system.interpolations.push_back(laplacian.from_linear.view());
+    system.laplacians.push_back({own_.num_nodes, own_.num_nodes, velocity_graph_.row_start,
+                                 velocity_graph_.columns, laplacian.values});
+    if (!coarse_.ends.empty()) system.interpolations.push_back(laplacian.from_linear.view());
   }
+  system.lower_left = lower_left_;
   system.laplacian_of = laplacian_of_;
-  system.pressure_mass = pressure_mass_;
+  system.pressure_mass = std::span(pressure_mass_).first(at(num_pressures));
   system.constant_pressure_is_null = constant_pressure_is_null_;
   return system;
 }

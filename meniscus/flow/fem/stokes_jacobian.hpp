@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "meniscus/flow/fem/node_graph.hpp"
+#include "meniscus/flow/fem/share.hpp"
 #include "meniscus/flow/fem/stokes_problem.hpp"
+#include "meniscus/flow/fem/tangent_matrices.hpp"
 #include "meniscus/linear/saddle_system.hpp"
 
 namespace meniscus::fem {
@@ -13,21 +15,28 @@ namespace meniscus::fem {
 /// mesh topology. At constrained nodes the unknowns are in the constraint's frame.
 class StokesJacobian {
  public:
-  explicit StokesJacobian(const FlowSpace& space);
+  /// Of a rank's share of the space, the rows of its own nodes, columns numbered as all do.
+  explicit StokesJacobian(const FlowSpace& space, const Share* share = nullptr);
 
   /// Fills the matrices for the geometry, viscosities and constraints of the problem. Linear cost.
-  void assemble(const StokesProblem& problem);
+  /// Where a liquid is generalised-Newtonian it is linearised about a state, or where none is given
+  /// taken for a Newtonian one.
+  void assemble(const StokesProblem& problem, const Linearization* about = nullptr);
   /// A view of the last assembly.
   [[nodiscard]] linear::SaddleSystem system() const;
 
  private:
   void choose_laplacians(const Constraints& constraints);
   template <class Element>
-  void add_cells(const StokesProblem& problem, Element& element);
+  void add_cells(const StokesProblem& problem, const Linearization* about, Element& element);
+  template <class Matrices>
+  void add_cell(const StokesProblem& problem, const Matrices& matrices, CellId c);
   template <class Matrices>
   void add_free_cell(const Matrices& matrices, CellId c);
   template <class Matrices>
   void add_constrained_cell(const StokesProblem& problem, const Matrices& matrices, CellId c);
+  template <class Matrices>
+  void add_lower_left(const StokesProblem& problem, const Matrices& matrices, CellId c);
   template <class Matrices>
   void add_pressure_blocks(const Matrices& matrices, CellId c);
 
@@ -39,10 +48,17 @@ class StokesJacobian {
     linear::CsrMatrix from_linear;
   };
 
+  /// Whether all ranks agree that the same nodes are fixed in two components.
+  [[nodiscard]] bool is_same(const std::vector<bool>& a, const std::vector<bool>& b) const;
+
   const FlowSpace& space_;
+  const Share* share_;
+  OwnPart own_;
+  LinearFunctions coarse_;
   NodeGraph velocity_graph_, coupling_graph_, pressure_graph_;
   ScalarPattern A_pattern_, B_pattern_;
   std::vector<double> A_, B_, C_, pressure_mass_;
+  std::vector<double> lower_left_;  ///< on B's pattern; empty where it is B
   std::vector<Laplacian> laplacians_;
   std::array<int, 3> laplacian_of_ = {0, 0, 0};
   bool constant_pressure_is_null_ = false;

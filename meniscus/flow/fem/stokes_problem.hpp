@@ -1,16 +1,21 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "meniscus/flow/fem/constraints.hpp"
 #include "meniscus/flow/fem/node_positions.hpp"
+#include "meniscus/scene/viscosity.hpp"
 
 namespace meniscus::fem {
+
+struct Share;
 
 /// One instant of two-phase Stokes flow, ready to discretise:
 ///   ∫(−p∇·φ + 2μ D(v):D(φ)) − ∫f·φ − load(φ) = 0   for every φ that vanishes where v is fixed,
 ///   −∫ψ∇·v − Σ_K τ∫∇ψ·(∇p − f) = 0                 for every ψ
-/// (eqs 10, 11 of hooper2001 with 2μ D:D and a consistent stabilisation; τ = 0 for P2).
+/// (eqs 10, 11 of hooper2001 with 2μ D:D and a consistent stabilisation; τ = 0 for P2). Where μ
+/// depends on the rate of shear so does τ.
 struct StokesProblem {
   StokesProblem(const TetMesh& on, const FlowSpace& in, NodePositions at)
       : mesh(on),
@@ -25,10 +30,21 @@ struct StokesProblem {
   const FlowSpace& space;
   NodePositions positions;
   CellField<double> viscosity;  ///< [μ_out]
-  CellField<Vec3> body_force;   ///< f [μ_out G / R0]
-  Field<NodeId, Vec3> load;     ///< further forces on the fluid, by node [μ_out G R0²]
+  /// How it depends on the rate of shear, by region; empty where every liquid is Newtonian.
+  Field<RegionId, ViscosityLaw> laws;
+  CellField<Vec3> body_force;  ///< f [μ_out G / R0]
+  Field<NodeId, Vec3> load;    ///< further forces on the fluid, by node [μ_out G R0²]
   Constraints constraints;
+  const Share* share = nullptr;    ///< whose problem it is, where ranks have a part each
   bool has_open_boundary = false;  ///< otherwise the pressure is known up to a constant
+
+  [[nodiscard]] bool is_generalised() const { return !std::ranges::all_of(laws, is_newtonian); }
+  /// Null in a Newtonian liquid.
+  [[nodiscard]] const ViscosityLaw* law(CellId c) const {
+    if (laws.empty()) return nullptr;
+    const ViscosityLaw& own = laws[mesh.region[c]];
+    return is_newtonian(own) ? nullptr : &own;
+  }
 };
 
 /// v at the nodes of the velocity, p at those of the pressure.

@@ -2,43 +2,20 @@
 
 #include <cmath>
 
+#include "meniscus/flow/fem/cell_state.hpp"
 #include "meniscus/flow/fem/elements.hpp"
+#include "meniscus/flow/fem/share.hpp"
+#include "meniscus/linear/collective.hpp"
 
 namespace meniscus::fem {
 namespace {
-
-/// The unknowns of one cell, and the fields they make at a point.
-template <class Element>
-struct CellState {
-  Eigen::Matrix<double, 3, Element::num_nodes> v;
-  Eigen::Vector4d p;
-
-  CellState(const FlowSpace& space, const StokesState& state, CellId c) {
-    const auto nodes = space.velocity.of(c);
-    for (std::size_t i = 0; i < Element::num_nodes; ++i)
-      v.col(static_cast<Eigen::Index>(i)) = state.v[NodeId{nodes[i]}];
-    const auto pressures = space.pressure.nodes.of(c);
-    for (std::size_t k = 0; k < 4; ++k)
-      p[static_cast<Eigen::Index>(k)] = state.p[static_cast<std::size_t>(pressures[k])];
-  }
-  /// ∂v_a/∂x_b at (a, b).
-  [[nodiscard]] Mat3 velocity_gradient(const typename Element::Point& point) const {
-    return v * point.gradient.transpose();
-  }
-  [[nodiscard]] Vec3 velocity(const typename Element::Point& point) const {
-    return v * Eigen::Map<const Eigen::Matrix<double, Element::num_nodes, 1>>(point.value.data());
-  }
-  [[nodiscard]] double pressure(const typename Element::Point& point) const {
-    return p.dot(Eigen::Map<const Eigen::Vector4d>(point.pressure.data()));
-  }
-};
 
 /// τ(∇p − f) where there is a stabilisation, which is on cells with one point.
 template <class Element>
 Vec3 stabilisation(const StokesProblem& problem, const CellState<Element>& cell,
                    const typename Element::Point& point, CellId c) {
   if constexpr (Element::is_stabilized)
-    return pspg_parameter(point.weight, problem.viscosity[c]) *
+    return pspg_parameter(point.weight, viscosity_at(problem, c, cell.velocity_gradient(point))) *
            (point.gradient * cell.p - problem.body_force[c]);
   else
     return Vec3::Zero();
@@ -49,11 +26,11 @@ void add_residual(const StokesProblem& problem, const StokesState& state, Elemen
                   StokesResidual& result) {
   for (const CellId c : problem.mesh.cells.ids()) {
     const CellState<Element> cell(problem.space, state, c);
-    const double viscosity = problem.viscosity[c];
     const auto nodes = problem.space.velocity.of(c);
     const auto pressures = problem.space.pressure.nodes.of(c);
     for (const auto& point : element.points(c)) {
       const Mat3 gradient = cell.velocity_gradient(point);
+      const double viscosity = viscosity_at(problem, c, gradient);
       const Mat3 stress =
           viscosity * (gradient + gradient.transpose()) - cell.pressure(point) * Mat3::Identity();
       for (std::size_t i = 0; i < Element::num_nodes; ++i)
@@ -74,12 +51,13 @@ void add_residual(const StokesProblem& problem, const StokesState& state, Elemen
 template <class Element>
 void add_cell_power(const StokesProblem& problem, const StokesState& state, Element& element,
                     StokesPower& power) {
-  for (const CellId c : problem.mesh.cells.ids()) {
+  for (const CellId c : ids<CellId>(own_part(problem).num_cells)) {
     const CellState<Element> cell(problem.space, state, c);
     for (const auto& point : element.points(c)) {
       const Mat3 gradient = cell.velocity_gradient(point);
       const Mat3 rate = 0.5 * (gradient + gradient.transpose());
-      power.dissipation += point.weight * 2.0 * problem.viscosity[c] * rate.squaredNorm();
+      power.dissipation +=
+          point.weight * 2.0 * viscosity_at(problem, c, gradient) * rate.squaredNorm();
       if constexpr (Element::is_stabilized)
         power.dissipation +=
             point.weight * (point.gradient * cell.p).dot(stabilisation(problem, cell, point, c));
@@ -99,27 +77,35 @@ StokesResidual residual(const StokesProblem& problem, const StokesState& state) 
   return result;
 }
 
-double free_norm(const StokesResidual& residual, const Constraints& constraints) {
+double free_norm(const StokesResidual& residual, const StokesProblem& problem) {
+  const OwnPart own = own_part(problem);
   double squared = 0.0;
-  for (const NodeId i : residual.momentum.ids()) {
+  for (const NodeId i : ids<NodeId>(own.num_nodes)) {
     const Vec3& r = residual.momentum[i];
-    const NodeConstraint* constraint = constraints.find(i);
+    const NodeConstraint* constraint = problem.constraints.find(i);
     squared +=
         constraint == nullptr ? r.squaredNorm() : (r - constraint->fixed_part(r)).squaredNorm();
   }
-  for (const double r : residual.continuity) squared += r * r;
-  return std::sqrt(squared);
+  for (const double r : std::span(residual.continuity).first(std::size_t(own.num_pressures)))
+    squared += r * r;
+  const double norm = std::sqrt(squared);
+  return problem.share == nullptr ? norm : linear::norm(problem.share->communicator, norm);
 }
 
 StokesPower power(const StokesProblem& problem, const StokesState& state) {
   StokesPower power;
   with_element(problem.space, problem.positions,
                [&](auto& element) { add_cell_power(problem, state, element, power); });
-  for (const NodeId i : problem.load.ids()) power.load += problem.load[i].dot(state.v[i]);
+  const std::int32_t num_nodes = own_part(problem).num_nodes;
+  for (const NodeId i : ids<NodeId>(num_nodes)) power.load += problem.load[i].dot(state.v[i]);
   const StokesResidual reaction = residual(problem, state);
   for (const NodeConstraint& constraint : problem.constraints.all())
-    power.reaction +=
-        constraint.fixed_part(reaction.momentum[constraint.node]).dot(state.v[constraint.node]);
+    if (constraint.node.value < num_nodes)
+      power.reaction +=
+          constraint.fixed_part(reaction.momentum[constraint.node]).dot(state.v[constraint.node]);
+  if (problem.share != nullptr)
+    for (double* part : {&power.reaction, &power.body_force, &power.load, &power.dissipation})
+      *part = linear::sum(problem.share->communicator, *part);
   return power;
 }
 

@@ -13,8 +13,9 @@ struct StokesResidual {
   std::vector<double> continuity;  ///< [G R0³]
 };
 [[nodiscard]] StokesResidual residual(const StokesProblem& problem, const StokesState& state);
-/// Euclidean norm of what a solution must make zero: the residual without its fixed components.
-[[nodiscard]] double free_norm(const StokesResidual& residual, const Constraints& constraints);
+/// Euclidean norm of what a solution must make zero: the residual without its fixed components; of
+/// the whole where ranks have a part each (collective).
+[[nodiscard]] double free_norm(const StokesResidual& residual, const StokesProblem& problem);
 
 /// The terms of the energy balance of a solution [μ_out G² R0³]. Exactly, up to the solver's
 /// residual, reaction + body_force + load = dissipation.
@@ -24,6 +25,7 @@ struct StokesPower {
   double load = 0.0;         ///< Σ load_i·v_i
   double dissipation = 0.0;  ///< ∫2μ D:D + Σ τ∫∇p·(∇p − f)
 };
+/// Of the whole where ranks have a part each (collective).
 [[nodiscard]] StokesPower power(const StokesProblem& problem, const StokesState& state);
 
 }  // namespace meniscus::fem

@@ -42,14 +42,18 @@ std::vector<LinearSolver> solvers_in_order(LinearSolver first, const FlowSpace& 
 }
 
 /// −R with the fixed components zero, in the frames of the unknowns.
-std::vector<double> right_hand_side(const StokesResidual& residual,
-                                    const Constraints& constraints) {
+std::vector<double> right_hand_side(const StokesResidual& residual, const StokesProblem& problem) {
+  const OwnPart own = own_part(problem);
   std::vector<double> values;
-  values.reserve(3 * static_cast<std::size_t>(residual.momentum.size()) +
-                 residual.continuity.size());
-  for (const Vec3& r : residual.momentum) values.insert(values.end(), {-r[0], -r[1], -r[2]});
-  for (const double r : residual.continuity) values.push_back(-r);
-  for (const NodeConstraint& constraint : constraints.all()) {
+  values.reserve(static_cast<std::size_t>(3 * own.num_nodes + own.num_pressures));
+  for (const NodeId i : ids<NodeId>(own.num_nodes)) {
+    const Vec3& r = residual.momentum[i];
+    values.insert(values.end(), {-r[0], -r[1], -r[2]});
+  }
+  for (std::size_t i = 0; i < static_cast<std::size_t>(own.num_pressures); ++i)
+    values.push_back(-residual.continuity[i]);
+  for (const NodeConstraint& constraint : problem.constraints.all()) {
+    if (constraint.node.value >= own.num_nodes) continue;
     const Vec3 local = constraint.frame.transpose() * residual.momentum[constraint.node];
     for (std::size_t k = 0; k < 3; ++k)
       values[3 * static_cast<std::size_t>(constraint.node.value) + k] =
@@ -58,8 +62,12 @@ std::vector<double> right_hand_side(const StokesResidual& residual,
   return values;
 }
 
-/// u + δ, δ being in the frames of the unknowns.
-void add_step(StokesState& state, const Constraints& constraints, std::span<const double> step) {
+/// u + δ, δ being in the frames of the unknowns; that of other ranks' nodes is asked of them.
+void add_step(StokesState& state, const StokesProblem& problem, std::span<const double> own_step) {
+  std::vector<double> here;
+  if (problem.share != nullptr) here = completed(own_step, *problem.share);
+  const std::span<const double> step = problem.share != nullptr ? here : own_step;
+  const Constraints& constraints = problem.constraints;
   const auto step_at = [&](NodeId i) {
     const std::size_t k = 3 * static_cast<std::size_t>(i.value);
     return Vec3(step[k], step[k + 1], step[k + 2]);
@@ -79,11 +87,15 @@ void add_step(StokesState& state, const Constraints& constraints, std::span<cons
 double reference_residual(const StokesProblem& problem) {
   StokesState rest = state_at_rest(problem.space);
   problem.constraints.impose(rest.v);
-  return free_norm(residual(problem, rest), problem.constraints);
+  return free_norm(residual(problem, rest), problem);
+}
+
+linear::Communicator communicator(Processes processes) {
+  return processes == Processes::all ? linear::Communicator::world() : linear::Communicator::self();
 }
 
 linear::SaddleSolver make_linear_solver(LinearSolver which, const Options& options) {
-  return {linear::Communicator::self(),
+  return {communicator(options.processes),
           {.method = method(which),
            .max_iterations = options.max_iterations,
            .multigrid_by_degree = options.elements == Elements::p2_p1,
@@ -97,7 +109,10 @@ void check_linear_options(const Options& options) {
 }
 
 StokesSolver::StokesSolver(const FlowSpace& space, const Options& options)
-    : options_(options), space_(space), jacobian_(space) {}
+    : options_(options),
+      space_(space),
+      share_(make_share(space, communicator(options.processes))),
+      jacobian_(share_ ? share_->space : space, share_.get()) {}
 
 StokesState StokesSolver::state_at_rest() const { return fem::state_at_rest(space_); }
 
@@ -108,18 +123,35 @@ linear::SaddleSolver& StokesSolver::linear_solver(LinearSolver which) {
 }
 
 void StokesSolver::prepare(const StokesProblem& problem) {
-  jacobian_.assemble(problem);
+  if (share_)
+    jacobian_.assemble(restricted(problem, *share_));
+  else
+    jacobian_.assemble(problem);
   linear_solver(options_.linear).prepare(jacobian_.system());
 }
 
 StokesReport StokesSolver::solve(const StokesProblem& problem, StokesState& state,
                                  linear::Preconditioner preconditioner, PhaseTimes& times) {
   problem.constraints.impose(state.v);
+  if (!share_) return solve_part(problem, state, preconditioner, times);
+  StokesState part = restricted(state, *share_);
+  StokesReport report = solve_part(restricted(problem, *share_), part, preconditioner, times);
+  if (report.ok) assemble_whole(part, *share_, state);
+  return report;
+}
+
+StokesPower StokesSolver::power(const StokesProblem& problem, const StokesState& state) const {
+  return share_ ? fem::power(restricted(problem, *share_), restricted(state, *share_))
+                : fem::power(problem, state);
+}
+
+StokesReport StokesSolver::solve_part(const StokesProblem& problem, StokesState& state,
+                                      linear::Preconditioner preconditioner, PhaseTimes& times) {
   double reference = 0.0;
   {
     const PhaseTimer timer(times, "assemble");
     reference = reference_residual(problem);
-    jacobian_.assemble(problem);
+    if (!problem.is_generalised()) jacobian_.assemble(problem);
   }
   StokesReport report;
   report.reference = reference;
@@ -128,6 +160,7 @@ StokesReport StokesSolver::solve(const StokesProblem& problem, StokesState& stat
     report.failure = "the data of the flow problem are not finite";
     return report;
   }
+  if (problem.is_generalised()) return solve_generalised(problem, state, reference, times);
   int iterations = 0;
   std::vector<std::string> failed;
   std::vector<LinearSolver> order = solvers_in_order(options_.linear, space_);
@@ -157,18 +190,19 @@ StokesReport StokesSolver::solve_with(LinearSolver which, const StokesProblem& p
   report.solver = which;
   report.reference = reference;
   const double target = options_.rtol * reference;
-  std::vector<double> step(3 * static_cast<std::size_t>(state.v.size()) + state.p.size());
+  const OwnPart own = own_part(problem);
+  std::vector<double> step(static_cast<std::size_t>(3 * own.num_nodes + own.num_pressures));
   for (; report.newton_steps <= most_newton_steps; ++report.newton_steps) {
     const StokesResidual now = residual(problem, state);
-    report.residual = free_norm(now, problem.constraints);
+    report.residual = free_norm(now, problem);
     // 2: the residual that a Krylov method updates and the true one differ by roundoff.
     if (report.residual <= 2.0 * target) return report;
     if (report.newton_steps == most_newton_steps) break;
     const PhaseTimer timer(times, "solve");
     std::ranges::fill(step, 0.0);
     const linear::LinearReport linear_report =
-        linear_solver(which).solve(jacobian_.system(), right_hand_side(now, problem.constraints),
-                                   step, target / report.residual, preconditioner);
+        linear_solver(which).solve(jacobian_.system(), right_hand_side(now, problem), step,
+                                   target / report.residual, preconditioner);
     report.iterations += linear_report.iterations;
     report.linear_residuals = linear_report.residuals;
     if (!linear_report.converged) {
@@ -176,13 +210,42 @@ StokesReport StokesSolver::solve_with(LinearSolver which, const StokesProblem& p
       report.failure = linear_report.reason;
       return report;
     }
-    add_step(state, problem.constraints, step);
+    add_step(state, problem, step);
     preconditioner = linear::Preconditioner::kept;
   }
   report.ok = false;
   report.failure = fmt::format("residual {:.1e} of {:.1e} after {} steps", report.residual,
                                reference, most_newton_steps);
   return report;
+}
+
+bool StokesSolver::linear_step(const StokesProblem& problem, const StokesResidual& now,
+                               const Linearization* about, double rtol, PhaseTimes& times,
+                               StokesState& step, StokesReport& report) {
+  {
+    const PhaseTimer timer(times, "assemble");
+    jacobian_.assemble(problem, about);
+  }
+  const PhaseTimer timer(times, "solve");
+  const std::vector<double> right = right_hand_side(now, problem);
+  std::vector<double> values(right.size());
+  for (const LinearSolver which : solvers_in_order(report.solver, space_)) {
+    std::ranges::fill(values, 0.0);
+    const linear::LinearReport linear_report = linear_solver(which).solve(
+        jacobian_.system(), right, values, rtol, linear::Preconditioner::fresh);
+    report.iterations += linear_report.iterations;
+    report.linear_residuals = linear_report.residuals;
+    if (linear_report.converged) {
+      report.solver = which;  // and first to be asked in the next step
+      step = fem::state_at_rest(problem.space);
+      add_step(step, problem, values);
+      return true;
+    }
+    report.failed_solvers.push_back(
+        fmt::format("linear solver {}: {}", linear::name(method(which)), linear_report.reason));
+    log::warning("{}; trying another way", report.failed_solvers.back());
+  }
+  return false;
 }
 
 }  // namespace meniscus::fem

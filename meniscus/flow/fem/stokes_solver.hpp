@@ -4,9 +4,11 @@
 
 #include "meniscus/core/timer.hpp"
 #include "meniscus/flow/fem/options.hpp"
+#include "meniscus/flow/fem/share.hpp"
 #include "meniscus/flow/fem/spaces.hpp"
 #include "meniscus/flow/fem/stokes_jacobian.hpp"
 #include "meniscus/flow/fem/stokes_problem.hpp"
+#include "meniscus/flow/fem/stokes_residual.hpp"
 #include "meniscus/linear/saddle_solver.hpp"
 
 namespace meniscus::fem {
@@ -19,18 +21,23 @@ struct [[nodiscard]] StokesReport {
   std::string failure;
   int iterations = 0;  ///< linear iterations of all steps and all solvers tried
   int newton_steps = 0;
-  double reference = 0.0;                     ///< residual of the state that rests wherever it may
-  double residual = 0.0;                      ///< left over
+  int picard_steps = 0;    ///< those of generalised-Newtonian liquids with the viscosity held fixed
+  double reference = 0.0;  ///< residual of the state that rests wherever it may
+  double residual = 0.0;   ///< left over
   LinearSolver solver = LinearSolver::block;  ///< the one that gave the answer
   std::vector<double> linear_residuals;       ///< of its last solve
   std::vector<std::string> failed_solvers;    ///< each with its reason, before that one
+  std::vector<double> residuals;  ///< with laws of viscosity: before each step, and at last
 };
 
 /// Solves R(u) = 0 by Newton's method, J δ = −R (eq. 13 of hooper2001), on one space, which
 /// must outlive it. The positions of the nodes may change between solves. Stokes flow takes one
-/// step, and another where a linear solver's own norm was content too early.
+/// step, and another where a linear solver's own norm was content too early; generalised-Newtonian
+/// liquids take several, as docs/generalised-newtonian.md says.
 class StokesSolver {
  public:
+  /// Where several processes share the work, all their calls are collective and all have the same
+  /// arguments, the whole space and the whole problem, and get the same results.
   StokesSolver(const FlowSpace& space, const Options& options);
 
   [[nodiscard]] StokesState state_at_rest() const;
@@ -46,14 +53,26 @@ class StokesSolver {
   StokesReport solve(const StokesProblem& problem, StokesState& state,
                      linear::Preconditioner preconditioner, PhaseTimes& times);
 
+  /// The energy balance of a solution.
+  [[nodiscard]] StokesPower power(const StokesProblem& problem, const StokesState& state) const;
+
  private:
+  StokesReport solve_part(const StokesProblem& problem, StokesState& state,
+                          linear::Preconditioner preconditioner, PhaseTimes& times);
   StokesReport solve_with(LinearSolver which, const StokesProblem& problem, StokesState& state,
                           double reference, linear::Preconditioner preconditioner,
                           PhaseTimes& times);
+  StokesReport solve_generalised(const StokesProblem& problem, StokesState& state, double reference,
+                                 PhaseTimes& times);
+  /// One step of that: linearises, solves to `rtol`, and gives δ without the fixed components.
+  [[nodiscard]] bool linear_step(const StokesProblem& problem, const StokesResidual& now,
+                                 const Linearization* about, double rtol, PhaseTimes& times,
+                                 StokesState& step, StokesReport& report);
   linear::SaddleSolver& linear_solver(LinearSolver which);
 
   Options options_;
   const FlowSpace& space_;
+  std::unique_ptr<const Share> share_;  ///< this rank's, which all but the public works on
   StokesJacobian jacobian_;
   std::map<LinearSolver, linear::SaddleSolver> linear_solvers_;
 };

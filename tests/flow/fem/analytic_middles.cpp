@@ -5,13 +5,16 @@
 #include "meniscus/flow/fem/boundary_conditions.hpp"
 #include "meniscus/flow/fem/capillary_force.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
+#include "meniscus/flow/fem/vertex_velocity.hpp"
 
 namespace meniscus::fem {
 
 VertexField<Vec3> velocity_with_middles(const Scene& scene, const Method& method,
                                         const std::function<Vec3(VertexId, VertexId)>& middle) {
   TetMesh mesh;
-  if (const VolumeMeshReport made = tetrahedralize(scene, {}, mesh); !made.ok)
+  VolumeMeshOptions volume_mesh;
+  volume_mesh.grading = method.grading;
+  if (const VolumeMeshReport made = tetrahedralize(scene, volume_mesh, mesh); !made.ok)
     throw std::runtime_error(made.failure);
   const FlowSpace space = flow_space(mesh, method.elements);
   const Interface& drop = scene.interfaces[0];
@@ -41,6 +44,7 @@ VertexField<Vec3> velocity_with_middles(const Scene& scene, const Method& method
   PhaseTimes times;
   const StokesReport report = solver.solve(problem, state, linear::Preconditioner::fresh, times);
   if (!report.ok) throw std::runtime_error(report.failure);
+  if (!method.shows_corners) return vertex_velocity(drop.mesh, faces, positions, state.v);
   VertexField<Vec3> velocity(drop.mesh.num_vertices());
   for (const VertexId v : velocity.ids())
     velocity[v] = state.v[node_at(mesh.interfaces[0].vertex(v))];

@@ -24,6 +24,7 @@ std::unique_ptr<FlowSolver> solved(const Scene& scene, const Method& method) {
   options.rtol = method.rtol;
   options.volume_mesh.interior_growth =
       0.5;  // of size per distance inside the drop; does not scale with N0
+  options.volume_mesh.grading = method.grading;
   auto flow = make_finite_element_flow(options);
   if (const FlowReport made = flow->rebuild(scene); !made.ok)
     throw std::runtime_error(made.failure);
@@ -127,6 +128,7 @@ double measured_relaxation_rate(int num_vertices, const Method& method, int l, d
     const double jump = (l - 1) * (l + 2) * epsilon;
     return sphere_in_sphere({.num_vertices = num_vertices,
                              .viscosity_ratio = lambda,
+                             .outer_per_inner = method.outer_per_inner,
                              .outer_velocity = [mode, jump](const Vec3& x, double) {
                                return Vec3(jump * mode.velocity(x));
                              }});

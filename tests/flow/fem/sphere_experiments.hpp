@@ -18,6 +18,9 @@ struct Method {
   Elements elements;
   double rtol;
   bool has_analytic_middles = false;  ///< mid-edge nodes on the shape itself (relaxation alone)
+  bool shows_corners = true;  ///< with these, the corners' own velocity, not that of the vertices
+  Grading grading = Grading::linear;
+  double outer_per_inner = 0.95;  ///< vertices of the outer sphere, of relaxation in the open
 };
 
 struct StaticSphere {

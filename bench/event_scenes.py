@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""Random scenes run by the program through changes of topology: how many events, and what failed.
+
+    event_scenes.py PROGRAM WORK METHOD FIRST COUNT EVENTS
+
+METHOD: boundary-integral (unbounded), or the finite elements P1-P1 or P2-P1 (in a sphere). Six drops of radius
+0.35 to 0.55, lambda = 1, Ca = 1, so close that they meet, in a flow whose gradient is random and turns
+round every half unit of time, so that they come back. A scene is run until it has had EVENTS events or
+its time is over; it must end by itself with volumes conserved to 1e-12 in each event and to 1e-6 in all.
+"""
+import csv
+import random
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+END = 3.0
+
+SOLVERS = {
+    "boundary-integral": 'method = "boundary-integral"\n[domain]\nshape = "unbounded"\n',
+    "P1-P1": 'elements = "P1-P1"\n[domain]\nshape = "sphere"\nradius = 4\n',
+    "P2-P1": 'elements = "P2-P1"\n[domain]\nshape = "sphere"\nradius = 4\n',
+}
+
+
+def scene(seed, method):
+    r = random.Random(seed)
+    g = [[r.gauss(0, 1.5) for _ in range(3)] for _ in range(3)]
+    trace = sum(g[i][i] for i in range(3)) / 3
+    for i in range(3):
+        g[i][i] -= trace
+    text = [f'title = "Random scene {seed}"', "[flow]", f"gradient = {g}", "capillary-number = 1.0"]
+    for k in range(1, int(2 * END)):
+        text += ["[[flow.schedule]]", f"time = {0.5 * k}", f"factor = {-1.0 if k % 2 else 1.0}"]
+    drops = []
+    while len(drops) < 6:
+        c, radius = [r.uniform(-1.0, 1.0) for _ in range(3)], r.uniform(0.35, 0.55)
+        if all(sum((a - b) ** 2 for a, b in zip(c, d)) > (1.03 * (radius + s)) ** 2 for d, s in drops):
+            drops.append((c, radius))
+    for c, radius in drops:
+        text += ["[[drop]]", f"center = {c}", f"radius = {radius}", "nodes = 42"]
+    text += ["[interface]", "gap-layers = 0", "[topology]", "breakup-radius = 0.08",
+             "coalescence-gap = 0.08", "[time]", "max-step = 0.05", f"end = {END}", "[output]",
+             "interval = 1.0", "[solver]", SOLVERS[method]]
+    return "\n".join(text)
+
+
+def rows(file):
+    with open(file, encoding="utf-8", newline="") as table:
+        return list(csv.DictReader(table))
+
+
+def run(program, folder, seed, method, wanted):
+    """Events, time reached, and what is wrong with the run."""
+    case = folder / f"scene-{seed}.toml"
+    case.write_text(scene(seed, method), encoding="utf-8")
+    out = folder / f"scene-{seed}"
+    with subprocess.Popen([program, "run", str(case), "-o", str(out), "-q"], stderr=subprocess.PIPE,
+                          text=True) as process:
+        enough = False
+        while process.poll() is None:
+            time.sleep(0.5)
+            table = out / "events.csv"
+            if not enough and table.exists() and len(rows(table)) >= wanted:
+                process.terminate()  # it leaves a checkpoint and its tables whole
+                enough = True
+        message = process.stderr.read().strip()
+    events, drops = rows(out / "events.csv"), rows(out / "drops.csv")
+    faults = []
+    if process.returncode != 0 and not enough:
+        faults.append(f"status {process.returncode}: {message.splitlines()[-1] if message else ''}")
+    for event in events:
+        if abs(float(event["volume_after"]) / float(event["volume_before"]) - 1) > 1e-12:
+            faults.append(f"volume in step {event['step']}")
+    last = [d for d in drops if d["step"] == drops[-1]["step"]]
+    first = [d for d in drops if d["step"] == "0"]
+    drift = sum(float(d["volume"]) for d in last) / sum(float(d["volume"]) for d in first) - 1
+    # A drop that was caught within another counts twice: of its own, and as a hole in the other.
+    if abs(drift) > 1e-6 and not any(e["kind"] == "coalescence" for e in events):
+        faults.append(f"volume drifts by {drift:.1e}")
+    return events, float(drops[-1]["t"]), faults
+
+
+def main():
+    program, work, method = sys.argv[1], Path(sys.argv[2]), sys.argv[3]
+    first, count, wanted = (int(a) for a in sys.argv[4:7])
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir(parents=True)
+    total, faulty = 0, 0
+    for seed in range(first, first + count):
+        began = time.time()
+        events, t, faults = run(program, work, seed, method, wanted)
+        total += len(events)
+        faulty += bool(faults)
+        kinds = [e["kind"] for e in events]
+        print(f"seed {seed}: t = {t:.3f}, {kinds.count('breakup')} breakups, "
+              f"{kinds.count('coalescence')} coalescences, {time.time() - began:.0f} s "
+              f"{'; '.join(faults)}", flush=True)
+    print(f"{count} scenes, {total} events, {faulty} faulty")
+    sys.exit(faulty > 0)
+
+
+if __name__ == "__main__":
+    main()

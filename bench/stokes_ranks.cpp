@@ -1,0 +1,122 @@
+// Wall seconds of what a flow solver does with a new mesh, on as many ranks as mpirun starts: the
+// share of each rank, the sparsity, a solve from rest with a fresh preconditioner, and one with the
+// preconditioner kept, as in the two stages of a time step. The least of several repetitions, each
+// phase beginning when all ranks are there (docs/parallel.md).
+// Arguments: vertices on the drop [1430: 47 thousand in all], viscosity ratio [0.1], elements
+// [P1-P1], repetitions [3].
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "meniscus/flow/fem/boundary_conditions.hpp"
+#include "meniscus/flow/fem/capillary_force.hpp"
+#include "meniscus/flow/fem/share.hpp"
+#include "meniscus/flow/fem/stokes_solver.hpp"
+#include "meniscus/linear/collective.hpp"
+#include "tests/flow/fem/sphere_scene.hpp"
+
+namespace meniscus::fem {
+namespace {
+
+linear::Communicator world() { return linear::Communicator::world(); }
+
+/// From all ranks' coming to all ranks' having done.
+double seconds(const std::function<void()>& action) {
+  using Clock = std::chrono::steady_clock;
+  linear::barrier(world());
+  const Clock::time_point start = Clock::now();
+  action();
+  linear::barrier(world());
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+Scene stretched_drop(int num_vertices, double lambda) {
+  const Mat3 gradient = ImposedFlow::uniaxial_extension();
+  return sphere_in_sphere(
+      {.num_vertices = num_vertices,
+       .viscosity_ratio = lambda,
+       .Ca = 0.17,
+       .outer_per_inner = 1.25,
+       .outer_velocity = [gradient](const Vec3& x, double) { return Vec3(gradient * x); },
+       .is_linear_flow = true});
+}
+
+StokesProblem instant(const Scene& scene, const TetMesh& mesh, const FlowSpace& space) {
+  StokesProblem problem(mesh, space, node_positions(scene, mesh, space));
+  for (const CellId c : mesh.cells.ids())
+    problem.viscosity[c] = scene.liquids[mesh.region[c]].viscosity;
+  problem.constraints =
+      boundary_conditions(scene.boundary,
+                          face_nodes(space, mesh, scene.boundary.mesh, mesh.boundary),
+                          problem.positions, 0.0)
+          .constraints;
+  add_capillary_force(scene.interfaces[0], CapillaryForm::weak,
+                      face_nodes(space, mesh, scene.interfaces[0].mesh, mesh.interfaces[0]),
+                      problem.positions, problem.load);
+  return problem;
+}
+
+enum Phase { share, share_and_sparsity, first_solve, second_solve, num_phases };
+using Times = std::array<double, num_phases>;
+
+Times measured(const StokesProblem& problem, const Options& options, int& iterations) {
+  Times times{};
+  times[share] = seconds([&] { (void)make_share(problem.space, world()); });
+  std::optional<StokesSolver> solver;
+  times[share_and_sparsity] = seconds([&] { solver.emplace(problem.space, options); });
+  PhaseTimes ignored;
+  const auto solve = [&](linear::Preconditioner preconditioner) {
+    StokesState state = solver->state_at_rest();
+    const StokesReport report = solver->solve(problem, state, preconditioner, ignored);
+    iterations = report.ok ? report.iterations : -1;
+  };
+  times[first_solve] = seconds([&] { solve(linear::Preconditioner::fresh); });
+  times[second_solve] = seconds([&] { solve(linear::Preconditioner::kept); });
+  return times;
+}
+
+}  // namespace
+}  // namespace meniscus::fem
+
+int main(int count, char** arguments) {
+  using namespace meniscus;
+  using namespace meniscus::fem;
+  const auto number = [&](int k, double otherwise) {
+    return count > k ? std::atof(arguments[k]) : otherwise;
+  };
+  const Scene scene = stretched_drop(static_cast<int>(number(1, 1430)), number(2, 0.1));
+  Options options;
+  options.processes = Processes::all;
+  if (count > 3 && std::string_view(arguments[3]) == "P2-P1") options.elements = Elements::p2_p1;
+  TetMesh mesh;
+  if (const VolumeMeshReport report = tetrahedralize(scene, {}, mesh); !report.ok) {
+    fmt::print("{}\n", report.failure);
+    return EXIT_FAILURE;
+  }
+  const FlowSpace space = flow_space(mesh, options.elements);
+  const StokesProblem problem = instant(scene, mesh, space);
+  Times least;
+  least.fill(std::numeric_limits<double>::infinity());
+  int iterations = 0;
+  for (int k = 0; k < static_cast<int>(number(4, 3)); ++k) {
+    const Times now = measured(problem, options, iterations);
+    for (std::size_t i = 0; i < now.size(); ++i) least[i] = std::min(least[i], now[i]);
+  }
+  if (world().rank() != 0) return EXIT_SUCCESS;
+  fmt::print(
+      "| ranks | elements | nodes | iterations | share | share + sparsity | fresh solve | kept "
+      "solve | all |\n|---|---|---|---|---|---|---|---|---|\n"
+      "| {} | {} | {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} |\n",
+      world().size(), options.elements == Elements::p1_p1 ? "P1-P1" : "P2-P1",
+      space.velocity.num_nodes, iterations, least[share], least[share_and_sparsity],
+      least[first_solve], least[second_solve],
+      least[share_and_sparsity] + least[first_solve] + least[second_solve]);
+  return EXIT_SUCCESS;
+}

@@ -1,0 +1,72 @@
+#include "meniscus/app/ranks.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/log.hpp"
+#include "meniscus/linear/collective.hpp"
+
+namespace meniscus {
+namespace {
+
+// Ranks that fail together do so at the same place, up to how unevenly they were given time.
+constexpr std::chrono::seconds kPatience{10};
+
+linear::Communicator world() { return linear::Communicator::world(); }
+
+/// What rank 0 threw, as a text that can be sent: empty for nothing, else 'i' or 'f', then why.
+std::string outcome_of(const std::function<void()>& action) {
+  try {
+    action();
+    return {};
+  } catch (const InvalidInput& error) {
+    return std::string("i") + error.what();
+  } catch (const std::exception& error) {
+    return std::string("f") + error.what();
+  }
+}
+
+int exit_status(const std::exception& failure) {
+  return dynamic_cast<const InvalidInput*>(&failure) != nullptr ? 2 : 1;
+}
+
+}  // namespace
+
+int num_ranks() { return world().size(); }
+bool is_first_rank() { return world().rank() == 0; }
+bool any_rank(bool own) { return linear::any(world(), own); }
+
+void on_first_rank(const std::function<void()>& action) {
+  if (num_ranks() == 1) return action();
+  linear::barrier(world());
+  std::string outcome = is_first_rank() ? outcome_of(action) : std::string();
+  linear::broadcast(world(), outcome);
+  if (outcome.empty()) return;
+  if (outcome[0] == 'i') throw InvalidInput(outcome.substr(1));
+  throw RunFailure(outcome.substr(1));
+}
+
+void require_all_failed(const std::exception& failure) {
+  if (linear::all_arrive(world(), kPatience)) return;
+  std::fputs(fmt::format("meniscus: rank {} alone: {}\n", world().rank(), failure.what()).c_str(),
+             stderr);
+  linear::abort(world(), exit_status(failure));
+}
+
+int on_all_ranks(const std::function<int()>& command) {
+  if (num_ranks() == 1) return command();
+  if (!is_first_rank()) log::set_level(log::Level::error);
+  try {
+    return command();
+  } catch (const std::exception& failure) {
+    require_all_failed(failure);
+    if (is_first_rank()) throw;
+    return exit_status(failure);
+  }
+}
+
+}  // namespace meniscus

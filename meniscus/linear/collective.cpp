@@ -1,0 +1,110 @@
+#include "meniscus/linear/collective.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <thread>
+#include <vector>
+
+#include "meniscus/linear/petsc_objects.hpp"
+
+namespace meniscus::linear {
+namespace {
+
+// PETSc sends on copies of its communicators: no message of its own has this tag here.
+constexpr int kArrivalTag = 4711;
+
+MPI_Comm handle_of(Communicator communicator) { return mpi_communicator(communicator); }
+
+}  // namespace
+
+double sum(Communicator communicator, double own) {
+  if (communicator.size() == 1) return own;
+  double all = 0.0;
+  MPI_Allreduce(&own, &all, 1, MPI_DOUBLE, MPI_SUM, handle_of(communicator));
+  return all;
+}
+
+std::int64_t sum(Communicator communicator, std::int64_t own) {
+  if (communicator.size() == 1) return own;
+  std::int64_t all = 0;
+  MPI_Allreduce(&own, &all, 1, MPI_INT64_T, MPI_SUM, handle_of(communicator));
+  return all;
+}
+
+double norm(Communicator communicator, double own) {
+  return communicator.size() == 1 ? own : std::sqrt(sum(communicator, own * own));
+}
+
+bool any(Communicator communicator, bool own) { return sum(communicator, std::int64_t{own}) > 0; }
+
+bool agree(Communicator communicator, std::uint64_t own) {
+  if (communicator.size() == 1) return true;
+  // The largest of a number and of its complement: both are one's own where all are equal.
+  const std::array<std::uint64_t, 2> mine = {own, ~own};
+  std::array<std::uint64_t, 2> largest{};
+  MPI_Allreduce(mine.data(), largest.data(), 2, MPI_UINT64_T, MPI_MAX, handle_of(communicator));
+  return largest[0] == ~largest[1];
+}
+
+void barrier(Communicator communicator) {
+  if (communicator.size() > 1) MPI_Barrier(handle_of(communicator));
+}
+
+void broadcast(Communicator communicator, std::string& text) {
+  if (communicator.size() == 1) return;
+  auto length = static_cast<std::int64_t>(text.size());
+  MPI_Bcast(&length, 1, MPI_INT64_T, 0, handle_of(communicator));
+  text.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(text.data(), static_cast<int>(length), MPI_CHAR, 0, handle_of(communicator));
+}
+
+void broadcast(Communicator communicator, std::span<std::int32_t> numbers) {
+  if (communicator.size() == 1) return;
+  MPI_Bcast(numbers.data(), static_cast<int>(numbers.size()), MPI_INT32_T, 0,
+            handle_of(communicator));
+}
+
+void gather(Communicator communicator, std::span<const double> own,
+            std::span<const std::int32_t> counts, std::span<double> all) {
+  if (communicator.size() == 1) {
+    std::ranges::copy(own, all.begin());
+    return;
+  }
+  std::vector<int> starts;
+  int next = 0;
+  for (const std::int32_t count : counts) {
+    starts.push_back(next);
+    next += count;
+  }
+  MPI_Allgatherv(own.data(), static_cast<int>(own.size()), MPI_DOUBLE, all.data(), counts.data(),
+                 starts.data(), MPI_DOUBLE, handle_of(communicator));
+}
+
+bool all_arrive(Communicator communicator, std::chrono::milliseconds patience) {
+  const int size = communicator.size(), rank = communicator.rank();
+  if (size == 1) return true;
+  std::vector<MPI_Request> requests;
+  for (int other = 0; other < size; ++other) {
+    if (other == rank) continue;
+    MPI_Isend(nullptr, 0, MPI_CHAR, other, kArrivalTag, handle_of(communicator),
+              &requests.emplace_back());
+    MPI_Irecv(nullptr, 0, MPI_CHAR, other, kArrivalTag, handle_of(communicator),
+              &requests.emplace_back());
+  }
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  for (int is_done = 0; std::chrono::steady_clock::now() < deadline;) {
+    MPI_Testall(static_cast<int>(requests.size()), requests.data(), &is_done, MPI_STATUSES_IGNORE);
+    if (is_done != 0) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;  // what was sent stays under way: the program is about to end
+}
+
+void abort(Communicator communicator, int status) {
+  MPI_Abort(handle_of(communicator), status);
+  std::abort();  // MPI's has not returned
+}
+
+}  // namespace meniscus::linear

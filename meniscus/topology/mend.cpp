@@ -1,0 +1,152 @@
+#include "meniscus/topology/mend.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "meniscus/mesh/surface_check.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/mesh/surface_pieces.hpp"
+#include "meniscus/surface/even_out.hpp"
+#include "meniscus/topology/smooth_fill.hpp"
+
+namespace meniscus {
+namespace {
+
+/// What is tried, the least first: how sharp an edge is smoothed, and how many rings of faces
+/// around it move along. Normals turn by 42° on an icosahedron, the coarsest sphere there is to be
+/// remeshed.
+struct Rounding {
+  double crease_deg;
+  int rings;
+};
+constexpr std::array<Rounding, 5> kRoundings{
+    {{70.0, 0}, {70.0, 1}, {70.0, 2}, {70.0, 4}, {50.0, 0}}};
+/// Of the volume: a rounding that moves more has pulled the surface off its shape.
+constexpr double kMostVolume = 0.05;
+constexpr std::array<double, 4> kMargins{0.5, 1.0, 2.0, 3.0};  // mean edges
+constexpr double kEvenEdge = 0.5;  // of the mean edge: creases need faces to be rounded with
+
+/// The faces beside creases.
+FacePatch creases(const SurfaceMesh& mesh, double crease_deg) {
+  const double least = std::cos(crease_deg * std::numbers::pi / 180.0);
+  FacePatch patch(mesh.num_faces(), false);
+  const SurfaceTopology topology(mesh);
+  for (const SurfaceEdge& e : topology.edges()) {
+    const Vec3 left = face_area_vector(mesh, e.left).normalized(),
+               right = face_area_vector(mesh, e.right).normalized();
+    if (left.dot(right) < least) patch[e.left] = patch[e.right] = true;
+  }
+  return patch;
+}
+
+/// The surface with its creases rounded; none where it has none, or where that makes it unsound.
+std::optional<SurfaceMesh> rounded(SurfaceMesh mesh, const Rounding& rounding, double volume) {
+  const FacePatch patch = creases(mesh, rounding.crease_deg);
+  if (std::ranges::find(patch, char{true}) == patch.end()) return std::nullopt;
+  const double before = enclosed_volume(mesh);
+  if (!smooth_part(mesh, patch, rounding.rings)) return std::nullopt;
+  if (std::abs(enclosed_volume(mesh) / before - 1.0) > kMostVolume) return std::nullopt;
+  restore_volume(mesh, volume);
+  if (!find_defect(mesh).empty()) return std::nullopt;
+  return mesh;
+}
+
+/// The vertices that a walk along edges from those of the faces of a patch reaches without going
+/// farther than `margin`, as a patch of all faces around them.
+FacePatch widened(const SurfaceMesh& mesh, const FacePatch& patch, double margin) {
+  const SurfaceTopology topology(mesh);
+  VertexField<VertexId> origin(mesh.num_vertices());
+  std::vector<VertexId> front;
+  for (const FaceId f : patch.ids()) {
+    if (!patch[f]) continue;
+    for (const VertexId v : mesh.faces[f])
+      if (!std::exchange(origin[v], v).is_valid()) front.push_back(v);
+  }
+  FacePatch wide(mesh.num_faces(), false);
+  for (std::size_t k = 0; k < front.size(); ++k) {
+    const VertexId v = front[k];
+    for (const FaceId f : topology.faces_around(v)) wide[f] = true;
+    for (const VertexId w : topology.ring(v)) {
+      if (origin[w].is_valid() || (mesh.x[w] - mesh.x[origin[v]]).norm() > margin) continue;
+      origin[w] = origin[v];
+      front.push_back(w);
+    }
+  }
+  return wide;
+}
+
+int euler_characteristic(const SurfaceMesh& mesh) {
+  // Every edge is shared by two faces.
+  return mesh.num_vertices() - mesh.num_faces() / 2;
+}
+
+/// The surface with what lies within `margin` mean edges of its creases cut out and closed
+/// smoothly: a crevice or a thorn goes as a whole. None where it does not leave one piece of the
+/// same genus.
+std::optional<SurfaceMesh> recapped(const SurfaceMesh& mesh, double margin, double volume) {
+  const FacePatch patch = creases(mesh, kRoundings.front().crease_deg);
+  if (std::ranges::find(patch, char{true}) == patch.end()) return std::nullopt;
+  std::vector<SurfaceMesh> left =
+      connected_pieces(without(mesh, widened(mesh, patch, margin * mean_edge(mesh))));
+  if (left.empty()) return std::nullopt;
+  SurfaceMesh closed = std::move(*std::ranges::max_element(left, {}, &SurfaceMesh::num_faces));
+  if (!cap_holes(closed)) return std::nullopt;
+  if (std::abs(enclosed_volume(closed) / enclosed_volume(mesh) - 1.0) > kMostVolume)
+    return std::nullopt;
+  restore_volume(closed, volume);
+  if (!find_defect(closed).empty()) return std::nullopt;
+  return closed;
+}
+
+/// The first capping of a surface that can be remeshed.
+std::optional<MendReport> recap_and_remesh(SurfaceMesh& mesh, const RemeshOptions& options,
+                                           double volume) {
+  for (const double margin : kMargins) {
+    std::optional<SurfaceMesh> capped = recapped(mesh, margin, volume);
+    if (!capped) continue;
+    const RemeshReport report = remesh(*capped, options);
+    if (!report.ok) continue;
+    const int closed = (euler_characteristic(*capped) - euler_characteristic(mesh)) / 2;
+    mesh = std::move(*capped);
+    return MendReport{report, true, closed};
+  }
+  return std::nullopt;
+}
+
+/// The first rounding of a surface that can be remeshed.
+std::optional<RemeshReport> round_and_remesh(SurfaceMesh& mesh, const RemeshOptions& options,
+                                             double volume) {
+  for (const Rounding& rounding : kRoundings) {
+    std::optional<SurfaceMesh> round = rounded(mesh, rounding, volume);
+    if (!round) continue;
+    const RemeshReport report = remesh(*round, options);
+    if (!report.ok) continue;
+    mesh = std::move(*round);
+    return report;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+MendReport remesh_or_mend(SurfaceMesh& mesh, const RemeshOptions& options) {
+  MendReport report{.remesh = remesh(mesh, options)};
+  if (report.remesh.ok) return report;
+  const double volume = options.volume > 0.0 ? options.volume : enclosed_volume(mesh);
+  if (const auto remeshed = round_and_remesh(mesh, options, volume)) return {*remeshed, true};
+  if (const auto mended = recap_and_remesh(mesh, options, volume)) return *mended;
+  SurfaceMesh even = evened_out(mesh, kEvenEdge * mean_edge(mesh));
+  const auto remeshed = round_and_remesh(even, options, volume);
+  if (!remeshed) return report;
+  mesh = std::move(even);
+  return {*remeshed, true};
+}
+
+}  // namespace meniscus

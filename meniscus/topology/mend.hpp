@@ -1,0 +1,21 @@
+#pragma once
+
+#include "meniscus/surface/remesh.hpp"
+
+namespace meniscus {
+
+/// Remeshes a surface; one that the remesher gives up on, because a flow has drawn a crease or
+/// surgery left one that no smooth surface fits, is mended first: the faces beside sharp edges, and
+/// rings of faces around them, are replaced by the bi-Laplace surface that joins the rest with a
+/// common tangent plane, or cut out and closed as the ends of a neck are, and the volume is
+/// restored. The mildest of several such mendings is taken that can be remeshed, at last a rounding
+/// on triangles that were evened out. On failure the mesh is unchanged and the report is that of
+/// the first remeshing.
+struct [[nodiscard]] MendReport {
+  RemeshReport remesh;
+  bool is_mended = false;  ///< creases were rounded
+  int closed_holes = 0;    ///< holes through the drop that went with a crevice
+};
+MendReport remesh_or_mend(SurfaceMesh& mesh, const RemeshOptions& options);
+
+}  // namespace meniscus

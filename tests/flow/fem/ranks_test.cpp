@@ -1,0 +1,232 @@
+// Run under mpirun too, on two and three ranks (tests/CMakeLists.txt): every rank does every test.
+#include <bit>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/flow/fem/partition.hpp"
+#include "meniscus/flow/fem/share.hpp"
+#include "meniscus/flow/fem/stokes_residual.hpp"
+#include "meniscus/flow/fem/stokes_solver.hpp"
+#include "meniscus/linear/collective.hpp"
+#include "tests/flow/fem/sheared_drop.hpp"
+#include "tests/flow/fem/straight_space.hpp"
+
+namespace meniscus::fem {
+namespace {
+
+linear::Communicator world() { return linear::Communicator::world(); }
+
+std::uint64_t fingerprint(const StokesState& state) {
+  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
+  const auto add = [&](double x) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 1099511628211u;
+  };
+  for (const Vec3& v : state.v)
+    for (const double x : v) add(x);
+  for (const double p : state.p) add(p);
+  return hash;
+}
+
+struct Solution {
+  StokesReport report;
+  StokesState state;
+  StokesPower power;
+};
+
+Solution solved(const StokesProblem& problem, Options options, Processes processes) {
+  options.elements = problem.space.elements;
+  options.processes = processes;
+  StokesSolver solver(problem.space, options);
+  PhaseTimes times;
+  Solution solution{{}, solver.state_at_rest(), {}};
+  solution.report = solver.solve(problem, solution.state, linear::Preconditioner::fresh, times);
+  solution.power = solver.power(problem, solution.state);
+  return solution;
+}
+
+double largest_velocity_difference(const StokesState& a, const StokesState& b) {
+  double largest = 0.0;
+  for (const NodeId i : a.v.ids()) largest = std::max(largest, (a.v[i] - b.v[i]).norm());
+  return largest;
+}
+
+struct Way {
+  Elements elements;
+  LinearSolver linear;
+};
+class RanksBySolver : public testing::TestWithParam<Way> {};
+INSTANTIATE_TEST_SUITE_P(EveryOne, RanksBySolver,
+                         testing::Values(Way{Elements::p1_p1, LinearSolver::block},
+                                         Way{Elements::p1_p1, LinearSolver::minres},
+                                         Way{Elements::p1_p1, LinearSolver::paper_gmres},
+                                         Way{Elements::p1_p1, LinearSolver::mumps},
+                                         Way{Elements::p2_p1, LinearSolver::block},
+                                         Way{Elements::p2_p1, LinearSolver::minres},
+                                         Way{Elements::p2_p1, LinearSolver::mumps}));
+
+TEST_P(RanksBySolver, TogetherFindWhatOneFindsAlone) {
+  const auto [elements, linear_solver] = GetParam();
+  const ShearedDrop drop(elements);
+  const StokesProblem problem = drop.problem();
+  Options options;
+  options.linear = linear_solver;
+  options.rtol = 1e-10;
+  const Solution alone = solved(problem, options, Processes::alone),
+                 together = solved(problem, options, Processes::all);
+  ASSERT_TRUE(alone.report.ok && together.report.ok) << together.report.failure;
+  EXPECT_EQ(together.report.solver, linear_solver);
+  EXPECT_LT(together.report.residual, 2.1e-10 * together.report.reference);
+  EXPECT_NEAR(together.report.reference, alone.report.reference, 1e-12 * alone.report.reference);
+  // As for two solvers on one process (stokes_solver_test.cpp).
+  EXPECT_LT(largest_velocity_difference(alone.state, together.state), 4e-6);
+  for (std::size_t i = 0; i < alone.state.p.size(); ++i)
+    EXPECT_NEAR(alone.state.p[i], together.state.p[i], 7e-6);
+  EXPECT_NEAR(together.power.dissipation, alone.power.dissipation, 1e-6);
+  EXPECT_NEAR(together.power.load, alone.power.load, 1e-6);
+  EXPECT_NEAR(together.power.reaction, alone.power.reaction, 1e-5);
+  EXPECT_NEAR(together.power.body_force, alone.power.body_force, 1e-6);
+  EXPECT_TRUE(linear::agree(world(), fingerprint(together.state)));
+  if (world().size() == 1) {
+    EXPECT_EQ(fingerprint(together.state), fingerprint(alone.state));
+  }
+}
+
+TEST(Ranks, DoTheSameArithmeticAgain) {
+  const ShearedDrop drop;
+  const StokesProblem problem = drop.problem();
+  const Solution first = solved(problem, {}, Processes::all),
+                 again = solved(problem, {}, Processes::all);
+  ASSERT_TRUE(first.report.ok);
+  EXPECT_EQ(fingerprint(first.state), fingerprint(again.state));
+}
+
+// Slip walls askew: each component has its own Laplacian, and ranks that touch no wall must follow.
+TEST(Ranks, AgreeWhereWallsSlip) {
+  BoxMesh box = box_mesh(
+      {.n = 5, .region = [](const Vec3& x) { return x.norm() < 0.6 ? 1 : 0; }, .jitter = 0.1});
+  for (const PatchId patch : box.boundary.patches.ids())
+    box.boundary.patches[patch].condition = NoPenetration{};
+  for (const Elements elements : {Elements::p1_p1, Elements::p2_p1}) {
+    const TestSpace test(box.mesh, elements);
+    StokesProblem problem = test.problem();
+    for (const CellId c : box.mesh.cells.ids())
+      if (box.mesh.region[c] == RegionId{1}) problem.body_force[c] = Vec3(1.0, -2.0, 0.5);
+    problem.constraints = test.conditions(box.boundary).constraints;
+    Options options;
+    options.rtol = 1e-11;
+    const Solution alone = solved(problem, options, Processes::alone),
+                   together = solved(problem, options, Processes::all);
+    ASSERT_TRUE(alone.report.ok && together.report.ok) << together.report.failure;
+    EXPECT_LT(largest_velocity_difference(alone.state, together.state), 1e-8);
+  }
+}
+
+TEST(Ranks, AgreeOnGeneralisedNewtonianLiquids) {
+  for (const Elements elements : {Elements::p1_p1, Elements::p2_p1}) {
+    const ShearedDrop drop(elements);
+    StokesProblem problem = drop.problem();
+    problem.laws.add(Newtonian{});
+    problem.laws.add(CarreauYasuda{.time_constant = 2.0, .power_index = 0.5});
+    Options options;
+    options.rtol = 1e-10;
+    const Solution alone = solved(problem, options, Processes::alone),
+                   together = solved(problem, options, Processes::all);
+    ASSERT_TRUE(alone.report.ok && together.report.ok) << together.report.failure;
+    EXPECT_GT(together.report.newton_steps, 1);
+    EXPECT_LT(largest_velocity_difference(alone.state, together.state), 4e-6);
+    EXPECT_NEAR(together.power.dissipation, alone.power.dissipation, 1e-6);
+  }
+}
+
+TEST(Ranks, PreparedIsKeptBitForBit) {
+  const ShearedDrop drop;
+  const StokesProblem problem = drop.problem();
+  Options options;
+  options.processes = Processes::all;
+  PhaseTimes times;
+  StokesSolver fresh(drop.space, options), prepared(drop.space, options);
+  StokesState a = fresh.state_at_rest(), b = a;
+  EXPECT_TRUE(fresh.solve(problem, a, linear::Preconditioner::fresh, times).ok);
+  prepared.prepare(problem);
+  EXPECT_TRUE(prepared.solve(problem, b, linear::Preconditioner::kept, times).ok);
+  EXPECT_EQ(fingerprint(a), fingerprint(b));
+}
+
+TEST(Ranks, ReportFailuresTogether) {
+  const ShearedDrop drop;
+  StokesProblem problem = drop.problem();
+  Options options;
+  options.linear = LinearSolver::paper_gmres;
+  options.max_iterations = 60;  // enough for the block solvers, far too few for the paper's
+  options.rtol = 1e-6;
+  const Solution replaced = solved(problem, options, Processes::all);
+  ASSERT_TRUE(replaced.report.ok) << replaced.report.failure;
+  EXPECT_EQ(replaced.report.solver, LinearSolver::block);
+  problem.load[NodeId{3}][1] = std::nan("");
+  const Solution none = solved(problem, options, Processes::all);
+  EXPECT_FALSE(none.report.ok);
+  EXPECT_NE(none.report.failure.find("not finite"), std::string::npos);
+}
+
+TEST(Partition, GroupsAreSeveralVerticesEach) {
+  const ShearedDrop drop;
+  const std::vector<std::int32_t> group = vertex_groups(drop.space);
+  std::vector<int> size(drop.space.velocity.cell_nodes.size(), 0);
+  for (const std::int32_t g : group) ++size[static_cast<std::size_t>(g)];
+  const int num_groups = 1 + *std::ranges::max_element(group);
+  for (int g = 0; g < num_groups; ++g) EXPECT_GT(size[static_cast<std::size_t>(g)], 1);
+  EXPECT_GT(drop.space.num_vertices(), 8 * num_groups);
+}
+
+/// How many corners of cells each class of vertices has.
+std::vector<double> corners_of(const FlowSpace& space, const std::vector<std::int32_t>& class_of) {
+  std::vector<double> count(1 + static_cast<std::size_t>(std::ranges::max(class_of)), 0.0);
+  for (const CellId c : ids<CellId>(space.velocity.num_cells()))
+    for (const std::int32_t v : space.velocity.of(c))
+      count[static_cast<std::size_t>(class_of[static_cast<std::size_t>(v)])] += 1.0;
+  return count;
+}
+
+TEST(Ranks, ShareOutTheWork) {
+  const ShearedDrop drop;
+  const int size = world().size();
+  const double even = 4.0 * drop.mesh.num_cells() / size;
+  const double heaviest = std::ranges::max(corners_of(drop.space, vertex_groups(drop.space)));
+  // PT-Scotch is asked for a hundredth, and can only give away whole groups.
+  for (const double each : corners_of(drop.space, vertex_ranks(drop.space, world())))
+    EXPECT_NEAR(each, even, 0.01 * even + heaviest);
+}
+
+TEST(Ranks, SharesCoverTheWholeOnce) {
+  const ShearedDrop drop(Elements::p2_p1);
+  const auto share = make_share(drop.space, world());
+  if (world().size() == 1) {
+    EXPECT_EQ(share, nullptr);
+    return;
+  }
+  const auto total = [](std::int32_t own) { return linear::sum(world(), std::int64_t{own}); };
+  EXPECT_EQ(total(share->own.num_nodes), drop.space.velocity.num_nodes);
+  EXPECT_EQ(total(share->own.num_pressures), drop.space.pressure.nodes.num_nodes);
+  EXPECT_EQ(total(share->own.num_cells), drop.mesh.num_cells());
+  EXPECT_EQ(total(share->coarse.num_own), drop.mesh.num_vertices());
+  // The state goes out and comes back.
+  StokesState state = state_at_rest(drop.space), back = state;
+  for (const NodeId i : state.v.ids()) state.v[i] = Vec3(i.value, 1.0, 2.0);
+  for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] = 0.5 * static_cast<double>(i);
+  assemble_whole(restricted(state, *share), *share, back);
+  EXPECT_EQ(state.v, back.v);
+  EXPECT_EQ(state.p, back.p);
+}
+
+TEST(Ranks, MoreThanThereIsWorkForAreRefused) {
+  const BoxMesh box = box_mesh({.n = 1, .region = [](const Vec3&) { return 0; }});
+  const FlowSpace space = flow_space(box.mesh, Elements::p1_p1);
+  if (world().size() > 1) {
+    EXPECT_THROW((void)make_share(space, world()), InvalidInput);
+  }
+}
+
+}  // namespace
+}  // namespace meniscus::fem
