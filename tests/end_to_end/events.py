@@ -165,9 +165,8 @@ def main():
                     str(work / "thread.off"), "--aspect", "6", "--amplitude", "0.6", "--edges", "8"],
                    check=True)
     thread = work / "thread.toml"
-    # With P2-P1 elements the vertices lie on the surface, so that sections are thinner.
-    radius, end = (0.178, 0.08) if solver == "P2-P1" else (0.2, 0.1)
-    thread.write_text(BREAK.format(radius=radius, end=end) + COMMON +
+    end = 0.08 if solver == "P2-P1" else 0.1
+    thread.write_text(BREAK.format(radius=0.2, end=end) + COMMON +
                       SOLVERS[solver].format(radius=5), encoding="utf-8")
     whole = work / "break"
     run(program, "run", str(thread), "-o", str(whole), "-q")
