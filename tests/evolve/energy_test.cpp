@@ -79,7 +79,7 @@ Residual mean_residual(int N0, fem::CapillaryForm form) {
 }
 
 // The books close to second order in h, the accuracy of the velocity: of the drop's own share, the
-// rate of its surface, the weak and balanced forms miss 0.5 % and 0.2 % at N0 = 800 and the nodal
+// rate of its surface, the weak and balanced forms miss 0.5 % and 0.3 % at N0 = 800 and the nodal
 // form, whose force is not the gradient of the triangulation's area, 4 %.
 TEST(Energy, BooksOfADropInShearCloseToSecondOrder) {
   for (const auto& [form, largest_share] :
