@@ -15,12 +15,10 @@
 
 #include <fmt/format.h>
 
-#include "meniscus/flow/fem/boundary_conditions.hpp"
-#include "meniscus/flow/fem/capillary_force.hpp"
+#include "bench/stretched_drop.hpp"
 #include "meniscus/flow/fem/share.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
 #include "meniscus/linear/collective.hpp"
-#include "tests/flow/fem/sphere_scene.hpp"
 
 namespace meniscus::fem {
 namespace {
@@ -35,32 +33,6 @@ double seconds(const std::function<void()>& action) {
   action();
   linear::barrier(world());
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-Scene stretched_drop(int num_vertices, double lambda) {
-  const Mat3 gradient = ImposedFlow::uniaxial_extension();
-  return sphere_in_sphere(
-      {.num_vertices = num_vertices,
-       .viscosity_ratio = lambda,
-       .Ca = 0.17,
-       .outer_per_inner = 1.25,
-       .outer_velocity = [gradient](const Vec3& x, double) { return Vec3(gradient * x); },
-       .is_linear_flow = true});
-}
-
-StokesProblem instant(const Scene& scene, const TetMesh& mesh, const FlowSpace& space) {
-  StokesProblem problem(mesh, space, node_positions(scene, mesh, space));
-  for (const CellId c : mesh.cells.ids())
-    problem.viscosity[c] = scene.liquids[mesh.region[c]].viscosity;
-  problem.constraints =
-      boundary_conditions(scene.boundary,
-                          face_nodes(space, mesh, scene.boundary.mesh, mesh.boundary),
-                          problem.positions, 0.0)
-          .constraints;
-  add_capillary_force(scene.interfaces[0], CapillaryForm::weak,
-                      face_nodes(space, mesh, scene.interfaces[0].mesh, mesh.interfaces[0]),
-                      problem.positions, problem.load);
-  return problem;
 }
 
 enum Phase { share, share_and_sparsity, first_solve, second_solve, num_phases };

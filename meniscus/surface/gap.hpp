@@ -21,9 +21,8 @@ struct OwnGaps {
 
 /// Lowers rest lengths where another sheet is near:
 ///   l0 ≤ kGapEdge w/layers,              w the width of one of the vertex's own gaps,
-///   l0 ≤ max(kGapEdge d/layers, ½ l_d),  d the distance to a neighbour and l_d the mean edge of
-///   its
-///                                        nearest face [R0].
+///   l0 ≤ max(kGapEdge d/layers, ½ l_d),  d the distance to a neighbour, l_d the mean edge of the
+///                                        face nearest there [R0].
 /// A neighbour that is not remeshed itself, such as a wall, thus sets the layers there can be.
 void bound_by_gaps(VertexField<double>& length, const SurfaceMesh& mesh,
                    const VertexField<Vec3>& normals, double layers,

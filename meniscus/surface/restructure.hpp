@@ -5,15 +5,15 @@
 namespace meniscus {
 
 /// Turns edges whose two opposite angles sum to more than 180° (Delaunay), as long as no face
-/// folds; returns how many.
+/// folds; returns how many. Only edges around state.unflipped are looked at.
 int flip_to_delaunay(RemeshState& state);
 
 struct DensityEdits {
   int splits = 0, collapses = 0;
 };
-/// One pass of vertex addition and removal where the local number of vertices is out of its band,
-/// or, when all places are within, where the whole number is. Edits of one pass lie at least a ring
-/// apart, so that each sees the density the others left.
+/// One pass of vertex addition and removal where the number of vertices is out of its band: over
+/// some 12 vertices, or, when all places are within, over 50, 200, or the whole. Edits of one pass
+/// lie so many rings apart that each sees the density the others left.
 DensityEdits balance_density(RemeshState& state);
 
 /// ∮ρ dS over the smooth surface, ρ = 2/(√3 l0²) (eq. 2): the number of vertices it asks for.
