@@ -15,10 +15,11 @@
 
 #include <fmt/format.h>
 
-#include "bench/stretched_drop.hpp"
 #include "meniscus/flow/fem/share.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
 #include "meniscus/linear/collective.hpp"
+#include "meniscus/volume/tetrahedralize.hpp"
+#include "tests/flow/fem/stretched_drop.hpp"
 
 namespace meniscus::fem {
 namespace {
@@ -63,7 +64,8 @@ int main(int count, char** arguments) {
   const auto number = [&](int k, double otherwise) {
     return count > k ? std::atof(arguments[k]) : otherwise;
   };
-  const Scene scene = stretched_drop(static_cast<int>(number(1, 1430)), number(2, 0.1));
+  const Scene scene =
+      stretched_drop(DropShape::sphere, static_cast<int>(number(1, 1430)), number(2, 0.1));
   Options options;
   options.processes = Processes::all;
   if (count > 3 && std::string_view(arguments[3]) == "P2-P1") options.elements = Elements::p2_p1;

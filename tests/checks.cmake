@@ -69,6 +69,12 @@ add_test(NAME ranks COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/end
 set_tests_properties(ranks PROPERTIES TIMEOUT 900 LABELS mpi PROCESSORS 3
   ENVIRONMENT "${MENISCUS_RANKS_ENVIRONMENT}")
 
+add_test(NAME event_ranks COMMAND Python3::Interpreter
+  ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/event_ranks.py $<TARGET_FILE:meniscus_program>
+  ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/event_ranks ${MPIEXEC_EXECUTABLE})
+set_tests_properties(event_ranks PROPERTIES TIMEOUT 900 LABELS mpi PROCESSORS 3
+  ENVIRONMENT "${MENISCUS_RANKS_ENVIRONMENT}")
+
 # Dynamics against independent references, all runs but those made once: an hour or more.
 if(MENISCUS_LONG_TESTS)
   add_test(NAME cases COMMAND meniscus_program check --all --quiet

@@ -2,12 +2,12 @@
 """Writes a surface of revolution as OFF: x = a xi, r = b sqrt(1 - xi^24) (1 + A cos(2 pi xi)), or a
 round-ended thread of radius 1 + e cos(k x) that is nine wavelengths and more long.
 
-    make_surface.py OUTPUT [--aspect 16] [--amplitude 0.35] [--edges 20]
+    make_surface.py OUTPUT [--aspect 16] [--amplitude 0.35] [--edges 20] [--faceted]
     make_surface.py OUTPUT --wavenumber K [--amplitude 0.01] [--wavelengths 9.5] [--edges 16]
 
 Rings of vertices an edge apart, the edge about 2 pi r/EDGES, as many vertices on each as its own
-length asks for, and a vertex at each end. The vertices of the thread lie on it; those of the filament a little
-outside, so that its triangulation has the volume 4 pi/3.
+length asks for, and a vertex at each end. Vertices lie on the surface, of volume 4 pi/3 where it is the filament; with
+--faceted a little outside, so that its flat faces enclose that.
 """
 import argparse
 import math
@@ -104,6 +104,7 @@ def main():
     parser.add_argument("--wavelengths", type=float, default=9.5)
     parser.add_argument("--amplitude", type=float)
     parser.add_argument("--edges", type=int, default=20)
+    parser.add_argument("--faceted", action="store_true")
     options = parser.parse_args()
     if options.wavenumber is None:
         x, r = filament(options.aspect, 0.35 if options.amplitude is None else options.amplitude)
@@ -115,7 +116,7 @@ def main():
     if volume < 0:
         faces = [(a, c, b) for a, b, c in faces]
         volume = -volume
-    stretch = math.sqrt(smooth_volume(x, r) / volume) if options.wavenumber is None else 1.0
+    stretch = math.sqrt(smooth_volume(x, r) / volume) if options.faceted else 1.0
     with open(options.output, "w", encoding="utf-8") as out:
         out.write(f"OFF\n{len(points)} {len(faces)} 0\n")
         for px, py, pz in points:

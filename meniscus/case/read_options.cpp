@@ -101,10 +101,13 @@ fem::Options read_finite_elements(Settings& settings) {
   options.rtol = settings.number("solver.rtol");
   options.max_iterations = settings.whole("solver.max-iterations");
   options.petsc_options = read_petsc_options(settings);
+  const VolumeMeshOptions suited = fem::suited_volume_mesh(options.elements);
+  settings.prefer("domain.grading", suited.grading == Grading::gaussian ? "gaussian" : "linear");
   options.volume_mesh.grading =
       settings.choice<Grading>("domain.grading", {{"linear", Grading::linear},
                                                   {"exponential", Grading::exponential},
                                                   {"gaussian", Grading::gaussian}});
+  options.volume_mesh.cell_volume = settings.number_or("domain.cell-volume", suited.cell_volume);
   options.volume_mesh.gap_layers = settings.whole("interface.gap-layers");
   options.volume_motion = settings.choice<VolumeMotion>("interface.volume-motion",
                                                         {{"spines", VolumeMotion::spines},

@@ -329,7 +329,17 @@ const std::vector<Key> kKeys{
      .words = {"linear", "exponential", "gaussian"},
      .value = "linear"s,
      .applies = kWithElements,
-     .sentence = "How element size passes from one surface's resolution to another's."},
+     .sentence =
+         "How element size passes from one surface's resolution to another's (P2-P1 elements "
+         "take gaussian unless told otherwise)."},
+    {.path = "domain.cell-volume",
+     .type = number,
+     .range = {.min = 0.1, .max = 100.0},
+     .default_note = "2.0; 1.5 with P2-P1 elements",
+     .applies = kWithElements,
+     .sentence =
+         "A tetrahedron is divided while its volume exceeds this many times that of the regular "
+         "one of the wanted edge: halving it doubles the nodes between the surfaces."},
 
     {.path = "domain.patch[].name",
      .type = text,

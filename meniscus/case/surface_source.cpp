@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "meniscus/core/log.hpp"
+#include "meniscus/evolve/interface_motion.hpp"
 #include "meniscus/io/archive_file.hpp"
 #include "meniscus/io/surface_file.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/even_out.hpp"
 #include "meniscus/surface/remesh.hpp"
 
 namespace meniscus {
@@ -100,25 +102,36 @@ void shift(SurfaceMesh& mesh, const Vec3& by) {
   for (Vec3& x : mesh.x) x += by;
 }
 
-/// Gives a surface the vertex density of its drop. A surface that the remesher leaves as it was is
-/// still sound, and said to be coarse or fine in the log.
-void resolve(SurfaceMesh& mesh, const DropCase& drop, int index) {
+/// What a surface encloses: its faces, or the smooth surface through its vertices where faces are
+/// curved. A rough one (a cube, a scan) stands for no smooth one.
+double given_volume(const SurfaceMesh& mesh, SurfaceShape faces) {
+  return is_rough(mesh, SurfaceTopology(mesh)) ? enclosed_volume(mesh) : volume_of(mesh, faces);
+}
+
+/// Gives a surface the vertex density of its drop and the volume it had. Where faces are curved the
+/// vertices stay on the surface: to give flat faces their volume first moves each by a part of its
+/// edge, and taking that back evenly thins the necks. A surface that the remesher leaves as it was
+/// is still sound, and said to be coarse or fine in the log.
+void resolve(SurfaceMesh& mesh, const DropCase& drop, SurfaceShape faces, int index) {
+  const double volume = given_volume(mesh, faces);
   RemeshOptions options;
   options.C0 = drop.nodes / (4.0 * std::numbers::pi);
-  options.volume = enclosed_volume(mesh);
+  options.restores_volume = faces == SurfaceShape::faceted;
   const RemeshReport report = remesh(mesh, options);
   if (!report.ok)
     log::warning("drop {}: its surface stays as given, remeshing failed: {}", index,
                  report.failure);
+  if (faces == SurfaceShape::curved) restore_volume(mesh, volume, faces);
 }
 
 /// An ellipsoid starts from this many times N0 points, so that neither its volume nor its tips
 /// suffer from the sphere's density before the remesher gives it its own.
 constexpr int kEllipsoidOversampling = 4;
 
-/// The volume a drop of this shape has. Its triangulation is given just this volume, its vertices
-/// lying slightly outside the shape: a mesh inscribed in the sphere would lack 5.4/N0 of it, and
-/// behave as a drop of smaller R0, which costs more accuracy than all else at the paper's N0.
+/// The volume a drop of this shape has. A triangulation with flat faces is given just this volume,
+/// its vertices lying slightly outside the shape: a mesh inscribed in the sphere would lack 5.4/N0
+/// of it, and behave as a drop of smaller R0, which costs more accuracy than all else at the
+/// paper's N0.
 double ellipsoid_volume(const Vec3& axes) { return 4.0 / 3.0 * std::numbers::pi * axes.prod(); }
 
 }  // namespace
@@ -154,10 +167,11 @@ SurfaceMesh read_run_surface(const Case& c, const std::string& path, const RunSh
 
 SurfaceMesh initial_surface(const Case& c, int index) {
   const DropCase& drop = c.drops[static_cast<std::size_t>(index)];
+  const SurfaceShape faces = c.evolution.surface;
   const std::string table = fmt::format("drop[{}]", index);
   if (const auto* ball = std::get_if<BallShape>(&drop.shape)) {
     SurfaceMesh mesh = sphere(drop.nodes, ball->radius, drop.center);
-    restore_volume(mesh, ellipsoid_volume(Vec3::Constant(ball->radius)));
+    restore_volume(mesh, ellipsoid_volume(Vec3::Constant(ball->radius)), faces);
     return mesh;
   }
   SurfaceMesh mesh;
@@ -168,9 +182,9 @@ SurfaceMesh initial_surface(const Case& c, int index) {
   else
     mesh = stretched_sphere(kEllipsoidOversampling * drop.nodes,
                             std::get<EllipsoidShape>(drop.shape).axes);
-  if (!std::holds_alternative<RunShape>(drop.shape)) resolve(mesh, drop, index);
+  if (!std::holds_alternative<RunShape>(drop.shape)) resolve(mesh, drop, faces, index);
   if (const auto* ellipsoid = std::get_if<EllipsoidShape>(&drop.shape))
-    restore_volume(mesh, ellipsoid_volume(ellipsoid->axes));
+    restore_volume(mesh, ellipsoid_volume(ellipsoid->axes), faces);
   shift(mesh, drop.center);
   return mesh;
 }

@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "meniscus/evolve/options.hpp"
 #include "meniscus/scene/scene.hpp"
 
 namespace meniscus {
@@ -12,9 +13,10 @@ namespace meniscus {
 /// (kennedy1994, eq. 10; loewenberg1996, eq. 8), V the volume the outermost interfaces enclose,
 /// λ and λ_out the viscosities inside and outside each interface. `excess`, by region, is what the
 /// laws of generalised-Newtonian drops add to the stress in them (FlowSolver::excess_stress); the
-/// matrix has to be Newtonian. Deviatoric up to the trace of the
-/// second integral, which incompressible flow makes zero.
+/// matrix has to be Newtonian. Over flat faces with linear velocities, or over curved ones
+/// with quadratic velocities. Deviatoric up to the trace of the second integral, which
+/// incompressible flow makes zero.
 [[nodiscard]] Mat3 drop_stress(const Scene& scene, std::span<const VertexField<Vec3>> velocity,
-                               std::span<const Mat3> excess = {});
+                               SurfaceShape surface, std::span<const Mat3> excess = {});
 
 }  // namespace meniscus

@@ -13,6 +13,7 @@
 #include "meniscus/evolve/drop_stress.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/curved_measures.hpp"
 #include "meniscus/surface/remesh.hpp"
 #include "meniscus/topology/mend.hpp"
 #include "meniscus/topology/necks.hpp"
@@ -51,14 +52,23 @@ SurfaceMotion surface_motion(const Scene& scene, const InterfaceMotion& motion) 
 }
 
 /// The radius of the circle of the same area as the section of the thinnest neck, of those thinner
-/// than half of the sphere of the same volume. Of the triangulation: where its vertices lie on the
-/// surface, π²/3n² short with n edges around.
-std::optional<double> thinnest_neck(const Interface& interface) {
+/// than half of the sphere of the same volume; on the smooth surface where faces are curved.
+std::optional<double> thinnest_neck(const Interface& interface, SurfaceShape faces) {
+  const SurfaceMesh& mesh = interface.mesh;
+  const SurfaceTree tree(mesh);
   const double sphere = std::cbrt(0.75 * interface.volume / std::numbers::pi);
-  const std::vector<Neck> necks = find_necks(interface.mesh, SurfaceTree(interface.mesh),
-                                             Side::inside, 0.5 * sphere, SurfaceMotion());
-  return necks.empty() ? std::nullopt
-                       : std::optional(std::sqrt(necks.front().area / std::numbers::pi));
+  const std::vector<Neck> necks =
+      find_necks(mesh, tree, Side::inside, 0.5 * sphere, SurfaceMotion());
+  if (necks.empty()) return std::nullopt;
+  const Neck& neck = necks.front();
+  double area = neck.area;
+  if (faces == SurfaceShape::curved) {
+    const SectionResult there =
+        section_around(mesh, tree, neck.center, neck.axis, 4.0 * neck.radius);
+    if (there.kind == SectionKind::closed)
+      area = smooth_area(there.section, mesh, SmoothSurface(mesh, SurfaceTopology(mesh)));
+  }
+  return std::sqrt(area / std::numbers::pi);
 }
 
 std::string text_of(std::span<const int> ids) { return fmt::format("{}", fmt::join(ids, ", ")); }
@@ -195,7 +205,8 @@ void Evolution::remesh_interfaces() {
     Interface& interface = scene_.interfaces[i];
     RemeshOptions options;
     options.C0 = interface.C0;
-    if (options_.surface == SurfaceShape::faceted) options.volume = interface.volume;
+    options.restores_volume = options_.surface == SurfaceShape::faceted;
+    if (options.restores_volume) options.volume = interface.volume;
     options.edge_floor = options_.edge_floor;
     options.gap_layers = options_.gap_layers;
     for (std::size_t j = 0; j < trees.size(); ++j)
@@ -279,7 +290,7 @@ HistoryRow Evolution::history_row() const {
   }
   row.surface_rate = surface_energy_rate(scene_, motion_, options_.surface);
   if (is_newtonian(scene_.liquids[RegionId{0}].law))
-    row.stress = drop_stress(scene_, flow_->velocity(), flow_->excess_stress());
+    row.stress = drop_stress(scene_, flow_->velocity(), options_.surface, flow_->excess_stress());
   return row;
 }
 
@@ -291,10 +302,15 @@ std::vector<DropRow> Evolution::drop_rows() const {
     row.drop = interface.drop;
     row.parent = interface.parent;
     row.shape = drop_shape(interface.mesh, scene_.flow.family());
-    row.shape.volume = volume_of(interface.mesh, options_.surface);
+    if (options_.surface == SurfaceShape::curved) {
+      const CurvedMeasures curved = curved_measures(interface.mesh);
+      row.shape.volume = curved.volume;
+      row.shape.area = curved.area;
+    }
     row.volume_drift = row.shape.volume / interface.initial_volume - 1.0;
     row.volume_correction = correction_[i];
-    if (options_.topology.breakup_radius > 0.0) row.neck_radius = thinnest_neck(interface);
+    if (options_.topology.breakup_radius > 0.0)
+      row.neck_radius = thinnest_neck(interface, options_.surface);
   }
   return rows;
 }

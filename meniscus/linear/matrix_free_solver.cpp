@@ -1,8 +1,8 @@
 #include "meniscus/linear/matrix_free_solver.hpp"
 
-#include <chrono>
 #include <exception>
 
+#include "meniscus/core/processor_time.hpp"
 #include "meniscus/linear/petsc_matrix.hpp"
 #include "meniscus/linear/petsc_objects.hpp"
 
@@ -64,7 +64,7 @@ LinearReport solve_matrix_free(const LinearOperator& matrix,
                                std::span<const double> right_hand_side, std::span<double> solution,
                                const MatrixFreeOptions& options) {
   LinearReport report;
-  const auto start = std::chrono::steady_clock::now();
+  const double start = processor_seconds();
   try {
     start_petsc();
     const Matrix operator_matrix = shell(matrix, solution.size());
@@ -82,8 +82,7 @@ LinearReport solve_matrix_free(const LinearOperator& matrix,
   } catch (const PetscFailure& failure) {
     report.reason = failure.what();
   }
-  report.solve_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report.solve_seconds = processor_seconds() - start;
   return report;
 }
 

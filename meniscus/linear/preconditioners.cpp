@@ -22,6 +22,14 @@ void with_arrays(Vec from, Vec to, Action action) {
   petsc_check(VecRestoreArrayRead(from, &reading), "VecRestoreArrayRead");
 }
 
+template <class Action>
+void with_array(Vec of, Action action) {
+  PetscScalar* values = nullptr;
+  petsc_check(VecGetArray(of, &values), "VecGetArray");
+  action(values);
+  petsc_check(VecRestoreArray(of, &values), "VecRestoreArray");
+}
+
 /// Two levels, quadratic over linear functions; what the coarse one does is the options' business.
 void use_interpolation(MPI_Comm comm, KSP cycle, const CsrView& interpolation) {
   PC pc = nullptr;
@@ -79,6 +87,34 @@ void VelocityMultigrid::apply(Vec r, Vec z) const {
   }
 }
 
+PressureMass::PressureMass(Communicator communicator, const SaddleSystem& system)
+    : communicator_(communicator), system_(system) {
+  if (system.consistent_mass.num_rows == 0) return;
+  MPI_Comm comm = mpi_communicator(communicator);
+  matrix_ = borrowed_matrix(comm, system.consistent_mass);
+  petsc_check(KSPCreate(comm, solver_.out()), "KSPCreate");
+  petsc_check(KSPSetOptionsPrefix(solver_.get(), "p_"), "KSPSetOptionsPrefix");
+  petsc_check(KSPSetOperators(solver_.get(), matrix_.get(), matrix_.get()), "KSPSetOperators");
+  petsc_check(KSPSetFromOptions(solver_.get()), "KSPSetFromOptions");
+  petsc_check(KSPSetUp(solver_.get()), "KSPSetUp");
+}
+
+void PressureMass::apply(std::span<const double> r, double s, Vec z) const {
+  if (solver_) {
+    const Vector right = borrowed_vector(mpi_communicator(communicator_), r);
+    petsc_check(KSPSolve(solver_.get(), right.get(), z), "KSPSolve");
+    petsc_check(VecScale(z, s), "VecScale");
+  }
+  with_array(z, [&](double* p) {
+    for (std::size_t i = 0; !solver_ && i < r.size(); ++i)
+      p[i] = s * r[i] / system_.pressure_mass[i];
+    if (!system_.constant_pressure_is_null) return;
+    const double total = sum(communicator_, std::accumulate(p, p + r.size(), 0.0));
+    const double mean = total / double(sum(communicator_, std::int64_t{system_.num_pressures()}));
+    for (std::size_t i = 0; i < r.size(); ++i) p[i] -= mean;
+  });
+}
+
 BlockPreconditioner::BlockPreconditioner(Communicator communicator, Shape shape,
                                          const SaddleSystem& system,
                                          const VelocityMultigrid& multigrid, Mat B)
@@ -87,21 +123,18 @@ BlockPreconditioner::BlockPreconditioner(Communicator communicator, Shape shape,
       system_(system),
       multigrid_(multigrid),
       B_(B),
+      mass_(communicator, system),
       velocity_(zero_vector(mpi_communicator(communicator), system.num_velocities())),
       pressure_(zero_vector(mpi_communicator(communicator), system.num_pressures())) {}
 
 void BlockPreconditioner::apply(Vec r, Vec z) const {
   const auto num_velocities = static_cast<std::size_t>(system_.num_velocities());
   const auto num_pressures = static_cast<std::size_t>(system_.num_pressures());
-  const double sign = shape_ == Shape::diagonal ? 1.0 : -1.0;
-  with_arrays(r, pressure_.get(), [&](const double* from, double* p) {
-    for (std::size_t i = 0; i < num_pressures; ++i)
-      p[i] = sign * from[num_velocities + i] / system_.pressure_mass[i];
-    if (!system_.constant_pressure_is_null) return;
-    const double total = sum(communicator_, std::accumulate(p, p + num_pressures, 0.0));
-    const double mean = total / double(sum(communicator_, std::int64_t{system_.num_pressures()}));
-    for (std::size_t i = 0; i < num_pressures; ++i) p[i] -= mean;
-  });
+  const PetscScalar* residual = nullptr;
+  petsc_check(VecGetArrayRead(r, &residual), "VecGetArrayRead");
+  mass_.apply({residual + num_velocities, num_pressures}, shape_ == Shape::diagonal ? 1.0 : -1.0,
+              pressure_.get());
+  petsc_check(VecRestoreArrayRead(r, &residual), "VecRestoreArrayRead");
   if (shape_ == Shape::upper_triangular)
     petsc_check(MatMultTranspose(B_, pressure_.get(), velocity_.get()), "MatMultTranspose");
   with_arrays(r, velocity_.get(), [&](const double* from, double* v) {

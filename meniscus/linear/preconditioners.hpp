@@ -2,6 +2,7 @@
 // Only for the .cpp files of this room.
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "meniscus/linear/petsc_matrix.hpp"
@@ -28,6 +29,21 @@ class VelocityMultigrid {
   Vector component_r_, component_z_;
 };
 
+/// An approximate solve with the pressure mass matrix, the lumped or the consistent one.
+class PressureMass {
+ public:
+  /// The system must outlive this.
+  PressureMass(Communicator communicator, const SaddleSystem& system);
+  /// z = s M⁻¹ r, whose mean is zero where the constant pressure is a null vector.
+  void apply(std::span<const double> r, double s, Vec z) const;
+
+ private:
+  Communicator communicator_;
+  const SaddleSystem& system_;
+  Matrix matrix_;
+  KrylovSolver solver_;  ///< none for the lumped matrix
+};
+
 /// z_p = s (M_p/μ)⁻¹ r_p, z_v = M_A⁻¹ (r_v − Bᵀ z_p) (upper triangular, s = −1) or M_A⁻¹ r_v
 /// (diagonal, s = +1, positive definite as MINRES needs it).
 class BlockPreconditioner {
@@ -44,6 +60,7 @@ class BlockPreconditioner {
   const SaddleSystem& system_;
   const VelocityMultigrid& multigrid_;
   Mat B_;
+  PressureMass mass_;
   Vector velocity_, pressure_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <numeric>
 #include <optional>
@@ -13,9 +14,11 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
+#include "meniscus/core/processor_time.hpp"
 #include "meniscus/linear/collective.hpp"
 #include "meniscus/linear/petsc_matrix.hpp"
 #include "meniscus/linear/preconditioners.hpp"
+#include "meniscus/linear/saddle_options.hpp"
 
 namespace meniscus::linear {
 namespace {
@@ -24,52 +27,6 @@ using Apply = std::function<void(Vec, Vec)>;
 
 // Ranks that meet the same error do so within a collective call of each other.
 constexpr std::chrono::seconds kPatience{10};
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-bool has_hypre() {
-  PetscBool has = PETSC_FALSE;
-  petsc_check(PetscHasExternalPackage("hypre", &has), "PetscHasExternalPackage");
-  return has == PETSC_TRUE;
-}
-
-/// One algebraic cycle for a scalar Laplacian, as options.
-std::string algebraic_multigrid(const std::string& prefix) {
-  if (!has_hypre()) return fmt::format(" -{0}pc_type gamg -{0}pc_gamg_threshold 0.02", prefix);
-  // HMIS coarsening, ext+i interpolation of at most 4 entries: the fastest of the variants tried on
-  // scalar Laplacians of tetrahedral meshes, and as good per iteration as an exact solve.
-  return fmt::format(
-      " -{0}pc_type hypre -{0}pc_hypre_boomeramg_coarsen_type HMIS"
-      " -{0}pc_hypre_boomeramg_interp_type ext+i -{0}pc_hypre_boomeramg_P_max 4",
-      prefix);
-}
-
-/// The choices of each method, as options that the user's own may override; with a multigrid by
-/// degree over the algebraic one, or without.
-std::string method_options(SaddleMethod method, bool is_by_degree) {
-  const std::string multigrid =
-      is_by_degree
-          ? " -v_ksp_type preonly -v_mg_levels_ksp_type chebyshev -v_mg_levels_ksp_max_it 2"
-            " -v_mg_levels_pc_type jacobi -v_mg_coarse_ksp_type preonly" +
-                algebraic_multigrid("v_mg_coarse_")
-          : " -v_ksp_type preonly" + algebraic_multigrid("v_");
-  switch (method) {
-    case SaddleMethod::block:
-      return "-ksp_type fgmres -ksp_gmres_restart 60"
-             " -ksp_gmres_cgs_refinement_type refine_ifneeded" +
-             multigrid;
-    case SaddleMethod::minres:
-      return "-ksp_type minres" + multigrid;
-    case SaddleMethod::paper_gmres:
-      return "-ksp_type gmres -ksp_gmres_restart 100 -ksp_pc_side right";
-    case SaddleMethod::mumps:
-      break;
-  }
-  return "-ksp_type fgmres -f_ksp_type preonly -f_pc_type cholesky"
-         " -f_pc_factor_mat_solver_type mumps -f_mat_mumps_icntl_14 50";
-}
 
 PetscErrorCode apply_shell(PC pc, Vec r, Vec z) {
   void* context = nullptr;
@@ -134,20 +91,6 @@ void remove_mean(Communicator communicator, std::span<double> values) {
 
 }  // namespace
 
-std::string name(SaddleMethod method) {
-  switch (method) {
-    case SaddleMethod::block:
-      return "block";
-    case SaddleMethod::paper_gmres:
-      return "paper-gmres";
-    case SaddleMethod::minres:
-      return "minres";
-    case SaddleMethod::mumps:
-      break;
-  }
-  return "mumps";
-}
-
 class SaddleSolver::Implementation {
  public:
   Implementation(Communicator communicator, SaddleOptions options)
@@ -156,7 +99,8 @@ class SaddleSolver::Implementation {
     petsc_check(PetscOptionsCreate(table_.out()), "PetscOptionsCreate");
     petsc_check(
         PetscOptionsInsertString(
-            table_.get(), method_options(options_.method, options_.multigrid_by_degree).c_str()),
+            table_.get(),
+            default_options(options_.method, options_.multigrid_by_degree, has_hypre()).c_str()),
         "PetscOptionsInsertString");
     check_words(options_.petsc_options);
     if (PetscOptionsInsertString(table_.get(), options_.petsc_options.c_str()) != 0)
@@ -169,11 +113,11 @@ class SaddleSolver::Implementation {
     const OptionScope scope(table_.get());
     try {
       if (preconditioner == Preconditioner::fresh) forget();
-      const auto start = std::chrono::steady_clock::now();
+      const double start = processor_seconds();
       prepare(system);
-      report.setup_seconds = seconds_since(start);
+      report.setup_seconds = processor_seconds() - start;
       iterate(system, right_hand_side, solution, rtol, report);
-      report.solve_seconds = seconds_since(start) - report.setup_seconds;
+      report.solve_seconds = processor_seconds() - start - report.setup_seconds;
       if (!std::exchange(is_checked_, true)) warn_of_unused(table_.get(), options_.petsc_options);
     } catch (const PetscFailure& failure) {
       require_company(failure);
@@ -285,8 +229,26 @@ class SaddleSolver::Implementation {
     report.reason = KSPConvergedReasons[reason];
     report.iterations = iterations;
     report.residuals.assign(history.begin(), history.begin() + recorded);
+    if (report.converged && options_.method != SaddleMethod::minres)
+      check_breakdown(b.get(), x.get(), rtol, report);
     if (system.constant_pressure_is_null)
       remove_mean(communicator_, solution.subspan(std::size_t(system.num_velocities())));
+  }
+
+  /// Of a singular operator a Krylov space may end, its own residual zero, where no solution is.
+  void check_breakdown(Vec b, Vec x, double rtol, LinearReport& report) const {
+    Vector residual;
+    double norm = 0.0, first = 0.0;
+    petsc_check(VecDuplicate(b, residual.out()), "VecDuplicate");
+    petsc_check(MatMult(operator_.get(), x, residual.get()), "MatMult");
+    petsc_check(VecAYPX(residual.get(), -1.0, b), "VecAYPX");
+    petsc_check(VecNorm(residual.get(), NORM_2, &norm), "VecNorm");
+    petsc_check(VecNorm(b, NORM_2, &first), "VecNorm");
+    // The root: far from the tolerance, which roundoff alone may miss by a little.
+    report.converged = norm <= std::sqrt(std::min(rtol, 0.9)) * first;
+    if (!report.converged)
+      report.reason =
+          fmt::format("singular block: breakdown at {:.1e} of the first residual", norm / first);
   }
 
   /// What refers to the caller's arrays goes; what may be kept stays.

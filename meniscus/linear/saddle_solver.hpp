@@ -25,7 +25,8 @@ struct SaddleOptions {
   bool multigrid_by_degree = false;
   /// As on PETSc's command line; stronger than the method's own choices. Prefixes: none for the
   /// outer solver, v_ for the velocity block's multigrid; by degree v_mg_levels_ for its smoother
-  /// and v_mg_coarse_ for the algebraic part; f_ for the direct method's factorisation.
+  /// and v_mg_coarse_ for the algebraic part; p_ for the pressure mass matrix, where there is one;
+  /// f_ for the direct method's factorisation.
   std::string petsc_options;
 };
 
@@ -35,7 +36,7 @@ struct [[nodiscard]] LinearReport {
   std::string reason;  ///< PETSc's name for why it stopped, or its error message
   int iterations = 0;
   std::vector<double> residuals;  ///< norms by iteration, in the method's own norm
-  double setup_seconds = 0.0, solve_seconds = 0.0;
+  double setup_seconds = 0.0, solve_seconds = 0.0;  ///< of this process's processor time
 };
 
 enum class Preconditioner { fresh, kept };

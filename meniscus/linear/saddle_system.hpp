@@ -47,6 +47,9 @@ struct SaddleSystem {
   /// viscosity that depends on the velocity. Empty: B. MINRES, which needs symmetry, takes B, and
   /// so does every preconditioner.
   std::span<const double> lower_left = {};
+  /// The pressure mass matrix ∫ψψ/μ before lumping, which stands for the Schur complement better
+  /// where nothing stabilises. Empty: the lumped one does.
+  CsrView consistent_mass = {};
 
   [[nodiscard]] std::int32_t num_velocities() const { return A.num_rows; }
   [[nodiscard]] std::int32_t num_pressures() const { return B.num_rows; }

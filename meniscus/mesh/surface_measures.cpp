@@ -118,14 +118,19 @@ double mean_edge(const SurfaceMesh& mesh) {
 }
 
 double smallest_angle_deg(const SurfaceMesh& mesh) {
-  double smallest = std::numbers::pi;
+  // The corner of the largest signed square of the cosine; its angle alone is then taken.
+  double largest = -2.0, angle = std::numbers::pi;
   for (const FaceVertices& v : mesh.faces)
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 p = mesh.x[v[(k + 1) % 3]] - mesh.x[v[k]],
                  q = mesh.x[v[(k + 2) % 3]] - mesh.x[v[k]];
-      smallest = std::min(smallest, std::atan2(p.cross(q).norm(), p.dot(q)));
+      const double dot = p.dot(q),
+                   squared = dot * std::abs(dot) / (p.squaredNorm() * q.squaredNorm());
+      if (squared <= largest) continue;
+      largest = squared;
+      angle = std::atan2(p.cross(q).norm(), dot);
     }
-  return smallest * 180.0 / std::numbers::pi;
+  return angle * 180.0 / std::numbers::pi;
 }
 
 bool is_finite(const SurfaceMesh& mesh) {

@@ -1,5 +1,6 @@
 #include "meniscus/surface/curvature.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -9,29 +10,37 @@
 namespace meniscus {
 namespace {
 
-constexpr int kLeastValence = 5;  // a paraboloid with its normal free has five unknowns
-constexpr int kMaxTurns = 30;     // each turn cuts the slope by a factor of order h; ten are usual
+constexpr int kLeastValence = 5;       // a paraboloid with its normal free has five unknowns
+constexpr int kMaxTurns = 30;          // four or five are usual
 constexpr double kSlopeAtRest = 1e-8;  // radians; curvatures are exact to its square
 
 /// What is fitted: heights above the tangent plane, or heights of circles.
 enum class Form { paraboloid, osculating };
 
-/// Fits and turns the frame until the linear terms vanish.
+/// Fits and turns the frame until the linear terms vanish, by the secant method: a turn changes the
+/// slope by itself times 1 + O(h), nearly the same each time.
 std::optional<HeightPatch> turned_fit(const Vec3& x, const Vec3& normal_guess,
                                       std::span<const Vec3> points, PatchDegree degree, Form form) {
   HeightPatch frame = flat_patch(x, normal_guess);
   std::vector<Vec3> unrolled;
   std::optional<HeightPatch> patch;
+  Vec3 slope_before = Vec3::Zero(), turn_before = Vec3::Zero();
   for (int turn = 0; turn < kMaxTurns; ++turn) {
     if (form == Form::osculating) unroll(points, frame, unrolled);
     patch = fit_patch(frame, form == Form::osculating ? unrolled : points, degree);
     if (!patch) return std::nullopt;
-    const double slope = std::hypot(patch->c[0], patch->c[1]);
-    if (slope < kSlopeAtRest) return patch;
+    const Vec3 slope = patch->c[0] * patch->t1 + patch->c[1] * patch->t2;
+    const double size = slope.norm();
+    if (size < kSlopeAtRest) return patch;
     // A fit that would turn the normal over is not one of a smooth surface.
-    if (!(slope < 1.0)) return std::nullopt;
-    const Vec3 normal = patch->n - patch->c[0] * patch->t1 - patch->c[1] * patch->t2;
-    frame = flat_patch(x, normal.normalized());
+    if (!(size < 1.0)) return std::nullopt;
+    double gain = 1.0;  // of slope by a turn
+    if (turn > 0)
+      gain =
+          std::clamp((slope_before - slope).dot(turn_before) / turn_before.squaredNorm(), 0.5, 2.0);
+    slope_before = slope;
+    turn_before = slope / gain;
+    frame = flat_patch(x, (patch->n - turn_before).normalized());
   }
   return patch;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meniscus/core/vec.hpp"
 #include "meniscus/mesh/surface_mesh.hpp"
 
 namespace meniscus {
@@ -12,6 +13,15 @@ struct CurvedMeasures {
   double area = 0.0;    ///< [R0²]
 };
 [[nodiscard]] CurvedMeasures curved_measures(const SurfaceMesh& mesh);
+
+/// The integrals over that surface of which a drop's stress is made.
+struct SurfaceMoments {
+  double volume = 0.0;           ///< [R0³]
+  Mat3 normals = Mat3::Zero();   ///< ∫ nn dS [R0²]
+  Mat3 velocity = Mat3::Zero();  ///< ∫ un dS [G R0³], u quadratic on the faces
+};
+/// The middles of edges get `u` from the quadratics that fit it around both ends: O(h³).
+[[nodiscard]] SurfaceMoments curved_moments(const SurfaceMesh& mesh, const VertexField<Vec3>& u);
 
 /// Unit normals of the smooth surface at the vertices, O(h³).
 [[nodiscard]] VertexField<Vec3> smooth_normals(const SurfaceMesh& mesh);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 namespace meniscus {
@@ -116,14 +117,15 @@ VertexCurvature HeightPatch::curvature() const {
   // Symmetric matrix of the shape operator in the orthonormal basis e1 ∥ r_u, e2: l⁻¹ b l⁻ᵀ.
   const double s11 = b11 / (l11 * l11), s12 = (b12 / l11 - l21 * s11) / l22,
                s22 = (b22 - 2.0 * l21 * b12 / l11 + l21 * l21 * s11) / (l22 * l22);
-  const double angle = 0.5 * std::atan2(2.0 * s12, s11 - s22);
-  const double mean = 0.5 * (s11 + s22), deviation = std::hypot(0.5 * (s11 - s22), s12);
+  const Eigen::Matrix2d operator_of_shape{{s11, s12}, {s12, s22}};
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal;
+  principal.computeDirect(operator_of_shape);
   VertexCurvature result;
   result.n = (n - c[0] * t1 - c[1] * t2) / w;
   const Vec3 e1 = r_u / l11, e2 = result.n.cross(e1);
-  result.k1 = mean + deviation;
-  result.k2 = mean - deviation;
-  result.d1 = std::cos(angle) * e1 + std::sin(angle) * e2;
+  result.k1 = principal.eigenvalues()[1];
+  result.k2 = principal.eigenvalues()[0];
+  result.d1 = principal.eigenvectors()(0, 1) * e1 + principal.eigenvectors()(1, 1) * e2;
   result.d2 = result.n.cross(result.d1);
   return result;
 }

@@ -15,11 +15,11 @@
 namespace meniscus {
 namespace {
 
-/// Spring steps between two looks at connectivity. A step that is not enough is continued by the
-/// next remesh; a remesh that changes little needs two or three.
-constexpr int kStepsPerSweep = 30;
+/// Rounds of the springs between two looks at connectivity. What is not at rest then is continued
+/// by the next remesh; a remesh that changes little needs two or three.
+constexpr int kRoundsPerSweep = 30;
 /// In the first sweep and while edits are many the springs need only keep faces apart.
-constexpr int kStepsWhileRough = 5;
+constexpr int kRoundsWhileRough = 5;
 constexpr double kManyEdits = 0.03;  // of the vertices
 /// Smallest angle of a face that is let through when the surface had none as small before.
 constexpr double kLeastAngleDeg = 5.0;
@@ -27,8 +27,17 @@ constexpr double kLeastAngleDeg = 5.0;
 RemeshReference reference_surface(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                                   const RemeshOptions& options) {
   SmoothSurface surface(mesh, topology);
-  VertexField<double> lengths = rest_lengths(mesh, topology, surface.vertex_curvature(), options);
-  return {std::move(surface), SurfaceWalk(mesh, topology), std::move(lengths)};
+  const VertexField<double> lengths =
+      rest_lengths(mesh, topology, surface.vertex_curvature(), options);
+  VertexField<RemeshReference::Corner> corners;
+  for (const VertexId v : mesh.x.ids()) corners.add({surface.vertex_normal(v), lengths[v]});
+  return {std::move(surface), SurfaceWalk(mesh, topology), std::move(corners)};
+}
+
+double rest_tolerance(const RemeshState& state, const RemeshOptions& options) {
+  if (options.equilibrium > 0.0) return options.equilibrium;
+  // Tighter, and vertices that slide to and fro wear the shape (docs/surface-remeshing.md).
+  return 0.006 * std::min(1.0, std::sqrt(1000.0 / state.mesh.num_vertices()));
 }
 
 /// Restructures and equilibrates in turn until nothing is left to restructure.
@@ -44,7 +53,8 @@ void equilibrate(RemeshState& state, const RemeshOptions& options, RemeshReport&
     if (num_edits > 0) report.flips += flip_to_delaunay(state);
     if (report.sweeps > 1 && num_edits == 0 && report.flips == flips_before) return;
     const bool is_rough = report.sweeps == 1 || num_edits > kManyEdits * state.mesh.num_vertices();
-    relax_springs(state, options.equilibrium, is_rough ? kStepsWhileRough : kStepsPerSweep);
+    relax_springs(state, rest_tolerance(state, options),
+                  is_rough ? kRoundsWhileRough : kRoundsPerSweep);
   }
 }
 
@@ -130,7 +140,7 @@ void RemeshOptions::validate() const {
   require(gap_layers >= 0.0 && gap_layers <= 100.0, "gap_layers", gap_layers, "between 0 and 100");
   require(min_vertices >= 4, "min_vertices", min_vertices, "at least 4");
   require(max_sweeps >= 1, "max_sweeps", max_sweeps, "at least 1");
-  require(equilibrium > 0.0 && equilibrium < 1.0, "equilibrium", equilibrium, "in (0, 1)");
+  require(equilibrium >= 0.0 && equilibrium < 1.0, "equilibrium", equilibrium, "in [0, 1)");
 }
 
 RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options) {
@@ -156,6 +166,7 @@ RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options, SurfaceFiel
     const RemeshReference reference = reference_surface(mesh, topology, options);
     RemeshState state = start_state(reference, mesh, topology);
     equilibrate(state, options, report);
+    lift_to_surface(state);
     report.expected_vertices = expected_vertices(state);
     if (has_fold(state)) return fail("a face is folded over");
 

@@ -1,5 +1,7 @@
 #include "meniscus/surface/remesh_state.hpp"
 
+#include <algorithm>
+
 #include <Eigen/Geometry>
 
 namespace meniscus {
@@ -12,28 +14,36 @@ constexpr double kUprightCosine = 0.5;
 }  // namespace
 
 RemeshVertex vertex_at(const RemeshReference& reference, const SurfaceLocation& place) {
-  const SmoothSurface& surface = reference.surface;
-  const FaceVertices& v = surface.corners(place.face);
+  const FaceVertices& corners = reference.walk.corners(place.face);
+  const Vec3 flat = reference.walk.flat_point(place);
+  Vec3 lift = Vec3::Zero(), n = Vec3::Zero();
   double length = 0.0;
-  for (int k = 0; k < 3; ++k)
-    length += place.weights[k] * reference.rest_length[v[static_cast<std::size_t>(k)]];
-  return {.x = surface.point(place),
-          .rest_length = length,
-          .n = surface.linear_normal(place),
-          .place = place};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double b = place.weights[static_cast<int>(k)];
+    const RemeshReference::Corner& corner = reference.corners[corners[k]];
+    lift += b * corner.n.dot(reference.walk.vertex(corners[k]) - flat) * corner.n;
+    n += b * corner.n;
+    length += b * corner.rest_length;
+  }
+  return {.x = flat + 0.5 * lift, .rest_length = length, .n = n.normalized(), .place = place};
+}
+
+void lift_to_surface(RemeshState& state) {
+  for (const VertexId v : state.vertices.ids())
+    if (state.mesh.is_alive(v))
+      state.vertices[v].x = state.reference.surface.point(state.vertices[v].place);
 }
 
 RemeshVertex halfway(const RemeshReference& reference, const RemeshVertex& a,
                      const RemeshVertex& b) {
-  const Vec3 half =
-      0.5 * (reference.surface.flat_point(b.place) - reference.surface.flat_point(a.place));
+  const Vec3 half = 0.5 * (reference.walk.flat_point(b.place) - reference.walk.flat_point(a.place));
   return vertex_at(reference, reference.walk.moved(a.place, half));
 }
 
 bool is_upright(const RemeshVertex& a, const RemeshVertex& b, const RemeshVertex& c) {
   const Vec3 area = (b.x - a.x).cross(c.x - a.x);
-  const double least = kUprightCosine * area.norm();
-  return area.dot(a.n) > least && area.dot(b.n) > least && area.dot(c.n) > least;
+  const double least = std::min({area.dot(a.n), area.dot(b.n), area.dot(c.n)});
+  return least > 0.0 && least * least > kUprightCosine * kUprightCosine * area.squaredNorm();
 }
 
 RemeshState start_state(const RemeshReference& reference, const SurfaceMesh& mesh,

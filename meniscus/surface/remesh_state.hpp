@@ -9,15 +9,18 @@ namespace meniscus {
 
 /// What stays fixed during one remesh: the surface as it came, and the lengths it asks for.
 struct RemeshReference {
+  struct Corner {
+    Vec3 n;              ///< unit normal of the smooth surface
+    double rest_length;  ///< [R0]
+  };
   SmoothSurface surface;
   SurfaceWalk walk;
-  VertexField<double> rest_length;  ///< at the vertices of the surface as it came [R0]
+  VertexField<Corner> corners;  ///< at the vertices of the surface as it came
 };
 
-/// A vertex of the mesh being rebuilt: always a point of the reference surface. What springs and
-/// flips read most comes first.
+/// A vertex of the mesh being rebuilt. What springs and flips read most comes first.
 struct RemeshVertex {
-  Vec3 x;              ///< on the smooth surface
+  Vec3 x;              ///< near the smooth surface; on it after `lift_to_surface`
   double rest_length;  ///< l0 there
   Vec3 n;              ///< its unit normal there, interpolated linearly
   SurfaceLocation place;
@@ -48,9 +51,13 @@ struct RemeshState {
 
 [[nodiscard]] RemeshState start_state(const RemeshReference& reference, const SurfaceMesh& mesh,
                                       const SurfaceTopology& topology);
-/// The vertex at a place of the reference surface.
+/// The vertex at a place y = Σ b_k x_k of the reference surface, half of the way from there to the
+/// tangent planes at the corners, ½ Σ b_k (n_k·(x_k − y)) n_k: where the curvature is even, the
+/// smooth surface, otherwise O(h³) away, at a fifth of the cost.
 [[nodiscard]] RemeshVertex vertex_at(const RemeshReference& reference,
                                      const SurfaceLocation& place);
+/// Puts all vertices on the smooth surface.
+void lift_to_surface(RemeshState& state);
 /// The vertex half-way between two on the reference surface.
 [[nodiscard]] RemeshVertex halfway(const RemeshReference& reference, const RemeshVertex& a,
                                    const RemeshVertex& b);

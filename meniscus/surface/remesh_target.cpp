@@ -23,7 +23,9 @@ namespace {
 
 using By = RemeshTarget::By;
 
-constexpr int kMaxPasses = 10;    // one to three are usual; more where a floor bends the law
+constexpr int kMaxPasses = 10;  // one to three are usual; more where a floor bends the law
+/// A surface that does not flow needs its springs no nearer to rest: angles gain nothing by it.
+constexpr double kEquilibrium = 0.01;
 constexpr int kMaxSweeps = 60;    // a sweep collapses about a fifth of the vertices: 1e6 → 10
 constexpr int kFewestNodes = 12;  // of a piece: the icosahedron's
 /// Of each target: where the search ends. Counts scatter by a percent (the remesher's own band).
@@ -192,6 +194,7 @@ class TargetSearch {
     options.gradation = target_.gradation;
     options.min_vertices = kFewestNodes;
     options.max_sweeps = kMaxSweeps;
+    options.equilibrium = kEquilibrium;
     options.find_fault = [](const SurfaceMesh& m) { return find_self_intersection(m); };
     options.edge_floor = std::max(target_.edge_floor, rough_edge_);
     switch (target_.by) {

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <numeric>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -62,29 +64,47 @@ VertexField<double> vertex_loads(const RemeshState& state) {
 
 /// Averages over the rings, by an exchange along each edge that keeps the sum: what is short of
 /// vertices here and over there together comes out right.
-VertexField<double> ring_averaged(const RemeshState& state, const VertexField<double>& load) {
-  constexpr double kExchange = 1.0 / 7.0;  // of a vertex of valence 6 with its ring: their mean
-  VertexField<double> result = load;
-  for (std::int32_t i = 0; i < state.mesh.num_halfedge_slots(); ++i) {
-    const HalfedgeId h{i};
-    if (!state.mesh.is_alive(h)) continue;
-    const VertexId a = state.mesh.from(h), b = state.mesh.to(h);
-    result[a] += kExchange * (load[b] - load[a]);
+class RingAverage {
+ public:
+  RingAverage(const EditMesh& mesh, VertexField<double> values)
+      : values_(std::move(values)), change_(values_.size()) {
+    edges_.reserve(static_cast<std::size_t>(mesh.num_halfedge_slots() / 2));
+    for (std::int32_t i = 0; i < mesh.num_halfedge_slots(); ++i)
+      if (const HalfedgeId h{i}; mesh.is_representative(h))
+        edges_.push_back({mesh.from(h), mesh.to(h)});
   }
-  return result;
-}
+  /// Averages until `count` times in all.
+  const VertexField<double>& after(int count) {
+    constexpr double kExchange = 1.0 / 7.0;  // of a vertex of valence 6 with its ring: their mean
+    for (; count_ < count; ++count_) {
+      std::ranges::fill(change_, 0.0);
+      for (const auto& [a, b] : edges_) {
+        const double exchange = kExchange * (values_[b] - values_[a]);
+        change_[a] += exchange;
+        change_[b] -= exchange;
+      }
+      for (const VertexId v : values_.ids()) values_[v] += change_[v];
+    }
+    return values_;
+  }
+
+ private:
+  VertexField<double> values_, change_;
+  std::vector<std::array<VertexId, 2>> edges_;
+  int count_ = 0;
+};
 
 /// Marks vertices near an edit so that the rest of the pass leaves them alone.
 class Locks {
  public:
-  explicit Locks(const RemeshState& state)
-      : mesh_(state.mesh), locked_(mesh_.num_vertex_slots(), 0) {}
+  explicit Locks(const EditMesh& mesh)
+      : mesh_(mesh), locked_(mesh.num_vertex_slots(), 0), reached_(mesh.num_vertex_slots(), 0) {}
   [[nodiscard]] bool is_locked(HalfedgeId h) const {
     return is_locked(mesh_.from(h)) || is_locked(mesh_.to(h)) || is_locked(mesh_.opposite(h)) ||
            is_locked(mesh_.opposite(mesh_.twin(h)));
   }
   void lock(VertexId v) {
-    if (v.value < locked_.size()) locked_[v] = 1;
+    if (!is_new(v)) locked_[v] = 1;
   }
   void lock_faces(HalfedgeId h) {
     lock(mesh_.from(h));
@@ -94,17 +114,32 @@ class Locks {
   }
   /// v and so many rings around it.
   void lock_rings(VertexId v, int rings) {
-    lock(v);
-    if (rings == 0) return;
-    mesh_.for_each_out(v, [&](HalfedgeId h) { lock_rings(mesh_.to(h), rings - 1); });
+    ++search_;
+    ring_.clear();
+    reach(v);
+    for (int number = 0; number < rings; ++number) {
+      const std::vector<VertexId> inner = std::exchange(ring_, {});
+      for (const VertexId w : inner)
+        mesh_.for_each_out(w, [&](HalfedgeId h) { reach(mesh_.to(h)); });
+    }
   }
 
  private:
-  [[nodiscard]] bool is_locked(VertexId v) const {
-    return v.value >= locked_.size() || locked_[v] != 0;
+  /// Made in this pass: always locked.
+  [[nodiscard]] bool is_new(VertexId v) const { return v.value >= locked_.size(); }
+  [[nodiscard]] bool is_locked(VertexId v) const { return is_new(v) || locked_[v] != 0; }
+  void reach(VertexId v) {
+    if (is_new(v) || reached_[v] == search_) return;
+    reached_[v] = search_;
+    locked_[v] = 1;
+    ring_.push_back(v);
   }
+
   const EditMesh& mesh_;
   VertexField<char> locked_;
+  VertexField<int> reached_;  // by which search
+  std::vector<VertexId> ring_;
+  int search_ = 0;
 };
 
 void split_edge(RemeshState& state, HalfedgeId h) {
@@ -225,14 +260,13 @@ Candidates density_candidates(const RemeshState& state, const VertexField<double
   for (std::int32_t i = 0; i < state.mesh.num_halfedge_slots(); ++i) {
     const HalfedgeId h{i};
     if (!state.mesh.is_representative(h)) continue;
-    const double ratio = state.edge_vector(h).norm() / state.rest_length(h);
-    const double load =
-        0.5 * (mean_load[state.mesh.from(h)] + mean_load[state.mesh.to(h)]) * ratio * ratio;
     const double mean = 0.5 * (mean_load[state.mesh.from(h)] + mean_load[state.mesh.to(h)]);
-    if ((mean > 1.0 + band && ratio > 1.0) || ratio > kLongestEdge)
-      result.splits.push_back({load, h});
-    else if ((mean < 1.0 - band && ratio < 1.0) || ratio < kShortestEdge)
-      result.collapses.push_back({load, h});
+    const double rest_length = state.rest_length(h);
+    const double squared = state.edge_vector(h).squaredNorm() / (rest_length * rest_length);
+    if ((mean > 1.0 + band && squared > 1.0) || squared > kLongestEdge * kLongestEdge)
+      result.splits.push_back({mean * squared, h});
+    else if ((mean < 1.0 - band && squared < 1.0) || squared < kShortestEdge * kShortestEdge)
+      result.collapses.push_back({mean * squared, h});
   }
   const auto order = [](const EdgeScore& p, const EdgeScore& q) {
     return std::tuple(p.score, p.h.value) < std::tuple(q.score, q.h.value);
@@ -254,7 +288,7 @@ int rings_of_an_edit(double mean_load) {
 DensityEdits edit(RemeshState& state, const Candidates& candidates,
                   const VertexField<double>& mean_load, int max_splits, int max_collapses) {
   DensityEdits edits;
-  Locks locks(state);
+  Locks locks(state.mesh);
   for (const auto& [score, h] : candidates.splits) {
     if (edits.splits == max_splits) break;
     if (locks.is_locked(h)) continue;
@@ -306,16 +340,16 @@ int flip_to_delaunay(RemeshState& state) {
 
 DensityEdits balance_density(RemeshState& state) {
   const VertexField<double> load = vertex_loads(state);
-  VertexField<double> mean_load = load;
-  int averages = 0;
-  for (const int wanted : kAverages) {
-    for (; averages < wanted; ++averages) mean_load = ring_averaged(state, mean_load);
+  RingAverage averaged(state.mesh, load);
+  for (const int averages : kAverages) {
+    const VertexField<double>& mean_load = averaged.after(averages);
     const double band = std::max(kBandTimesAverages / averages, kGlobalBand);
     const int unlimited = state.mesh.num_vertices();
     const DensityEdits edits =
         edit(state, density_candidates(state, mean_load, band), mean_load, unlimited, unlimited);
     if (edits.splits + edits.collapses > 0) return edits;
   }
+  const VertexField<double>& mean_load = averaged.after(kAverages.back());
 
   const double expected = std::accumulate(load.begin(), load.end(), 0.0);
   const double missing = expected - state.mesh.num_vertices();

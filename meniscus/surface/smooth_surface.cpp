@@ -83,13 +83,6 @@ Vec3 SmoothSurface::point(const SurfaceLocation& location) const {
   return flat + lift / squares.sum();
 }
 
-Vec3 SmoothSurface::linear_normal(const SurfaceLocation& location) const {
-  const FaceVertices& v = faces_[location.face];
-  return (location.weights[0] * normals_[v[0]] + location.weights[1] * normals_[v[1]] +
-          location.weights[2] * normals_[v[2]])
-      .normalized();
-}
-
 Vec3 SmoothSurface::edge_point(VertexId a, VertexId b, double s) const {
   const HeightPatch &pa = patches_[a], &pb = patches_[b];
   const Vec3 flat = (1.0 - s) * pa.x + s * pb.x;

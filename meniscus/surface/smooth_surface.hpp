@@ -34,8 +34,8 @@ class SmoothSurface {
   [[nodiscard]] Vec3 point(const SurfaceLocation& location) const;
   [[nodiscard]] Vec3 point(FaceId f, const Vec3& weights) const { return point({f, weights}); }
   [[nodiscard]] Vec3 normal(FaceId f, const Vec3& weights) const { return at({f, weights}).n; }
-  /// The normals at the corners interpolated linearly, unit: O(h²), at a fraction of the cost.
-  [[nodiscard]] Vec3 linear_normal(const SurfaceLocation& location) const;
+  /// n at a vertex, unit.
+  [[nodiscard]] const Vec3& vertex_normal(VertexId v) const { return normals_[v]; }
   /// S over the edge from a (s = 0) to b (s = 1): the same point as from either face.
   [[nodiscard]] Vec3 edge_point(VertexId a, VertexId b, double s) const;
   /// Principal curvatures: the shape operators of the corners' patches, interpolated linearly.
@@ -47,10 +47,11 @@ class SmoothSurface {
   [[nodiscard]] const HeightPatch& patch(VertexId v) const { return patches_[v]; }
   [[nodiscard]] const FaceVertices& corners(FaceId f) const { return faces_[f]; }
   [[nodiscard]] std::int32_t num_vertices() const { return patches_.size(); }
+
+ private:
   /// y of the formula above.
   [[nodiscard]] Vec3 flat_point(const SurfaceLocation& location) const;
 
- private:
   VertexField<VertexCurvature> curvature_;
   VertexField<HeightPatch> patches_;
   VertexField<Vec3> normals_;  // of the patches at their vertices

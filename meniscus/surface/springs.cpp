@@ -1,153 +1,113 @@
 #include "meniscus/surface/springs.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 #include <vector>
 
 namespace meniscus {
 namespace {
 
-/// Springs are cut a little short. All are then stretched alike where the density is right, a
-/// uniform tension that no density gradient disturbs, and that gives the net the stiffness against
-/// shear and folding that springs at their rest length lack.
-constexpr double kShortening = 0.85;
-/// Step of the explicit method over the valence. The stiffest mode of a net of valence 6 has the
-/// eigenvalue 6 to 9 (springs at rest, springs without length), so that 1.5/6 is stable.
-constexpr double kStepTimesValence = 1.5;
-/// What is left of a step in the next (heavy ball). Long waves, of which plain steps take away a
-/// thousandth each, come to rest two and a half times sooner. (With 0.8 and more the short ones
-/// swing so far that faces fold.)
-constexpr double kMomentum = 0.6;
-constexpr double kLongestMove = 0.25;  // of l0 in one step: no vertex can cross its ring
-constexpr int kMaxUnfoldings = 4;
-/// Of the move that counts as rest: vertices that would move less stay, and cost nothing until a
-/// neighbour moves.
-constexpr double kStill = 0.5;
+/// Springs are cut short. All are then stretched alike where the density is right, a uniform
+/// tension that no density gradient disturbs, and that gives the net the stiffness against shear
+/// and folding that springs at their rest length lack. The shorter, the better the angles around
+/// vertices of valence 5 and 7, and the less the springs hold their lengths.
+constexpr double kShortening = 0.8;
+/// Of the move that would bring a vertex to rest: long waves settle in fewer rounds.
+constexpr double kOverRelaxation = 1.2;
+constexpr double kLongestMove = 0.25;  // of l0 at a time: no vertex can cross its ring
+/// Least stiffness of a spring on average; compressed ones push a vertex aside and have little.
+constexpr double kLeastStiffness = 0.3;
+constexpr int kMostAttempts = 3;  // the whole move, its half and its quarter
 
-struct Move {
-  VertexId v;
-  Vec3 d;
-  double over_length;  // |d|/l0
-  double pull;         // what of it the springs ask for now, over l0
+/// The vertices whose springs something has pulled since they were last looked at.
+class PulledVertices {
+ public:
+  PulledVertices(const EditMesh& mesh, const std::vector<VertexId>& changed)
+      : mesh_(mesh), is_pulled_(mesh.num_vertex_slots(), 0) {
+    for (const VertexId v : changed)
+      if (mesh.is_alive(v)) insert_ring(v);
+  }
+  /// v and its neighbours.
+  void insert_ring(VertexId v) {
+    insert(v);
+    mesh_.for_each_out(v, [&](HalfedgeId h) { insert(mesh_.to(h)); });
+  }
+  /// Those of one round. Each is to be released when it is looked at: what is inserted meanwhile
+  /// and still to come in this round does not come again in the next.
+  [[nodiscard]] std::vector<VertexId> next_round() { return std::exchange(members_, {}); }
+  void release(VertexId v) { is_pulled_[v] = 0; }
+
+ private:
+  void insert(VertexId v) {
+    if (is_pulled_[v] != 0) return;
+    is_pulled_[v] = 1;
+    members_.push_back(v);
+  }
+  const EditMesh& mesh_;
+  VertexField<char> is_pulled_;
+  std::vector<VertexId> members_;
 };
 
-/// The next move of a vertex, tangential, after one by `previous`.
-Move spring_move(const RemeshState& state, VertexId v, const Vec3& previous) {
+/// The tangential move by which the springs of a vertex would come to rest if its neighbours
+/// stayed: their pull over their stiffness, the mean of that along and across each.
+Vec3 move_to_rest(const RemeshState& state, VertexId v) {
   const RemeshVertex& vertex = state.vertices[v];
   Vec3 pull = Vec3::Zero();
+  double stiffness = 0.0;
   state.mesh.for_each_out(v, [&](HalfedgeId h) {
     const RemeshVertex& other = state.vertices[state.mesh.to(h)];
     const Vec3 d = other.x - vertex.x;
-    const double rest_length = 0.5 * (vertex.rest_length + other.rest_length);
-    pull += (1.0 - kShortening * rest_length / d.norm()) * d;
+    const double length = 0.5 * kShortening * (vertex.rest_length + other.rest_length);
+    const double compression = length / d.norm();
+    pull += (1.0 - compression) * d;
+    stiffness += 1.0 - 0.5 * compression;
   });
-  pull *= kStepTimesValence / state.mesh.valence(v);
-  const Vec3 d = pull + kMomentum * previous;
-  Move move{v, d - d.dot(vertex.n) * vertex.n, 0.0,
-            (pull - pull.dot(vertex.n) * vertex.n).norm() / vertex.rest_length};
-  move.over_length = move.d.norm() / vertex.rest_length;
-  if (move.over_length > kLongestMove) {
-    move.d *= kLongestMove / move.over_length;
-    move.over_length = kLongestMove;
-  }
-  return move;
+  pull /= std::max(stiffness, kLeastStiffness * state.mesh.valence(v));
+  return pull - pull.dot(vertex.n) * vertex.n;
 }
 
-/// The moves of more than `least` l0. Springs that nothing has pulled since they came to rest are
-/// at rest still.
-std::vector<Move> spring_moves(RemeshState& state, const VertexField<Vec3>& previous,
-                               double least) {
-  VertexSet pulled;
-  for (const VertexId v : state.unrelaxed.take()) {
-    if (!state.mesh.is_alive(v)) continue;
-    pulled.insert(v);
-    state.mesh.for_each_out(v, [&](HalfedgeId h) { pulled.insert(state.mesh.to(h)); });
-  }
-  std::vector<Move> moves;
-  for (const VertexId v : pulled.take())
-    if (const Move move = spring_move(state, v, previous[v]);
-        std::max(move.over_length, move.pull) > least)
-      moves.push_back(move);
-  return moves;
+/// Whether a face that is upright now would not be with v at `moved`.
+bool would_fold(const RemeshState& state, VertexId v, const RemeshVertex& moved) {
+  bool folds = false;
+  state.mesh.for_each_out(v, [&](HalfedgeId h) {
+    const RemeshVertex &a = state.vertices[state.mesh.to(h)],
+                       &b = state.vertices[state.mesh.opposite(h)];
+    if (!folds && !is_upright(moved, a, b) && is_upright(state.vertices[v], a, b)) folds = true;
+  });
+  return folds;
 }
 
-bool is_folded(const RemeshState& state, HalfedgeId h) {
-  const EditMesh& mesh = state.mesh;
-  return !is_upright(state.vertices[mesh.from(h)], state.vertices[mesh.to(h)],
-                     state.vertices[mesh.opposite(h)]);
-}
-
-/// One step of the springs: what it has moved, and from where.
-class Step {
- public:
-  explicit Step(RemeshState& state) : state_(state), saved_(state.mesh.num_vertex_slots(), -1) {}
-
-  void move(const Move& move) {
-    RemeshVertex& vertex = state_.vertices[move.v];
-    saved_[move.v] = static_cast<std::int32_t>(before_.size());
-    moved_.push_back(move.v);
-    before_.push_back(vertex);
-    vertex = vertex_at(state_.reference, state_.reference.walk.moved(vertex.place, move.d));
-    state_.touch(move.v);
-  }
-
-  /// Puts the corners of folded faces back where they were; faces that were folded before stay.
-  void take_back_folds(VertexField<Vec3>& moves) {
-    for (int round = 0; round < kMaxUnfoldings; ++round) {
-      bool found = false;
-      for (const VertexId v : moved_)
-        state_.mesh.for_each_out(v, [&](HalfedgeId h) {
-          if (is_first_mover(v, h) && is_folded(state_, h)) {
-            take_back(h, moves);
-            found = true;
-          }
-        });
-      if (!found) return;
-    }
-  }
-
- private:
-  [[nodiscard]] bool has_moved(VertexId v) const { return saved_[v] >= 0; }
-  /// Of the corners of the face of h that have moved, v is the one that did first.
-  [[nodiscard]] bool is_first_mover(VertexId v, HalfedgeId h) const {
-    for (const VertexId w : {state_.mesh.to(h), state_.mesh.opposite(h)})
-      if (has_moved(w) && saved_[w] < saved_[v]) return false;
+/// Moves v by d, or by less where that would fold a face.
+bool try_move(RemeshState& state, VertexId v, Vec3 d) {
+  RemeshVertex& vertex = state.vertices[v];
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt, d *= 0.5) {
+    const RemeshVertex moved =
+        vertex_at(state.reference, state.reference.walk.moved(vertex.place, d));
+    if (would_fold(state, v, moved)) continue;
+    vertex = moved;
     return true;
   }
-  void take_back(HalfedgeId h, VertexField<Vec3>& moves) {
-    const EditMesh& mesh = state_.mesh;
-    for (const VertexId v : {mesh.from(h), mesh.to(h), mesh.opposite(h)})
-      if (has_moved(v)) {
-        state_.vertices[v] = before_[static_cast<std::size_t>(saved_[v])];
-        moves[v] = Vec3::Zero();
-      }
-  }
-
-  RemeshState& state_;
-  VertexField<std::int32_t> saved_;  // place in before_, or -1
-  std::vector<VertexId> moved_;
-  std::vector<RemeshVertex> before_;
-};
+  return false;
+}
 
 }  // namespace
 
-int relax_springs(RemeshState& state, double equilibrium, int max_steps) {
-  VertexField<Vec3> previous(state.mesh.num_vertex_slots(), Vec3::Zero());
-  for (int number = 0; number < max_steps; ++number) {
-    const std::vector<Move> moves = spring_moves(state, previous, kStill * equilibrium);
-    const bool at_rest = std::ranges::none_of(moves, [&](const Move& move) {
-      return std::max(move.over_length, move.pull) > equilibrium;
-    });
-    if (at_rest) return number;
-    Step step(state);
-    std::ranges::fill(previous, Vec3::Zero());
-    for (const Move& move : moves) {
-      step.move(move);
-      previous[move.v] = move.d;
+void relax_springs(RemeshState& state, double equilibrium, int max_rounds) {
+  PulledVertices pulled(state.mesh, state.unrelaxed.take());
+  for (int round = 0; round < max_rounds; ++round) {
+    const std::vector<VertexId> vertices = pulled.next_round();
+    if (vertices.empty()) return;
+    for (const VertexId v : vertices) {
+      pulled.release(v);
+      const Vec3 d = move_to_rest(state, v);
+      const double over_length = d.norm() / state.vertices[v].rest_length;
+      if (over_length <= equilibrium) continue;
+      if (!try_move(state, v, std::min(kOverRelaxation, kLongestMove / over_length) * d)) continue;
+      state.unflipped.insert(v);
+      pulled.insert_ring(v);
     }
-    step.take_back_folds(previous);
   }
-  return max_steps;
+  for (const VertexId v : pulled.next_round()) state.unrelaxed.insert(v);
 }
 
 }  // namespace meniscus

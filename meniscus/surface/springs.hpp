@@ -7,11 +7,11 @@ namespace meniscus {
 /// Moves the vertices along the reference surface toward the rest of a net of damped massless
 /// springs (cristini2001),
 ///   dx_i/ds = (I − n n) · Σ_j (1 − s l0/|x_j − x_i|)(x_j − x_i),
-/// by explicit steps with momentum (heavy ball), until no step moves a vertex more than
-/// `equilibrium` l0, or `max_steps`. Only what state.unrelaxed names, and what moves with it, is
-/// looked at.
-/// Steps that would fold a face are taken back at its corners. Returns the number of steps taken:
-/// zero when the net is at rest already.
-int relax_springs(RemeshState& state, double equilibrium, int max_steps);
+/// one after another (Gauss–Seidel, somewhat over-relaxed): rest is all that counts, not the way
+/// there. A vertex stays when it is within `equilibrium` l0 of where its springs would be at rest;
+/// the net is at rest when all do. Only what state.unrelaxed names, and what moves with it, is
+/// looked at; after `max_rounds` the rest of that waits for the next call.
+/// No move folds a face.
+void relax_springs(RemeshState& state, double equilibrium, int max_rounds);
 
 }  // namespace meniscus

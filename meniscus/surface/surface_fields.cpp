@@ -86,7 +86,7 @@ class VertexInterpolant {
 
   [[nodiscard]] double at(const SurfaceLocation& place) const {
     const FaceVertices& corners = change_.surface.corners(place.face);
-    const Vec3 flat = change_.surface.flat_point(place);
+    const Vec3 flat = change_.walk.flat_point(place);
     const Vec3 squares = place.weights.cwiseProduct(place.weights);
     double value = 0.0;
     Range range = ranges_[corners[0]];
@@ -152,7 +152,7 @@ class FaceInterpolant {
   }
 
   [[nodiscard]] double at(const SurfaceLocation& place) const {
-    const Vec3 d = change_.surface.flat_point(place) - center(change_.before, place.face);
+    const Vec3 d = change_.walk.flat_point(place) - center(change_.before, place.face);
     return ranges_[place.face].clamped(values_[place.face] + gradients_[place.face].dot(d));
   }
 
@@ -193,7 +193,7 @@ class FaceInterpolant {
 std::array<SurfaceLocation, 4> sample_places(const SurfaceChange& change, FaceId f) {
   const FaceVertices& v = change.after.faces[f];
   std::array<Vec3, 3> flat;
-  for (std::size_t k = 0; k < 3; ++k) flat[k] = change.surface.flat_point(change.places[v[k]]);
+  for (std::size_t k = 0; k < 3; ++k) flat[k] = change.walk.flat_point(change.places[v[k]]);
   const Vec3 middle = (flat[0] + flat[1] + flat[2]) / 3.0;
   std::array<SurfaceLocation, 4> places;
   for (std::size_t k = 0; k < 3; ++k)

@@ -22,17 +22,16 @@ std::size_t corner_without(const FaceVertices& face, VertexId a, VertexId b) {
 }  // namespace
 
 SurfaceWalk::SurfaceWalk(const SurfaceMesh& mesh, const SurfaceTopology& topology)
-    : charts_(mesh.num_faces()), corners_(mesh.num_faces()) {
+    : x_(mesh.x), charts_(mesh.num_faces()) {
   for (const FaceId f : mesh.faces.ids()) {
     const FaceVertices& v = mesh.faces[f];
     const Vec3 &x0 = mesh.x[v[0]], e1 = mesh.x[v[1]] - x0, e2 = mesh.x[v[2]] - x0;
     const Vec3 normal = e1.cross(e2);
     const double squared = normal.squaredNorm();
-    charts_[f] = {.x0 = x0,
-                  .g1 = e2.cross(normal) / squared,
+    charts_[f] = {.g1 = e2.cross(normal) / squared,
                   .g2 = normal.cross(e1) / squared,
+                  .corners = v,
                   .neighbour = {}};
-    corners_[f] = {x0, mesh.x[v[1]], mesh.x[v[2]]};
   }
   for (const SurfaceEdge& e : topology.edges()) {
     charts_[e.left].neighbour[corner_without(mesh.faces[e.left], e.a, e.b)] = e.right;
@@ -41,13 +40,11 @@ SurfaceWalk::SurfaceWalk(const SurfaceMesh& mesh, const SurfaceTopology& topolog
 }
 
 SurfaceLocation SurfaceWalk::moved(const SurfaceLocation& start, const Vec3& d) const {
-  const std::array<Vec3, 3>& corner = corners_[start.face];
-  const Vec3 target = start.weights[0] * corner[0] + start.weights[1] * corner[1] +
-                      start.weights[2] * corner[2] + d;
+  const Vec3 target = flat_point(start) + d;
   FaceId face = start.face, previous;
   for (int step = 0;; ++step) {
     const Chart& chart = charts_[face];
-    const Vec3 offset = target - chart.x0;
+    const Vec3 offset = target - x_[chart.corners[0]];
     const double b1 = chart.g1.dot(offset), b2 = chart.g2.dot(offset);
     const Vec3 b(1.0 - b1 - b2, b1, b2);
     int lowest = 0;

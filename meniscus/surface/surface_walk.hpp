@@ -17,14 +17,22 @@ class SurfaceWalk {
   /// face to face toward the target ends. Zero displacement returns the start. Beyond an edge that
   /// bends away, where the target is above no face, the nearest place on that edge.
   [[nodiscard]] SurfaceLocation moved(const SurfaceLocation& start, const Vec3& d) const;
+  /// The point of the flat face.
+  [[nodiscard]] Vec3 flat_point(const SurfaceLocation& place) const {
+    const FaceVertices& v = charts_[place.face].corners;
+    return place.weights[0] * x_[v[0]] + place.weights[1] * x_[v[1]] + place.weights[2] * x_[v[2]];
+  }
+  [[nodiscard]] const FaceVertices& corners(FaceId f) const { return charts_[f].corners; }
+  [[nodiscard]] const Vec3& vertex(VertexId v) const { return x_[v]; }
 
  private:
   struct Chart {
-    Vec3 x0, g1, g2;                  // b1 = g1·(x − x0), b2 = g2·(x − x0)
+    Vec3 g1, g2;  // b1 = g1·(x − x0), b2 = g2·(x − x0)
+    FaceVertices corners;
     std::array<FaceId, 3> neighbour;  // across the edge opposite to corner k
   };
+  VertexField<Vec3> x_;
   FaceField<Chart> charts_;
-  FaceField<std::array<Vec3, 3>> corners_;
 };
 
 }  // namespace meniscus

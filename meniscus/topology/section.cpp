@@ -9,6 +9,8 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/geometry/triangle.hpp"
+
 namespace meniscus {
 namespace {
 
@@ -130,6 +132,24 @@ SectionResult section_around(const SurfaceMesh& mesh, const SurfaceTree& tree, c
   }
   if (best.kind == SectionKind::closed) measure(best.section);
   return best;
+}
+
+double smooth_area(const Section& section, const SurfaceMesh& mesh, const SmoothSurface& surface) {
+  const std::size_t n = section.points.size();
+  double doubled = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const FaceId f = section.faces[k];
+    const FaceVertices& v = mesh.faces[f];
+    const Triangle corners{mesh.x[v[0]], mesh.x[v[1]], mesh.x[v[2]]};
+    const auto from_center = [&](const Vec3& x) -> Vec3 {
+      return surface.point(f, closest_point(corners, x).weights) - section.center;
+    };
+    const Vec3 &p = section.points[k], &q = section.points[(k + 1) % n];
+    const Vec3 a = from_center(p), m = from_center(0.5 * (p + q)), b = from_center(q);
+    // The sector to the chord, and 4/3 of the triangle over the chord.
+    doubled += section.axis.dot(a.cross(b)) + 4.0 / 3.0 * section.axis.dot((m - a).cross(b - a));
+  }
+  return 0.5 * std::abs(doubled);
 }
 
 }  // namespace meniscus

@@ -4,6 +4,7 @@
 
 #include "meniscus/mesh/surface_mesh.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
+#include "meniscus/surface/smooth_surface.hpp"
 
 namespace meniscus {
 
@@ -28,5 +29,11 @@ struct SectionResult {
 /// the plane meets no face there.
 [[nodiscard]] SectionResult section_around(const SurfaceMesh& mesh, const SurfaceTree& tree,
                                            const Vec3& center, const Vec3& axis, double reach);
+
+/// What a section of the faces of `mesh` encloses on the smooth surface through its vertices
+/// [R0²]: over each face the curve becomes the parabola through its ends and middle there. A
+/// polygon through the vertices of a ring of n edges lacks 2π²/3n² of it.
+[[nodiscard]] double smooth_area(const Section& section, const SurfaceMesh& mesh,
+                                 const SmoothSurface& surface);
 
 }  // namespace meniscus

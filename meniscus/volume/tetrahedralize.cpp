@@ -12,11 +12,6 @@
 namespace meniscus {
 namespace {
 
-/// A cell may have up to this many times the volume of the regular tetrahedron of the wanted edge.
-/// Chosen once so that a drop in a sphere gets about the number of nodes of hooper2001, table 1
-/// (docs/volume-mesh.md).
-constexpr double kVolumeFactor = 2.0;
-
 SurfaceComplex gather_surfaces(const Scene& scene) {
   SurfaceComplex complex;
   const auto append = [&](const SurfaceMesh& surface) {
@@ -91,8 +86,9 @@ void label_regions(const Scene& scene, const FacetTable& facets, TetMesh& mesh) 
 
 /// One attempt: mesh, find the surfaces in it, label the regions, validate.
 std::string try_to_mesh(const Scene& scene, const SurfaceComplex& complex,
-                        const std::string& switches, const SizeLaw& size, TetMesh& mesh) {
-  MesherResult result = run_tetgen(complex, switches, size, kVolumeFactor);
+                        const std::string& switches, const SizeLaw& size, double cell_volume,
+                        TetMesh& mesh) {
+  MesherResult result = run_tetgen(complex, switches, size, cell_volume);
   if (!result.failure.empty()) return result.failure;
   order_by_neighbourhood(static_cast<std::int32_t>(complex.x.size()), result.x, result.cells);
   mesh = {};
@@ -123,6 +119,8 @@ void VolumeMeshOptions::validate() const {
     reject_input("radius_edge = {} must lie between 1.1 and 10", radius_edge);
   if (!(gap_layers >= 0.0 && gap_layers <= 100.0))
     reject_input("gap_layers = {} must lie between 0 and 100", gap_layers);
+  if (!(cell_volume >= 0.1 && cell_volume <= 100.0))
+    reject_input("cell_volume = {} must lie between 0.1 and 100", cell_volume);
 }
 
 VolumeMeshReport tetrahedralize(const Scene& scene, const VolumeMeshOptions& options,
@@ -137,7 +135,7 @@ VolumeMeshReport tetrahedralize(const Scene& scene, const VolumeMeshOptions& opt
   const SizeLaw size(scene, options);
   for (const std::string& switches : tetgen_switches(options.radius_edge)) {
     TetMesh candidate;
-    report.failure = try_to_mesh(scene, complex, switches, size, candidate);
+    report.failure = try_to_mesh(scene, complex, switches, size, options.cell_volume, candidate);
     report.ok = report.failure.empty();
     if (report.ok) {
       mesh = std::move(candidate);

@@ -15,6 +15,10 @@ struct VolumeMeshOptions {
       0.5;  ///< growth of size per distance inside a region that no farther surface bounds
   double radius_edge = 1.4;  ///< TetGen's radius-edge bound
   double gap_layers = 0.0;   ///< layers of tetrahedra asked for where surfaces are close; 0: none
+  /// A cell may have up to this many times the volume of the regular tetrahedron of the wanted
+  /// edge. 2 gives a drop in a sphere about the number of nodes of hooper2001, table 1
+  /// (docs/volume-mesh.md).
+  double cell_volume = 2.0;
   void validate() const;
 };
 

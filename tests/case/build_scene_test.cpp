@@ -9,6 +9,7 @@
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/remesh.hpp"
 #include "tests/case/case_files.hpp"
 
 namespace meniscus {
@@ -183,6 +184,29 @@ TEST(BuildScene, SurfaceFromAFileIsShiftedAndScaled) {
   const Interface& drop = scene.interfaces[0];
   EXPECT_LT((enclosed_centroid(drop.mesh) - Vec3(3, 0, 0)).norm(), 0.01);
   EXPECT_NEAR(drop.volume, enclosed_volume(sphere(300, 2.0)), 1e-3);
+}
+
+TEST(BuildScene, CurvedFacesLeaveVerticesOnTheSurfaceFromAFile) {
+  // A spheroid of aspect 8 whose thin parts a shift by the flat faces' deficit would thin further.
+  const Vec3 axes(4.0, 0.5, 0.5);
+  const test::TemporaryFolder folder;
+  SurfaceMesh given = stretched_sphere(6000, axes);
+  for (int i = 0; i < 2; ++i) ASSERT_TRUE(remesh(given, {.C0 = 60.0, .restores_volume = false}).ok);
+  folder.write_stl("drop.stl", given);
+  const Scene scene =
+      build_scene(parse_case("[flow]\nkind = \"quiescent\"\n[[drop]]\nsurface = \"drop.stl\"\n"
+                             "nodes = 160\n[domain]\nshape = \"unbounded\"\n"
+                             "[solver]\nmethod = \"boundary-integral\"\n",
+                             "case.toml", folder.path()));
+  const Interface& drop = scene.interfaces[0];
+  EXPECT_NEAR(drop.volume / (4.0 / 3.0 * kPi * axes.prod()), 1.0, 1e-4);
+  EXPECT_LT(enclosed_volume(drop.mesh), 0.99 * drop.volume);
+  // With the volume of flat faces, 15 edges around, vertices would lie up to 0.0076 outside.
+  for (const Vec3& x : drop.mesh.x) {
+    const double level = x.cwiseQuotient(axes).norm() - 1.0;
+    const double distance = level / x.cwiseQuotient(axes.cwiseAbs2()).norm();
+    EXPECT_NEAR(distance, 0.0, 2e-3);
+  }
 }
 
 Archive archive_of(const std::vector<SurfaceMesh>& drops) {

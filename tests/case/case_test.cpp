@@ -51,6 +51,7 @@ TEST(Case, DefaultOptionsAreThoseOfTheRooms) {
   EXPECT_EQ(c.flow_solver.rtol, solver.rtol);
   EXPECT_EQ(c.flow_solver.max_iterations, solver.max_iterations);
   EXPECT_EQ(c.flow_solver.volume_mesh.grading, solver.volume_mesh.grading);
+  EXPECT_EQ(c.flow_solver.volume_mesh.cell_volume, solver.volume_mesh.cell_volume);
   EXPECT_EQ(c.flow_solver.volume_motion, solver.volume_motion);
   EXPECT_EQ(c.flow_solver.petsc_options, solver.petsc_options);
 }
@@ -91,6 +92,18 @@ TEST(Case, WordsBecomeOptions) {
   EXPECT_EQ(c.evolution.scheme, TimeScheme::euler);
   EXPECT_EQ(c.evolution.step_edges, StepEdges::mesh);
   EXPECT_EQ(c.flow_solver.volume_mesh.grading, Grading::gaussian);
+}
+
+TEST(Case, QuadraticElementsGetSmallCellsAroundTheDrops) {
+  const std::string elements = "[solver]\nelements = \"P2-P1\"\n";
+  const VolumeMeshOptions plain = shear_case(elements).flow_solver.volume_mesh;
+  EXPECT_EQ(plain.grading, Grading::gaussian);
+  EXPECT_EQ(plain.cell_volume, 1.5);
+  const VolumeMeshOptions told =
+      shear_case(elements + "[domain]\ngrading = \"linear\"\ncell-volume = 3.0\n")
+          .flow_solver.volume_mesh;
+  EXPECT_EQ(told.grading, Grading::linear);
+  EXPECT_EQ(told.cell_volume, 3.0);
 }
 
 TEST(Case, OverridesWinAndAddDrops) {

@@ -109,9 +109,10 @@ def check_breaking(folder):
         require(event["kind"] == "breakup" and event["gap"] == "", f"unexpected event {event}")
         require(abs(abs(float(event["x"])) - 1.4) < 0.3, f"the neck was cut at x = {event['x']}")
         check_conservation(event)
-    last = rows(folder, "drops.csv")
-    total = sum(float(d["volume"]) for d in last if d["step"] == last[-1]["step"])
-    require(abs(total / (4 / 3 * math.pi) - 1) < 1e-6, f"the fragments hold {total}")
+    drops = rows(folder, "drops.csv")
+    first, last = (sum(float(d["volume"]) for d in drops if d["step"] == step)
+                   for step in ("0", drops[-1]["step"]))
+    require(abs(last / first - 1) < 1e-6, f"the fragments hold {last} of {first}")
     return int(events[0]["step"])
 
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/linear/saddle_options.hpp"
 #include "tests/linear/chain.hpp"
 
 namespace meniscus::linear {
@@ -94,6 +95,22 @@ TEST(SaddleSolver, SingularSystemIsReportedByTheDirectMethod) {
   EXPECT_FALSE(report.reason.empty());
 }
 
+// An operator without any entry: whatever a method makes of it, it says that it found nothing.
+TEST(SaddleSolver, SingularBlockIsReported) {
+  Chain chain(20, false);
+  for (CsrMatrix* matrix : {&chain.A, &chain.B, &chain.C, &chain.laplacian})
+    std::ranges::fill(matrix->values, 0.0);
+  const std::vector<double> side(std::size_t(chain.system.size()), 1.0);
+  for (const SaddleMethod method : {SaddleMethod::block, SaddleMethod::paper_gmres,
+                                    SaddleMethod::minres, SaddleMethod::mumps}) {
+    SaddleSolver solver(Communicator::self(), {.method = method, .petsc_options = {}});
+    std::vector<double> u(side.size(), 0.0);
+    const LinearReport report = solver.solve(chain.system, side, u, 1e-8);
+    EXPECT_FALSE(report.converged) << name(method);
+    EXPECT_FALSE(report.reason.empty()) << name(method);
+  }
+}
+
 TEST(SaddleSolver, OptionsOverrideTheMethod) {
   const Chain chain(60, true);
   const std::vector<double> exact = random_solution(chain.system, 1);
@@ -125,6 +142,34 @@ TEST(SaddleSolver, PreparedIsKept) {
     const LinearReport second = prepared.solve(chain.system, side, b, 1e-8, Preconditioner::kept);
     EXPECT_TRUE(first.converged && second.converged);
     EXPECT_EQ(a, b);  // bit for bit
+  }
+}
+
+// What is kept belongs to the first system: the second, whose Laplacian is another, takes other
+// iterations than with its own.
+TEST(SaddleSolver, KeptIsNotMadeAnew) {
+  const Chain first(60, true);
+  Chain second(60, true);
+  for (std::size_t i = 0; i < 60; ++i) second.A.values[i] *= 3.0;
+  for (std::size_t k = 0; k < second.laplacian.values.size(); ++k)
+    second.laplacian.values[k] *= k < 90 ? 3.0 : 1.0;
+  const std::vector<double> exact = random_solution(first.system, 4);
+  const std::vector<double> side = product(merged(second.system, 1.0, 0.0).view(), exact);
+  SaddleSolver solver(Communicator::self(), {.petsc_options = {}});
+  std::vector<double> kept(exact.size(), 0.0), fresh(exact.size(), 0.0);
+  solver.prepare(first.system);
+  EXPECT_TRUE(solver.solve(second.system, side, kept, 1e-10, Preconditioner::kept).converged);
+  EXPECT_TRUE(solver.solve(second.system, side, fresh, 1e-10, Preconditioner::fresh).converged);
+  EXPECT_NE(kept, fresh);
+  EXPECT_LT(distance(kept, fresh), 1e-5);
+}
+
+// Where PETSc has no hypre nothing asks for it.
+TEST(SaddleOptions, DoWithoutHypre) {
+  for (const bool is_by_degree : {false, true}) {
+    const std::string options = default_options(SaddleMethod::block, is_by_degree, false);
+    EXPECT_EQ(options.find("hypre"), std::string::npos) << options;
+    EXPECT_NE(options.find("pc_type gamg"), std::string::npos) << options;
   }
 }
 

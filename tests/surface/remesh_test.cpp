@@ -294,7 +294,7 @@ TEST(RemeshOptions, NamesWhatIsWrong) {
   EXPECT_EQ(message([](RemeshOptions& o) { o.max_sweeps = 0; }),
             "remesh: max_sweeps = 0 must be at least 1");
   EXPECT_EQ(message([](RemeshOptions& o) { o.equilibrium = 1; }),
-            "remesh: equilibrium = 1 must be in (0, 1)");
+            "remesh: equilibrium = 1 must be in [0, 1)");
 }
 
 TEST(RestoreVolume, ReachesTheVolumeAlongAreaVectors) {

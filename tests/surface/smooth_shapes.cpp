@@ -135,8 +135,14 @@ SurfaceMesh meshed_level(const std::function<double(const Vec3&)>& level, const 
                          double reach, double edge) {
   SurfaceMesh mesh = MarchingTetrahedra(level, center, reach, 0.7 * edge).mesh;
   for (Vec3& x : mesh.x) x = on_level(level, x);
-  mesh = evened_out(mesh, edge);
-  for (Vec3& x : mesh.x) x = on_level(level, x);
+  // In one of two hundred shapes evening leaves a needle, which the way to the level folds over.
+  constexpr double kEvenAngleDeg = 20.0;
+  constexpr int kMostPasses = 5;
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    mesh = evened_out(mesh, edge);
+    for (Vec3& x : mesh.x) x = on_level(level, x);
+    if (smallest_angle_deg(mesh) > kEvenAngleDeg) break;
+  }
   return mesh;
 }
 

@@ -18,8 +18,8 @@ struct EventSoak {
   std::vector<std::string> log;
 };
 
-/// 5 to 30 drops of random sizes at random places, some of them in others, moved without remeshing
-/// faults by a sum of random Fourier modes that changes every few steps, until `events` events have
+/// 5 to 30 drops of random sizes at random places, some of them in others, carried by sums of
+/// random Fourier modes, each for some steps forth and as many back, until `events` events have
 /// happened or `max_steps` steps are done. The seed alone decides everything.
 [[nodiscard]] EventSoak event_soak(unsigned seed, int events, int max_steps);
 

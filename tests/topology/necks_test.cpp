@@ -1,6 +1,7 @@
 #include "meniscus/topology/necks.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -30,6 +31,19 @@ TEST(Necks, AreFoundAtTheThinnestSectionOfADumbbell) {
   EXPECT_NEAR(necks[0].radius, 0.05, 0.026 * 0.05);
   EXPECT_NEAR(std::abs(necks[0].axis.x()), 1.0, 0.01);
   EXPECT_NEAR(necks[0].center.norm(), 0.0, 0.05 * 0.5);
+}
+
+TEST(Section, EnclosesTheSmoothSurfacesAreaWithFewVertices) {
+  const SurfaceMesh mesh = sphere(60);
+  const SmoothSurface smooth(mesh, SurfaceTopology(mesh));
+  const SurfaceTree tree(mesh);
+  for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(1, 2, 3), Vec3(-2, 1, 0.3)}) {
+    const SectionResult cut = section_around(mesh, tree, Vec3::Zero(), axis.normalized(), 2.0);
+    ASSERT_EQ(cut.kind, SectionKind::closed);
+    const double circle = std::numbers::pi;
+    EXPECT_LT(cut.section.area, 0.96 * circle);
+    EXPECT_NEAR(smooth_area(cut.section, mesh, smooth), circle, 2e-3 * circle);
+  }
 }
 
 TEST(Necks, AreLeftAloneAboveTheLimit) { EXPECT_TRUE(necks_of(dumbbell(), 0.045).empty()); }

@@ -190,11 +190,26 @@ TEST(Tetrahedralize, RefusesScenesInConflictAndLeavesTheMeshAlone) {
 TEST(Tetrahedralize, RejectsOptionsOutOfRange) {
   const Scene scene = test::drop_in_sphere(60, 4.0, 60);
   TetMesh mesh;
-  VolumeMeshOptions growth, ratio;
+  VolumeMeshOptions growth, ratio, cells;
   growth.interior_growth = -0.1;
   ratio.radius_edge = 1.0;
+  cells.cell_volume = 0.0;
   EXPECT_THROW((void)tetrahedralize(scene, growth, mesh), InvalidInput);
   EXPECT_THROW((void)tetrahedralize(scene, ratio, mesh), InvalidInput);
+  EXPECT_THROW((void)tetrahedralize(scene, cells, mesh), InvalidInput);
+}
+
+TEST(Tetrahedralize, HalfTheCellVolumeDoublesTheCells) {
+  const Scene scene = test::drop_in_sphere(200, 10.0, 250);
+  VolumeMeshOptions options;
+  TetMesh coarse, fine;
+  ASSERT_TRUE(tetrahedralize(scene, options, coarse).ok);
+  options.cell_volume *= 0.5;
+  ASSERT_TRUE(tetrahedralize(scene, options, fine).ok);
+  // The cells at the surfaces are as large as their faces, whatever the bound.
+  const double ratio = static_cast<double>(fine.num_cells()) / coarse.num_cells();
+  EXPECT_GT(ratio, 1.5);
+  EXPECT_LT(ratio, 2.2);
 }
 
 SurfaceComplex complex_of(const std::vector<SurfaceMesh>& surfaces) {

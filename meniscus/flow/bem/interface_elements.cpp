@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <map>
 
-#include "meniscus/flow/bem/edge_interpolation.hpp"
 #include "meniscus/flow/bem/face_rules.hpp"
 #include "meniscus/flow/bem/quartic_curvature.hpp"
+#include "meniscus/surface/edge_interpolation.hpp"
 
 namespace meniscus::bem {
 namespace {

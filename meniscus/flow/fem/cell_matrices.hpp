@@ -18,8 +18,8 @@ struct CellMatrices {
   Eigen::Matrix<double, kRows, kRows> products;
   /// −∫ψ_k ∂_aφ_i at (k, 3i + a).
   Eigen::Matrix<double, 4, kRows> divergence;
-  Eigen::Matrix4d stabilisation;          ///< τ∫∇ψ_k·∇ψ_l; zero for P2
-  std::array<double, 4> pressure_mass{};  ///< ∫ψ_k/μ, lumped
+  Eigen::Matrix4d stabilisations;  ///< τ∫∇ψ_k·∇ψ_l; zero for P2
+  Eigen::Matrix4d masses;          ///< ∫ψ_kψ_l/μ
 
   CellMatrices(const StokesProblem& problem, std::span<const typename Element::Point> points,
                CellId c);
@@ -36,6 +36,16 @@ struct CellMatrices {
   [[nodiscard]] Vec3 divergence_of(std::size_t k, std::size_t j) const {
     return divergence.template block<1, 3>(static_cast<Eigen::Index>(k),
                                            static_cast<Eigen::Index>(3 * j));
+  }
+  [[nodiscard]] double stabilisation(std::size_t k, std::size_t l) const {
+    return stabilisations(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l));
+  }
+  [[nodiscard]] double consistent_mass(std::size_t k, std::size_t l) const {
+    return masses(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l));
+  }
+  /// ∫ψ_k/μ.
+  [[nodiscard]] double pressure_mass(std::size_t k) const {
+    return masses.col(static_cast<Eigen::Index>(k)).sum();
   }
   /// The same of the lower left block, which is B's in Newtonian liquids.
   [[nodiscard]] Vec3 lower_left_of(std::size_t k, std::size_t j) const {
@@ -57,7 +67,8 @@ template <class Element>
 CellMatrices<Element>::CellMatrices() {
   products.setZero();
   divergence.setZero();
-  stabilisation.setZero();
+  stabilisations.setZero();
+  masses.setZero();
 }
 
 template <class Element>
@@ -67,11 +78,10 @@ void CellMatrices<Element>::add(const typename Element::Point& point, double vis
   products.noalias() += (point.weight * viscosity * gradients) * gradients.transpose();
   const Eigen::Map<const Eigen::Vector4d> psi(point.pressure.data());
   divergence.noalias() -= (point.weight * psi) * gradients.transpose();
-  for (std::size_t k = 0; k < 4; ++k)
-    pressure_mass[k] += point.weight * point.pressure[k] / viscosity;
+  masses.noalias() += (point.weight / viscosity * psi) * psi.transpose();
   if constexpr (Element::is_stabilized)  // on cells with one point
-    stabilisation = pspg_parameter(point.weight, viscosity) * point.weight *
-                    point.gradient.transpose() * point.gradient;
+    stabilisations = pspg_parameter(point.weight, viscosity) * point.weight *
+                     point.gradient.transpose() * point.gradient;
 }
 
 template <class Element>

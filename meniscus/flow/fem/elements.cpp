@@ -74,14 +74,6 @@ Barycentric node_barycentric(std::size_t node) {
 
 }  // namespace
 
-LinearTetrahedron linear_tetrahedron(const std::array<Vec3, 4>& corners) {
-  const Vec3& o = corners[0];
-  const Vec3 e1 = corners[1] - o, e2 = corners[2] - o, e3 = corners[3] - o;
-  const Vec3 n1 = e2.cross(e3), n2 = e3.cross(e1), n3 = e1.cross(e2);
-  const double determinant = e1.dot(n1), scale = 1.0 / determinant;
-  return {determinant / 6.0, {-scale * (n1 + n2 + n3), scale * n1, scale * n2, scale * n3}};
-}
-
 std::span<const LinearElement::Point> LinearElement::points(CellId c) {
   const LinearTetrahedron tet = linear_tetrahedron(corners(positions_.x, space_.velocity.of(c)));
   Point& point = points_[0];

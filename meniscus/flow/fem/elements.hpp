@@ -27,7 +27,13 @@ struct LinearTetrahedron {
   double volume = 0.0;           ///< [R0³]
   std::array<Vec3, 4> gradient;  ///< of the barycentric coordinates [1/R0]
 };
-[[nodiscard]] LinearTetrahedron linear_tetrahedron(const std::array<Vec3, 4>& corners);
+[[nodiscard]] inline LinearTetrahedron linear_tetrahedron(const std::array<Vec3, 4>& corners) {
+  const Vec3& o = corners[0];
+  const Vec3 e1 = corners[1] - o, e2 = corners[2] - o, e3 = corners[3] - o;
+  const Vec3 n1 = e2.cross(e3), n2 = e3.cross(e1), n3 = e1.cross(e2);
+  const double determinant = e1.dot(n1), scale = 1.0 / determinant;
+  return {determinant / 6.0, {-scale * (n1 + n2 + n3), scale * n1, scale * n2, scale * n3}};
+}
 
 /// Stabilisation parameter τ = 0.25 h²/μ, h half the edge of the regular tetrahedron of equal
 /// volume, V = (2h)³/(6√2) (eq. 11 of hooper2001; the division by μ is not printed there).

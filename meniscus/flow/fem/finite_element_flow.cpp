@@ -141,7 +141,9 @@ class FiniteElementFlow final : public FlowSolver {
   void save(Archive& archive) const override {
     fem::save(mesh_, archive, "flow/mesh");
     if (state_) fem::save(*state_, archive, "flow/guess");
-    if (prepared_at_) save_positions(*prepared_at_, archive, "flow/preconditioner");
+    if (!prepared_at_) return;
+    save_positions(*prepared_at_, archive, "flow/preconditioner");
+    archive.integers["flow/preconditioner/iterations"] = {iterations_then_};
   }
   void load(const Archive& archive, const Scene& scene) override;
 
@@ -156,6 +158,7 @@ class FiniteElementFlow final : public FlowSolver {
     prepared_at_.reset();
   }
   void follow_interfaces(const Scene& scene);
+  void judge_preconditioner(const StokesProblem& problem, const StokesReport& report, bool is_kept);
   void take_solution(const Scene& scene, const InstantProblem& problem);
   void level_pressure();
   void restore_preconditioner(const Archive& archive, const Scene& scene);
@@ -167,9 +170,10 @@ class FiniteElementFlow final : public FlowSolver {
   std::optional<StokesSolver> stokes_;
   /// The last solution: the next solve's first guess while the topology stands.
   std::optional<StokesState> state_;
-  /// Where the nodes were when the preconditioner was made that the next solve will keep; none when
-  /// it is to make its own. Every preconditioner serves two solves: the stages of a step.
+  /// Where the nodes were when the preconditioner was made that the next solve will keep, and the
+  /// iterations of the solve that made it; none when the next is to make its own.
   std::optional<NodePositions> prepared_at_;
+  int iterations_then_ = 0;
   std::vector<VertexField<Vec3>> velocity_;
   std::vector<double> corner_pressure_;
   Power power_;
@@ -210,11 +214,7 @@ FlowReport FiniteElementFlow::solve(const Scene& scene, double t) {
   const StokesReport report = stokes_->solve(
       problem->stokes, *state_,
       is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh, times_);
-  // The steps of generalised-Newtonian liquids make their own.
-  const bool was_made = !is_kept && report.ok && report.solver == options_.linear &&
-                        report.iterations > 0 && !problem->stokes.is_generalised();
-  prepared_at_.reset();
-  if (was_made) prepared_at_ = problem->stokes.positions;
+  judge_preconditioner(problem->stokes, report, is_kept);
   FlowReport result = straightened_report(problem->stokes.positions);
   result.ok = report.ok;
   result.failure = report.failure;
@@ -223,6 +223,21 @@ FlowReport FiniteElementFlow::solve(const Scene& scene, double t) {
                          report.failed_solvers.end());
   if (report.ok) take_solution(scene, *problem);
   return result;
+}
+
+/// A preconditioner is kept while the topology stands and it saves more than it costs: to make one
+/// takes as long as three or four iterations (docs/benchmark-stokes.md).
+void FiniteElementFlow::judge_preconditioner(const StokesProblem& problem,
+                                             const StokesReport& report, bool is_kept) {
+  constexpr int kWorthOfOne = 3;
+  const bool is_own = report.ok && report.failed_solvers.empty() && report.iterations > 0 &&
+                      !problem.is_generalised();  // whose steps make their own
+  if (is_kept && report.ok && report.iterations == 0) return;
+  if (is_kept && is_own && report.iterations <= iterations_then_ + kWorthOfOne) return;
+  prepared_at_.reset();
+  if (is_kept || !is_own) return;
+  prepared_at_ = problem.positions;
+  iterations_then_ = report.iterations;
 }
 
 void FiniteElementFlow::take_solution(const Scene& scene, const InstantProblem& problem) {
@@ -284,6 +299,10 @@ void FiniteElementFlow::restore_preconditioner(const Archive& archive, const Sce
   if (prepared_at_->x.size() != space_.velocity.num_nodes ||
       prepared_at_->is_curved.size() != mesh_.num_cells())
     reject_input("checkpoint: flow/preconditioner/x does not fit the volume mesh");
+  const auto iterations = archive.integers.find("flow/preconditioner/iterations");
+  if (iterations == archive.integers.end() || iterations->second.size() != 1)
+    reject_input("checkpoint: flow/preconditioner/iterations is missing");
+  iterations_then_ = static_cast<int>(iterations->second.front());
   // Time and surface tension matter to the right-hand side alone.
   stokes_->prepare(
       instant_problem(scene, mesh_, space_, *prepared_at_, CapillaryForm::weak, 0.0).stokes);

@@ -1,6 +1,7 @@
 #include "meniscus/flow/fem/node_graph.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "meniscus/core/error.hpp"
 
@@ -53,11 +54,13 @@ NodeGraph node_graph(const NodeTable& rows, const NodeTable& columns) {
         }
     std::sort(graph.columns.begin() + start, graph.columns.end());
     const auto end = static_cast<std::int32_t>(graph.columns.size());
+    MENISCUS_ASSERT(end - start <= std::numeric_limits<std::uint16_t>::max(), "{}", end - start);
     for (std::int32_t k = start; k < end; ++k) index_of[at(graph.columns[at(k)])] = k;
     for (const std::int32_t place : places) {
       const auto nodes = columns.of(CellId{place / rows.nodes_per_cell});
       for (std::size_t b = 0; b < at(width); ++b)
-        graph.position[at(place) * at(width) + b] = index_of[at(nodes[b])];
+        graph.position[at(place) * at(width) + b] =
+            static_cast<std::uint16_t>(index_of[at(nodes[b])] - start);
     }
     graph.row_start.push_back(end);
   }

@@ -13,14 +13,19 @@ namespace meniscus::fem {
 struct NodeGraph {
   std::int32_t num_columns = 0;
   std::vector<std::int32_t> row_start, columns;
-  /// Index into `columns` of local pair (a, b) of cell c, at (c·rows_per_cell + a)·columns_per_cell
+  /// Which entry of its row local pair (a, b) of cell c is, at (c·rows_per_cell +
+  /// a)·columns_per_cell
   /// + b.
-  std::vector<std::int32_t> position;
+  std::vector<std::uint16_t> position;
 
   [[nodiscard]] std::int32_t num_rows() const {
     return static_cast<std::int32_t>(row_start.size()) - 1;
   }
   [[nodiscard]] std::size_t num_entries() const { return columns.size(); }
+  /// Index into `columns` of the local pair at `position[pair]`, whose row is given.
+  [[nodiscard]] std::size_t entry(std::int32_t row, std::size_t pair) const {
+    return static_cast<std::size_t>(row_start[static_cast<std::size_t>(row)]) + position[pair];
+  }
 };
 [[nodiscard]] NodeGraph node_graph(const NodeTable& rows, const NodeTable& columns);
 

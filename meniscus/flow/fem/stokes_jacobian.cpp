@@ -1,7 +1,9 @@
 #include "meniscus/flow/fem/stokes_jacobian.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
+#include "meniscus/flow/fem/block_rows.hpp"
 #include "meniscus/flow/fem/cell_matrices.hpp"
 #include "meniscus/linear/collective.hpp"
 
@@ -9,38 +11,6 @@ namespace meniscus::fem {
 namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-/// Adds a 3 × 3 block at entry k of the graph, which lies in row i (see ScalarPattern).
-void add_block(std::vector<double>& values, const NodeGraph& graph, std::int32_t i, std::int32_t k,
-               const Mat3& block) {
-  const std::int32_t start = graph.row_start[at(i)];
-  const std::size_t width = 3 * at(graph.row_start[at(i) + 1] - start);
-  double* row = values.data() + 9 * at(start) + 3 * at(k - start);
-  for (Eigen::Index a = 0; a < 3; ++a, row += width)
-    for (Eigen::Index b = 0; b < 3; ++b) row[b] += block(a, b);
-}
-
-/// Rows and columns of fixed components go, but for the diagonal.
-void eliminate(Mat3& block, const NodeConstraint* row, const NodeConstraint* column,
-               bool is_diagonal) {
-  if (row != nullptr && row->is_rotated()) block = row->frame.transpose() * block;
-  if (column != nullptr && column->is_rotated()) block = block * column->frame;
-  for (Eigen::Index a = 0; a < 3; ++a)
-    for (Eigen::Index b = 0; b < 3; ++b) {
-      const bool is_fixed = (row != nullptr && row->is_fixed[static_cast<std::size_t>(a)]) ||
-                            (column != nullptr && column->is_fixed[static_cast<std::size_t>(b)]);
-      if (is_fixed && !(is_diagonal && a == b)) block(a, b) = 0.0;
-    }
-}
-
-/// The part of a row of B that multiplies the free components of one node.
-Vec3 free_divergence(const Vec3& divergence, const NodeConstraint* column) {
-  if (column == nullptr) return divergence;
-  Vec3 local = column->frame.transpose() * divergence;
-  for (std::size_t b = 0; b < 3; ++b)
-    if (column->is_fixed[b]) local[static_cast<Eigen::Index>(b)] = 0.0;
-  return local;
-}
 
 /// Linear functions as quadratic ones: a vertex keeps its value, the middle of an edge has the mean
 /// of its ends. Fixed nodes are zero, but that fixed vertices keep their own equation.
@@ -107,24 +77,31 @@ void StokesJacobian::choose_laplacians(const Constraints& constraints) {
     linear::CsrMatrix from_linear;
     if (!coarse_.ends.empty())
       from_linear = interpolation_from_linear(coarse_, own_.num_nodes, is_fixed);
-    laplacians_.push_back({std::move(is_fixed),
-                           std::vector<double>(velocity_graph_.num_entries(), 0.0),
-                           std::move(from_linear)});
+    laplacians_.push_back({std::move(is_fixed), {}, std::move(from_linear)});
   }
 }
 
 void StokesJacobian::assemble(const StokesProblem& problem, const Linearization* about) {
   choose_laplacians(problem.constraints);
-  A_.assign(9 * velocity_graph_.num_entries(), 0.0);
-  B_.assign(3 * coupling_graph_.num_entries(), 0.0);
+  constant_pressure_is_null_ = !problem.has_open_boundary;
   C_.assign(pressure_graph_.num_entries(), 0.0);
   pressure_mass_.assign(at(pressure_graph_.num_rows()), 0.0);
+  consistent_mass_.assign(space_.elements == Elements::p2_p1 ? C_.size() : 0, 0.0);
   const bool has_lower_left = about != nullptr && about->kind == Linearization::Kind::newton &&
                               space_.elements == Elements::p1_p1;
-  lower_left_.assign(has_lower_left ? B_.size() : 0, 0.0);
-  constant_pressure_is_null_ = !problem.has_open_boundary;
+  lower_left_.assign(has_lower_left ? 3 * coupling_graph_.num_entries() : 0, 0.0);
+  A_.assign(9 * velocity_graph_.num_entries(), 0.0);
+  B_.assign(3 * coupling_graph_.num_entries(), 0.0);
+  for (Laplacian& laplacian : laplacians_)
+    laplacian.values.assign(velocity_graph_.num_entries(), 0.0);
   with_element(space_, problem.positions,
                [&](auto& element) { add_cells(problem, about, element); });
+}
+
+bool StokesJacobian::is_free(const Constraints& constraints, CellId c) const {
+  return std::ranges::none_of(space_.velocity.of(c), [&](std::int32_t i) {
+    return constraints.find(NodeId{i}) != nullptr;
+  });
 }
 
 template <class Element>
@@ -133,6 +110,9 @@ void StokesJacobian::add_cells(const StokesProblem& problem, const Linearization
   for (const CellId c : problem.mesh.cells.ids()) {
     if (about != nullptr && problem.law(c) != nullptr)
       add_cell(problem, TangentMatrices<Element>(problem, element.points(c), c, *about), c);
+    else if (std::is_same_v<Element, LinearElement> && lower_left_.empty() &&
+             is_free(problem.constraints, c))
+      add_free_linear_cell(problem, c);
     else
       add_cell(problem, CellMatrices<Element>(problem, element.points(c), c), c);
   }
@@ -140,10 +120,7 @@ void StokesJacobian::add_cells(const StokesProblem& problem, const Linearization
 
 template <class Matrices>
 void StokesJacobian::add_cell(const StokesProblem& problem, const Matrices& matrices, CellId c) {
-  const bool is_free = std::ranges::all_of(space_.velocity.of(c), [&](std::int32_t i) {
-    return problem.constraints.find(NodeId{i}) == nullptr;
-  });
-  if (is_free)
+  if (is_free(problem.constraints, c))
     add_free_cell(matrices, c);
   else
     add_constrained_cell(problem, matrices, c);
@@ -151,21 +128,31 @@ void StokesJacobian::add_cell(const StokesProblem& problem, const Matrices& matr
   add_pressure_blocks(matrices, c);
 }
 
+/// Where B or what stands on its pattern joins pressure k and velocity j of a cell.
+Eigen::Map<Vec3> StokesJacobian::coupling(std::vector<double>& values, CellId c, std::size_t k,
+                                          std::size_t j) const {
+  const auto n = static_cast<std::size_t>(space_.velocity.nodes_per_cell);
+  return Eigen::Map<Vec3>(values.data() + 3 * coupling_graph_.entry(space_.pressure.nodes.of(c)[k],
+                                                                    n * (4 * at(c.value) + k) + j));
+}
+
 template <class Matrices>
 void StokesJacobian::add_free_cell(const Matrices& matrices, CellId c) {
   constexpr std::size_t n = Matrices::num_nodes;
   const auto nodes = space_.velocity.of(c);
-  const std::size_t first = n * n * at(c.value), first_coupling = 4 * n * at(c.value);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j) {
-      const std::int32_t k = velocity_graph_.position[first + n * i + j];
-      add_block(A_, velocity_graph_, nodes[i], k, matrices.viscous_block(i, j));
-      for (Laplacian& laplacian : laplacians_) laplacian.values[at(k)] += matrices.laplacian(i, j);
-    }
-  for (std::size_t k = 0; k < 4; ++k)
+  const std::size_t first = n * n * at(c.value);
+  for (std::size_t i = 0; i < n; ++i) {
+    const BlockRows rows(A_, velocity_graph_, nodes[i]);
     for (std::size_t j = 0; j < n; ++j)
-      Eigen::Map<Vec3>(B_.data() + 3 * at(coupling_graph_.position[first_coupling + n * k + j])) +=
-          matrices.divergence_of(k, j);
+      rows.add(velocity_graph_.position[first + n * i + j], matrices.viscous_block(i, j));
+  }
+  for (Laplacian& laplacian : laplacians_)
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        laplacian.values[velocity_graph_.entry(nodes[i], first + n * i + j)] +=
+            matrices.laplacian(i, j);
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t j = 0; j < n; ++j) coupling(B_, c, k, j) += matrices.divergence_of(k, j);
 }
 
 template <class Matrices>
@@ -173,24 +160,24 @@ void StokesJacobian::add_constrained_cell(const StokesProblem& problem, const Ma
                                           CellId c) {
   constexpr std::size_t n = Matrices::num_nodes;
   const auto nodes = space_.velocity.of(c);
-  const std::size_t first = n * n * at(c.value), first_coupling = 4 * n * at(c.value);
+  const std::size_t first = n * n * at(c.value);
   std::array<const NodeConstraint*, n> constraints{};
   for (std::size_t i = 0; i < n; ++i) constraints[i] = problem.constraints.find(NodeId{nodes[i]});
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {
-      const std::int32_t k = velocity_graph_.position[first + n * i + j];
+      const std::size_t pair = first + n * i + j;
       Mat3 block = matrices.viscous_block(i, j);
       eliminate(block, constraints[i], constraints[j], i == j);
-      add_block(A_, velocity_graph_, nodes[i], k, block);
+      BlockRows(A_, velocity_graph_, nodes[i]).add(velocity_graph_.position[pair], block);
       for (Laplacian& laplacian : laplacians_) {
         const bool is_fixed = laplacian.is_fixed[at(nodes[i])] || laplacian.is_fixed[at(nodes[j])];
-        if (!is_fixed || i == j) laplacian.values[at(k)] += matrices.laplacian(i, j);
+        if (!is_fixed || i == j)
+          laplacian.values[velocity_graph_.entry(nodes[i], pair)] += matrices.laplacian(i, j);
       }
     }
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t j = 0; j < n; ++j)
-      Eigen::Map<Vec3>(B_.data() + 3 * at(coupling_graph_.position[first_coupling + n * k + j])) +=
-          free_divergence(matrices.divergence_of(k, j), constraints[j]);
+      coupling(B_, c, k, j) += free_divergence(matrices.divergence_of(k, j), constraints[j]);
 }
 
 template <class Matrices>
@@ -198,10 +185,9 @@ void StokesJacobian::add_lower_left(const StokesProblem& problem, const Matrices
                                     CellId c) {
   constexpr std::size_t n = Matrices::num_nodes;
   const auto nodes = space_.velocity.of(c);
-  const std::size_t first = 4 * n * at(c.value);
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t j = 0; j < n; ++j)
-      Eigen::Map<Vec3>(lower_left_.data() + 3 * at(coupling_graph_.position[first + n * k + j])) +=
+      coupling(lower_left_, c, k, j) +=
           free_divergence(matrices.lower_left_of(k, j), problem.constraints.find(NodeId{nodes[j]}));
 }
 
@@ -209,10 +195,12 @@ template <class Matrices>
 void StokesJacobian::add_pressure_blocks(const Matrices& matrices, CellId c) {
   const auto nodes = space_.pressure.nodes.of(c);
   for (std::size_t i = 0; i < 4; ++i) {
-    pressure_mass_[at(nodes[i])] += matrices.pressure_mass[i];
-    for (std::size_t j = 0; j < 4; ++j)
-      C_[at(pressure_graph_.position[16 * at(c.value) + 4 * i + j])] +=
-          matrices.stabilisation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    pressure_mass_[at(nodes[i])] += matrices.pressure_mass(i);
+    for (std::size_t j = 0; j < 4; ++j) {
+      const std::size_t k = pressure_graph_.entry(nodes[i], 16 * at(c.value) + 4 * i + j);
+      C_[k] += matrices.stabilisation(i, j);
+      if (!consistent_mass_.empty()) consistent_mass_[k] += matrices.consistent_mass(i, j);
+    }
   }
 }
 
@@ -228,6 +216,10 @@ linear::SaddleSystem StokesJacobian::system() const {
     if (!coarse_.ends.empty()) system.interpolations.push_back(laplacian.from_linear.view());
   }
   system.lower_left = lower_left_;
+  if (!consistent_mass_.empty()) {
+    system.consistent_mass = system.C;
+    system.consistent_mass.values = consistent_mass_;
+  }
   system.laplacian_of = laplacian_of_;
   system.pressure_mass = std::span(pressure_mass_).first(at(num_pressures));
   system.constant_pressure_is_null = constant_pressure_is_null_;

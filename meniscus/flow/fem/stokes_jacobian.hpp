@@ -27,10 +27,16 @@ class StokesJacobian {
 
  private:
   void choose_laplacians(const Constraints& constraints);
+  [[nodiscard]] Eigen::Map<Vec3> coupling(std::vector<double>& values, CellId c, std::size_t k,
+                                          std::size_t j) const;
+  /// Whether no node of a cell is constrained.
+  [[nodiscard]] bool is_free(const Constraints& constraints, CellId c) const;
   template <class Element>
   void add_cells(const StokesProblem& problem, const Linearization* about, Element& element);
   template <class Matrices>
   void add_cell(const StokesProblem& problem, const Matrices& matrices, CellId c);
+  /// A cell of linear elements without constraints on a Newtonian liquid.
+  void add_free_linear_cell(const StokesProblem& problem, CellId c);
   template <class Matrices>
   void add_free_cell(const Matrices& matrices, CellId c);
   template <class Matrices>
@@ -58,7 +64,8 @@ class StokesJacobian {
   NodeGraph velocity_graph_, coupling_graph_, pressure_graph_;
   ScalarPattern A_pattern_, B_pattern_;
   std::vector<double> A_, B_, C_, pressure_mass_;
-  std::vector<double> lower_left_;  ///< on B's pattern; empty where it is B
+  std::vector<double> consistent_mass_;  ///< on C's pattern; of P2-P1 alone
+  std::vector<double> lower_left_;       ///< on B's pattern; empty where it is B
   std::vector<Laplacian> laplacians_;
   std::array<int, 3> laplacian_of_ = {0, 0, 0};
   bool constant_pressure_is_null_ = false;

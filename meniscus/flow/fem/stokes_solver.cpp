@@ -41,6 +41,13 @@ std::vector<LinearSolver> solvers_in_order(LinearSolver first, const FlowSpace& 
   return order;
 }
 
+/// What every solver tried adds to the books.
+void add_cost(StokesReport& report, const linear::LinearReport& linear_report) {
+  report.iterations += linear_report.iterations;
+  report.setup_seconds += linear_report.setup_seconds;
+  report.krylov_seconds += linear_report.solve_seconds;
+}
+
 /// −R with the fixed components zero, in the frames of the unknowns.
 std::vector<double> right_hand_side(const StokesResidual& residual, const StokesProblem& problem) {
   const OwnPart own = own_part(problem);
@@ -161,24 +168,25 @@ StokesReport StokesSolver::solve_part(const StokesProblem& problem, StokesState&
     return report;
   }
   if (problem.is_generalised()) return solve_generalised(problem, state, reference, times);
-  int iterations = 0;
-  std::vector<std::string> failed;
+  StokesReport before;  // of the solvers that failed
   std::vector<LinearSolver> order = solvers_in_order(options_.linear, space_);
   if (preconditioner == linear::Preconditioner::kept) order.insert(order.begin(), order.front());
   for (const LinearSolver which : order) {
     StokesState attempt = state;
     report = solve_with(which, problem, attempt, reference, preconditioner, times);
     preconditioner = linear::Preconditioner::fresh;
-    iterations += report.iterations;
-    report.iterations = iterations;
-    report.failed_solvers = failed;
+    report.iterations += before.iterations;
+    report.setup_seconds += before.setup_seconds;
+    report.krylov_seconds += before.krylov_seconds;
+    report.failed_solvers = before.failed_solvers;
     if (report.ok) {
       state = std::move(attempt);
       return report;
     }
-    failed.push_back(
+    before = report;
+    before.failed_solvers.push_back(
         fmt::format("linear solver {}: {}", linear::name(method(which)), report.failure));
-    log::warning("{}; trying another way", failed.back());
+    log::warning("{}; trying another way", before.failed_solvers.back());
   }
   return report;
 }
@@ -203,7 +211,7 @@ StokesReport StokesSolver::solve_with(LinearSolver which, const StokesProblem& p
     const linear::LinearReport linear_report =
         linear_solver(which).solve(jacobian_.system(), right_hand_side(now, problem), step,
                                    target / report.residual, preconditioner);
-    report.iterations += linear_report.iterations;
+    add_cost(report, linear_report);
     report.linear_residuals = linear_report.residuals;
     if (!linear_report.converged) {
       report.ok = false;
@@ -233,7 +241,7 @@ bool StokesSolver::linear_step(const StokesProblem& problem, const StokesResidua
     std::ranges::fill(values, 0.0);
     const linear::LinearReport linear_report = linear_solver(which).solve(
         jacobian_.system(), right, values, rtol, linear::Preconditioner::fresh);
-    report.iterations += linear_report.iterations;
+    add_cost(report, linear_report);
     report.linear_residuals = linear_report.residuals;
     if (linear_report.converged) {
       report.solver = which;  // and first to be asked in the next step

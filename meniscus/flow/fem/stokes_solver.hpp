@@ -27,6 +27,8 @@ struct [[nodiscard]] StokesReport {
   LinearSolver solver = LinearSolver::block;  ///< the one that gave the answer
   std::vector<double> linear_residuals;       ///< of its last solve
   std::vector<std::string> failed_solvers;    ///< each with its reason, before that one
+  /// Processor time of this process in making preconditioners and in iterating, of all.
+  double setup_seconds = 0.0, krylov_seconds = 0.0;
   std::vector<double> residuals;  ///< with laws of viscosity: before each step, and at last
 };
 

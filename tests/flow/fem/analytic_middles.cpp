@@ -12,9 +12,7 @@ namespace meniscus::fem {
 VertexField<Vec3> velocity_with_middles(const Scene& scene, const Method& method,
                                         const std::function<Vec3(VertexId, VertexId)>& middle) {
   TetMesh mesh;
-  VolumeMeshOptions volume_mesh;
-  volume_mesh.grading = method.grading;
-  if (const VolumeMeshReport made = tetrahedralize(scene, volume_mesh, mesh); !made.ok)
+  if (const VolumeMeshReport made = tetrahedralize(scene, method.volume_mesh, mesh); !made.ok)
     throw std::runtime_error(made.failure);
   const FlowSpace space = flow_space(mesh, method.elements);
   const Interface& drop = scene.interfaces[0];

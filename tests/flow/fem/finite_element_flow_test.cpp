@@ -104,6 +104,53 @@ TEST(FiniteElementFlow, ARestoredSolverDoesTheSameArithmetic) {
   }
 }
 
+// One hierarchy and the guess serve all solves while the topology stands and nothing has moved far;
+// both go into the checkpoint, and with the topology.
+TEST(FiniteElementFlow, KeepsItsPreconditionerAndItsGuessWhileTheTopologyStands) {
+  const Scene scene = shear_scene();
+  const auto flow = make_finite_element_flow({});
+  const auto saved = [&] {
+    Archive archive;
+    flow->save(archive);
+    return archive;
+  };
+  for (int topology = 0; topology < 2; ++topology) {
+    ASSERT_TRUE(flow->rebuild(scene).ok);
+    EXPECT_FALSE(saved().reals.contains("flow/preconditioner/x"));
+    EXPECT_FALSE(saved().reals.contains("flow/guess/velocity"));
+    Scene moved = scene;
+    ASSERT_TRUE(flow->solve(moved, 0.0).ok);
+    const Archive first = saved();
+    for (int stage = 0; stage < 4; ++stage) {
+      for (Vec3& x : moved.interfaces[0].mesh.x) x[0] *= 1.001;
+      ASSERT_TRUE(flow->solve(moved, 0.0).ok);
+      EXPECT_EQ(saved().reals.at("flow/preconditioner/x"), first.reals.at("flow/preconditioner/x"));
+      EXPECT_NE(saved().reals.at("flow/guess/velocity"), first.reals.at("flow/guess/velocity"));
+    }
+  }
+}
+
+// A factorisation of what is no longer there soon costs more iterations than it is worth.
+TEST(FiniteElementFlow, APreconditionerThatNoLongerFitsIsGivenUp) {
+  Scene scene = shear_scene();
+  Options options;
+  options.linear = LinearSolver::mumps;
+  const auto flow = make_finite_element_flow(options);
+  ASSERT_TRUE(flow->rebuild(scene).ok);
+  ASSERT_TRUE(flow->solve(scene, 0.0).ok);
+  scene.liquids[RegionId{1}].viscosity *= 10.0;
+  const FlowReport kept = flow->solve(scene, 0.0);
+  ASSERT_TRUE(kept.ok);
+  EXPECT_GT(kept.iterations, 4);
+  Archive archive;
+  flow->save(archive);
+  EXPECT_FALSE(archive.reals.contains("flow/preconditioner/x"));
+  for (Vec3& x : scene.interfaces[0].mesh.x) x[0] *= 1.001;
+  const FlowReport fresh = flow->solve(scene, 0.0);
+  ASSERT_TRUE(fresh.ok);
+  EXPECT_LE(fresh.iterations, 2);
+}
+
 TEST(FiniteElementFlow, ADamagedCheckpointIsRefused) {
   const Scene scene = shear_scene();
   const auto flow = make_finite_element_flow({});

@@ -19,10 +19,11 @@ TEST(NodeGraph, PositionsNameTheColumnsOfEveryCell) {
     for (std::size_t a = 0; a < 4; ++a)
       for (std::size_t b = 0; b < 4; ++b) {
         const auto row = static_cast<std::size_t>(nodes.of(c)[a]);
-        const std::int32_t k = graph.position[16 * static_cast<std::size_t>(c.value) + 4 * a + b];
-        EXPECT_GE(k, graph.row_start[row]);
-        EXPECT_LT(k, graph.row_start[row + 1]);
-        EXPECT_EQ(graph.columns[static_cast<std::size_t>(k)], nodes.of(c)[b]);
+        const std::size_t k =
+            graph.entry(nodes.of(c)[a], 16 * static_cast<std::size_t>(c.value) + 4 * a + b);
+        EXPECT_GE(k, static_cast<std::size_t>(graph.row_start[row]));
+        EXPECT_LT(k, static_cast<std::size_t>(graph.row_start[row + 1]));
+        EXPECT_EQ(graph.columns[k], nodes.of(c)[b]);
       }
 }
 

@@ -117,17 +117,17 @@ TEST(QuadraticElements, WhatTheyCannotDoIsRefused) {
 
 const Method p2(CapillaryForm::weak, Elements::p2_p1);
 
-// Measured: 9.6e-4 and 4.2e-4; elsewhere, with other meshes of this size, 1.2e-3 and 5.1e-4.
+// Measured: 1.1e-3 and 5.2e-4, by a fifth different from mesh to mesh; they fall as 1/N0^1.5.
 TEST(QuadraticDrop, SpuriousVelocitiesAreSmall) {
-  EXPECT_LT(static_sphere(110, p2).largest_velocity, 1.2e-3);
-  EXPECT_LT(static_sphere(200, p2).largest_velocity, 5.1e-4);
+  EXPECT_LT(static_sphere(110, p2).largest_velocity, 1.4e-3);
+  EXPECT_LT(static_sphere(200, p2).largest_velocity, 6.5e-4);
 }
 
-// Measured: −1.2e-3 at λ = 0.1 and +3.2e-3 at λ = 10, half of it the quadratic fit that gives the
-// vertices their velocity; linear elements have errors of −4e-2 and +8e-2 at 200 vertices.
+// Measured: −5.7e-4 at λ = 0.1 and +1.6e-3 at λ = 10; linear elements have errors of −4e-2 and
+// +8e-2 at 200 vertices.
 TEST(QuadraticDrop, StretchesAtTheExactRate) {
-  EXPECT_NEAR(measured_stretching(200, 0.1, 10.0, p2) / exact_stretching(0.1, 10.0), 1.0, 2e-3);
-  EXPECT_NEAR(measured_stretching(200, 10.0, 10.0, p2) / exact_stretching(10.0, 10.0), 1.0, 5e-3);
+  EXPECT_NEAR(measured_stretching(200, 0.1, 10.0, p2) / exact_stretching(0.1, 10.0), 1.0, 1e-3);
+  EXPECT_NEAR(measured_stretching(200, 10.0, 10.0, p2) / exact_stretching(10.0, 10.0), 1.0, 2.5e-3);
 }
 
 }  // namespace

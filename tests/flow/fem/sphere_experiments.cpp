@@ -22,9 +22,7 @@ std::unique_ptr<FlowSolver> solved(const Scene& scene, const Method& method) {
   options.elements = method.elements;
   options.capillary = method.form;
   options.rtol = method.rtol;
-  options.volume_mesh.interior_growth =
-      0.5;  // of size per distance inside the drop; does not scale with N0
-  options.volume_mesh.grading = method.grading;
+  options.volume_mesh = method.volume_mesh;
   auto flow = make_finite_element_flow(options);
   if (const FlowReport made = flow->rebuild(scene); !made.ok)
     throw std::runtime_error(made.failure);
@@ -98,7 +96,8 @@ double extrapolated_decay(MakeScene make_scene, int l, const Method& method) {
 }  // namespace
 
 StaticSphere static_sphere(int num_vertices, const Method& method) {
-  const Scene scene = sphere_in_sphere({.num_vertices = num_vertices});
+  const Scene scene =
+      sphere_in_sphere({.num_vertices = num_vertices, .outer_per_inner = method.outer_per_inner});
   const auto flow = solved(scene, method);
   StaticSphere result;
   for (const Vec3& v : flow->mesh_velocity())

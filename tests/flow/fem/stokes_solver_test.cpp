@@ -142,6 +142,52 @@ TEST(StokesSolver, AFailedSolverIsReplaced) {
   EXPECT_LT(report.residual, 2.1e-6 * report.reference);
 }
 
+// All iterations refused: small problems end with the direct solver.
+TEST_P(EitherElement, TheLastResortOfSmallProblemsIsDirect) {
+  const ShearedDrop drop(GetParam());
+  const StokesProblem problem = drop.problem();
+  Options options;
+  options.max_iterations = 3;
+  StokesSolver solver(drop.space, with(GetParam(), options));
+  StokesState state = solver.state_at_rest();
+  PhaseTimes times;
+  const StokesReport report = solver.solve(problem, state, linear::Preconditioner::kept, times);
+  ASSERT_TRUE(report.ok) << report.failure;
+  EXPECT_EQ(report.solver, LinearSolver::mumps);
+  EXPECT_LT(report.residual, 2.1e-6 * report.reference);
+  std::vector<std::string> expected = {"block", "block", "minres", "paper-gmres"};
+  if (GetParam() == Elements::p2_p1) expected.pop_back();  // it scales by a diagonal they lack
+  ASSERT_EQ(report.failed_solvers.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_EQ(report.failed_solvers[i], "linear solver " + expected[i] + ": DIVERGED_ITS");
+}
+
+// Large ones do without: a factorisation would not fit. The report has the history of the last.
+TEST(StokesSolver, FailureOfAllIsReported) {
+  const Scene scene = sphere_in_sphere({.num_vertices = 300});
+  TetMesh mesh;
+  ASSERT_TRUE(tetrahedralize(scene, {}, mesh).ok);
+  const FlowSpace space = flow_space(mesh, Elements::p2_p1);
+  ASSERT_GT(space.velocity.num_nodes, 20000);
+  StokesProblem problem(mesh, space, node_positions(scene, mesh, space));
+  for (const NodeId i : problem.load.ids()) problem.load[i] = problem.positions.x[i];
+  problem.has_open_boundary = true;
+  Options options;
+  options.max_iterations = 2;
+  StokesSolver solver(space, with(Elements::p2_p1, options));
+  StokesState state = solver.state_at_rest();
+  const StokesReport report = solve(problem, solver, state);
+  EXPECT_FALSE(report.ok);
+  EXPECT_EQ(report.failure, "DIVERGED_ITS");
+  EXPECT_EQ(report.solver, LinearSolver::minres);
+  ASSERT_EQ(report.linear_residuals.size(), 3u);
+  EXPECT_GT(report.linear_residuals[0], report.linear_residuals[2]);
+  EXPECT_EQ(report.failed_solvers.size(), 1u);
+  const StokesState rest = solver.state_at_rest();
+  EXPECT_EQ(state.v, rest.v);
+  EXPECT_EQ(state.p, rest.p);
+}
+
 TEST(StokesSolver, DataThatAreNotFiniteAreReported) {
   const ShearedDrop drop;
   StokesProblem problem = drop.problem();

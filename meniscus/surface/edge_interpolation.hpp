@@ -4,7 +4,7 @@
 
 #include "meniscus/surface/smooth_surface.hpp"
 
-namespace meniscus::bem {
+namespace meniscus {
 
 /// A linear function of vertex values.
 struct VertexWeight {
@@ -38,4 +38,4 @@ class VertexInterpolation {
                                                  const VertexField<Vec3>& normals,
                                                  const std::vector<Vec3>& middles);
 
-}  // namespace meniscus::bem
+}  // namespace meniscus

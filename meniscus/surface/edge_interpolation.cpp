@@ -1,10 +1,10 @@
-#include "meniscus/flow/bem/edge_interpolation.hpp"
+#include "meniscus/surface/edge_interpolation.hpp"
 
 #include <algorithm>
 
 #include <Eigen/Cholesky>
 
-namespace meniscus::bem {
+namespace meniscus {
 namespace {
 
 using Coefficients = Eigen::Matrix<double, 5, 1>;
@@ -87,4 +87,4 @@ std::vector<Stencil> edge_stencils(const SurfaceMesh& mesh, const SurfaceTopolog
   return stencils;
 }
 
-}  // namespace meniscus::bem
+}  // namespace meniscus
