@@ -58,6 +58,8 @@ EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elem
   if (options.min_step > options.max_step)
     settings.reject("time.min-step", "must be at most time.max-step = {} (unit: 1/G)",
                     options.max_step);
+  options.follows_drops =
+      settings.choice<bool>("domain.frame", {{"fixed", false}, {"drops", true}});
   options.remesh_every = settings.whole("interface.remesh-every");
   options.edge_floor =
       settings.number_or("interface.edge-floor", 0.5 * settings.number("topology.breakup-radius"));

@@ -340,6 +340,13 @@ const std::vector<Key> kKeys{
      .sentence =
          "A tetrahedron is divided while its volume exceeds this many times that of the regular "
          "one of the wanted edge: halving it doubles the nodes between the surfaces."},
+    {.path = "domain.frame",
+     .type = word,
+     .words = {"fixed", "drops"},
+     .value = "fixed"s,
+     .sentence = "drops: the domain and the imposed flow move along with the drops, whose common "
+                 "centroid stays where it was at the start, as experiments hold a drop at a "
+                 "stagnation point; an extensional flow carries it away otherwise."},
 
     {.path = "domain.patch[].name",
      .type = text,

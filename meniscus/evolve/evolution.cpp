@@ -96,6 +96,7 @@ Evolution::Evolution(Scene scene, const EvolutionOptions& options, std::unique_p
     : scene_(std::move(scene)),
       options_(options),
       flow_(std::move(flow)),
+      centroid_(centroid_of_drops(scene_)),
       correction_(scene_.interfaces.size(), 0.0) {}
 
 EvolutionReport Evolution::prepare() {
@@ -166,6 +167,7 @@ EvolutionReport Evolution::finish_step(const Scene& start, const InterfaceMotion
   move_interfaces(scene_, motion, dt);
   for (const Interface& interface : scene_.interfaces)
     if (!is_finite(interface.mesh)) return {false, "an interface vertex left all bounds"};
+  if (options_.follows_drops) translate_interfaces(scene_, centroid_ - centroid_of_drops(scene_));
   if (is_remesh_due()) {
     const Scene moved = scene_;
     remesh_interfaces();

@@ -71,6 +71,7 @@ class Evolution {
   Scene scene_;
   EvolutionOptions options_;
   std::unique_ptr<FlowSolver> flow_;
+  Vec3 centroid_;  // of the drops at the start
   double t_ = 0.0;
   double dt_ = 0.0;
   std::int64_t step_ = 0;

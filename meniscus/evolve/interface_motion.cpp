@@ -59,6 +59,23 @@ void move_interfaces(Scene& scene, const InterfaceMotion& motion, double dt) {
   }
 }
 
+Vec3 centroid_of_drops(const Scene& scene) {
+  Vec3 moment = Vec3::Zero();
+  double volume = 0.0;
+  for (const Interface& interface : scene.interfaces) {
+    if (interface.outside != RegionId{0}) continue;
+    const double enclosed = enclosed_volume(interface.mesh);
+    moment += enclosed * enclosed_centroid(interface.mesh);
+    volume += enclosed;
+  }
+  return moment / volume;
+}
+
+void translate_interfaces(Scene& scene, const Vec3& shift) {
+  for (Interface& interface : scene.interfaces)
+    for (Vec3& x : interface.mesh.x) x += shift;
+}
+
 double restore_volume(SurfaceMesh& mesh, double volume, SurfaceShape surface) {
   return surface == SurfaceShape::curved ? restore_curved_volume(mesh, volume)
                                          : restore_volume(mesh, volume);

@@ -20,6 +20,12 @@ using InterfaceMotion = std::vector<VertexField<Vec3>>;
 /// x ← x + dt ẋ on every interface.
 void move_interfaces(Scene& scene, const InterfaceMotion& motion, double dt);
 
+/// The centroid of all that is not matrix: of what the interfaces next to region 0 enclose [R0].
+[[nodiscard]] Vec3 centroid_of_drops(const Scene& scene);
+
+/// x ← x + shift on every interface.
+void translate_interfaces(Scene& scene, const Vec3& shift);
+
 /// Σ tension · dS/dt over the interfaces, for vertices that move with `motion`: the rate at which
 /// the interfaces' energy grows [μ_out G² R0³].
 [[nodiscard]] double surface_energy_rate(const Scene& scene, const InterfaceMotion& motion,

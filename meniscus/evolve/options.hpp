@@ -21,8 +21,12 @@ struct EvolutionOptions {
   double end = 1.0;          ///< the run stops at the first step with t ≥ end
   double step_factor = 0.5;  ///< Δt = step_factor · min(1, Ca) · l_min (eq. 27)
   StepEdges step_edges = StepEdges::interface;
-  double max_step = 0.1;     ///< upper bound on Δt
-  double min_step = 1e-6;    ///< a step that fails at this size ends the run
+  double max_step = 0.1;   ///< upper bound on Δt
+  double min_step = 1e-6;  ///< a step that fails at this size ends the run
+  /// The frame moves with the drops: after every step their centroid is put back where it was at
+  /// the start, as experiments hold a drop at a stagnation point (bentley1986); the domain and the
+  /// imposed flow move along.
+  bool follows_drops = false;
   int remesh_every = 1;      ///< steps between remeshings
   double edge_floor = 0.0;   ///< [R0] no interface edge is asked to be shorter
   double gap_layers = 0.0;   ///< layers of tetrahedra asked for where sheets are close; 0: none

@@ -187,5 +187,46 @@ TEST(Evolution, SavedLiquidsKeepTheirLaws) {
   EXPECT_EQ(again.evolution.scene().liquids[RegionId{1}].law, scene.liquids[RegionId{1}].law);
 }
 
+/// The flow about the origin carries a centre at x0 to x0 eᵗ; held where it was, the drop only
+/// stretches, to the same half-length as a drop at the origin.
+TEST(Evolution, HoldsTheDropsWhereTheyWereWhenTheFrameMovesWithThem) {
+  const auto end_of = [](bool follows_drops, double x0, int remesh_every) -> DropRow {
+    Scene scene = one_drop(200);
+    translate_interfaces(scene, Vec3(x0, 0.0, 0.0));
+    EvolutionOptions options;
+    options.end = 0.5 - 1e-9;
+    options.max_step = 0.05;
+    options.follows_drops = follows_drops;
+    options.remesh_every = remesh_every;
+    auto run = make_run(std::move(scene), options, stretching);
+    run_to_end(run.evolution);
+    return run.evolution.drop_rows().front();
+  };
+  EXPECT_NEAR(end_of(false, 0.3, 1).shape.centroid.x(), 0.3 * std::exp(0.5), 2e-3);
+  for (const int remesh_every : {1, 3}) {
+    const DropRow held = end_of(true, 0.3, remesh_every),
+                  central = end_of(false, 0.0, remesh_every);
+    // What a remeshing moves stays until the next step: the last of every third does not remesh.
+    const double left = remesh_every == 1 ? 1e-3 : 1e-6;
+    const Vec3 start = Vec3(0.3, 0.0, 0.0) + enclosed_centroid(sphere(200));
+    EXPECT_NEAR((held.shape.centroid - start).norm(), 0.0, left);
+    EXPECT_NEAR(held.shape.L, central.shape.L, 2e-3);
+  }
+}
+
+TEST(InterfaceMotion, CentroidOfDropsLeavesOutDropsWithinDrops) {
+  Scene scene = one_drop(200);
+  Interface other = scene.interfaces.front();
+  for (Vec3& x : other.mesh.x) x += Vec3(4.0, 0.0, 0.0);
+  Interface inner = scene.interfaces.front();
+  for (Vec3& x : inner.mesh.x) x *= 0.5;
+  inner.outside = RegionId{1};
+  scene.interfaces.push_back(other);
+  scene.interfaces.push_back(inner);
+  const Vec3 between =
+      0.5 * (enclosed_centroid(scene.interfaces[0].mesh) + enclosed_centroid(other.mesh));
+  EXPECT_NEAR((centroid_of_drops(scene) - between).norm(), 0.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace meniscus
