@@ -3,7 +3,7 @@
 // preconditioner kept, as in the two stages of a time step. The least of several repetitions, each
 // phase beginning when all ranks are there (docs/parallel.md).
 // Arguments: vertices on the drop [1430: 47 thousand in all], viscosity ratio [0.1], elements
-// [P1-P1], repetitions [3].
+// [P1-P1], repetitions [3], PETSc options.
 
 #include <algorithm>
 #include <array>
@@ -69,6 +69,7 @@ int main(int count, char** arguments) {
   Options options;
   options.processes = Processes::all;
   if (count > 3 && std::string_view(arguments[3]) == "P2-P1") options.elements = Elements::p2_p1;
+  if (count > 5) options.petsc_options = arguments[5];
   TetMesh mesh;
   if (const VolumeMeshReport report = tetrahedralize(scene, {}, mesh); !report.ok) {
     fmt::print("{}\n", report.failure);

@@ -26,36 +26,55 @@ bool is_shared(MPI_Comm comm) {
 /// The rows of a shared matrix as PETSc keeps them: own columns, numbered from the first of them,
 /// apart from the others.
 struct SplitRows {
-  std::vector<PetscInt> start = {0}, columns, start_of_others = {0}, others;
-  std::vector<PetscScalar> values, values_of_others;
+  struct Part {
+    std::vector<PetscInt> start = {0};
+    std::unique_ptr<PetscInt[]> columns;
+    std::unique_ptr<PetscScalar[]> values;
+  };
+  Part own, others;
 
   SplitRows(const CsrView& csr, PetscInt first_column) {
-    const auto num_entries = static_cast<std::size_t>(csr.row_start[at(csr.num_rows)]);
-    columns.reserve(num_entries);
-    values.reserve(num_entries);
-    start.reserve(at(csr.num_rows) + 1);
-    start_of_others.reserve(at(csr.num_rows) + 1);
-    for (std::int32_t i = 0; i < csr.num_rows; ++i) add_row(csr, i, first_column);
+    find_starts(csr, first_column);
+    for (Part* part : {&own, &others}) {
+      const auto num_entries = static_cast<std::size_t>(part->start.back());
+      part->columns = std::make_unique_for_overwrite<PetscInt[]>(num_entries);
+      part->values = std::make_unique_for_overwrite<PetscScalar[]>(num_entries);
+    }
+    for (std::int32_t i = 0; i < csr.num_rows; ++i) {
+      const std::int32_t begin = csr.row_start[at(i)];
+      const std::int32_t middle = begin + own.start[at(i) + 1] - own.start[at(i)];
+      copy(csr, begin, middle, first_column, own, i);
+      copy(csr, middle, csr.row_start[at(i) + 1], 0, others, i);
+    }
   }
 
  private:
   static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-  void add_row(const CsrView& csr, std::int32_t i, PetscInt first_column) {
-    const auto end = at(csr.row_start[at(i) + 1]);
-    auto k = at(csr.row_start[at(i)]);
-    const auto own = [&] {
-      const PetscInt column = csr.columns[k] - first_column;
+
+  /// Own columns come first in each row: most rows have no others.
+  void find_starts(const CsrView& csr, PetscInt first_column) {
+    own.start.reserve(at(csr.num_rows) + 1);
+    others.start.reserve(at(csr.num_rows) + 1);
+    const auto is_own = [&](std::int32_t k) {
+      const PetscInt column = csr.columns[at(k)] - first_column;
       return column >= 0 && column < csr.num_columns;
     };
-    const auto begin = static_cast<std::ptrdiff_t>(k);
-    for (; k < end && own(); ++k) columns.push_back(csr.columns[k] - first_column);
-    const auto middle = static_cast<std::ptrdiff_t>(k), last = static_cast<std::ptrdiff_t>(end);
-    values.insert(values.end(), csr.values.begin() + begin, csr.values.begin() + middle);
-    others.insert(others.end(), csr.columns.begin() + middle, csr.columns.begin() + last);
-    values_of_others.insert(values_of_others.end(), csr.values.begin() + middle,
-                            csr.values.begin() + last);
-    start.push_back(static_cast<PetscInt>(columns.size()));
-    start_of_others.push_back(static_cast<PetscInt>(others.size()));
+    for (std::int32_t i = 0; i < csr.num_rows; ++i) {
+      const std::int32_t begin = csr.row_start[at(i)], end = csr.row_start[at(i) + 1];
+      std::int32_t middle = end;
+      while (middle > begin && !is_own(middle - 1)) --middle;
+      own.start.push_back(own.start.back() + middle - begin);
+      others.start.push_back(others.start.back() + end - middle);
+    }
+  }
+
+  static void copy(const CsrView& csr, std::int32_t begin, std::int32_t end, PetscInt first_column,
+                   Part& part, std::int32_t row) {
+    const std::int32_t to = part.start[at(row)];
+    for (std::int32_t k = begin; k < end; ++k) {
+      part.columns[at(to + k - begin)] = csr.columns[at(k)] - first_column;
+      part.values[at(to + k - begin)] = csr.values[at(k)];
+    }
   }
 };
 
@@ -83,10 +102,10 @@ Matrix shared_matrix(MPI_Comm comm, const CsrView& csr) {
   auto rows = std::make_unique<SplitRows>(csr, first_column);
   Matrix matrix;
   petsc_check(MatCreateMPIAIJWithSplitArrays(comm, csr.num_rows, csr.num_columns, PETSC_DETERMINE,
-                                             PETSC_DETERMINE, rows->start.data(),
-                                             rows->columns.data(), rows->values.data(),
-                                             rows->start_of_others.data(), rows->others.data(),
-                                             rows->values_of_others.data(), matrix.out()),
+                                             PETSC_DETERMINE, rows->own.start.data(),
+                                             rows->own.columns.get(), rows->own.values.get(),
+                                             rows->others.start.data(), rows->others.columns.get(),
+                                             rows->others.values.get(), matrix.out()),
               "MatCreateMPIAIJWithSplitArrays");
   keep_with(matrix.get(), std::move(rows));
   return matrix;

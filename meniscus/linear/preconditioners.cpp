@@ -105,9 +105,16 @@ void PressureMass::apply(std::span<const double> r, double s, Vec z) const {
     petsc_check(KSPSolve(solver_.get(), right.get(), z), "KSPSolve");
     petsc_check(VecScale(z, s), "VecScale");
   }
+  std::vector<double> constant(system_.group_weights.size(), 0.0);
+  for (std::size_t i = 0; !constant.empty() && i < r.size(); ++i)
+    constant[static_cast<std::size_t>(system_.group_of_pressure[i])] += r[i];
+  for (std::size_t g = 0; g < constant.size(); ++g)
+    constant[g] = s * system_.group_weights[g] * sum(communicator_, constant[g]);
   with_array(z, [&](double* p) {
     for (std::size_t i = 0; !solver_ && i < r.size(); ++i)
       p[i] = s * r[i] / system_.pressure_mass[i];
+    for (std::size_t i = 0; !constant.empty() && i < r.size(); ++i)
+      p[i] += constant[static_cast<std::size_t>(system_.group_of_pressure[i])];
     if (!system_.constant_pressure_is_null) return;
     const double total = sum(communicator_, std::accumulate(p, p + r.size(), 0.0));
     const double mean = total / double(sum(communicator_, std::int64_t{system_.num_pressures()}));

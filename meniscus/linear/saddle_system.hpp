@@ -50,6 +50,10 @@ struct SaddleSystem {
   /// The pressure mass matrix ∫ψψ/μ before lumping, which stands for the Schur complement better
   /// where nothing stabilises. Empty: the lumped one does.
   CsrView consistent_mass = {};
+  /// Pressures in groups: those of group r that are all the same have the further inverse
+  /// χ w_r χᵀ, χ being 1 in the group, added to the mass matrix's. Empty: none.
+  std::span<const std::int32_t> group_of_pressure = {};
+  std::span<const double> group_weights = {};  ///< w_r ≥ 0
 
   [[nodiscard]] std::int32_t num_velocities() const { return A.num_rows; }
   [[nodiscard]] std::int32_t num_pressures() const { return B.num_rows; }

@@ -1,6 +1,7 @@
 #include "meniscus/flow/fem/partition.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "meniscus/core/error.hpp"
@@ -69,34 +70,41 @@ std::vector<std::int32_t> groups_of(const FlowSpace& space, const Rows& cells) {
   return group;
 }
 
-/// Groups that share cells are neighbours, by the number of pairs of vertices in them; a group
-/// weighs as many as there are cells around its vertices, which is what their rows cost.
-linear::WeightedGraph group_graph(const FlowSpace& space, const Rows& cells,
-                                  const std::vector<std::int32_t>& group) {
+/// Groups that share cells are neighbours, by how often two opposite edges of each cell (a third of
+/// its edges) join them; a group weighs as many as there are cells around its vertices, which is
+/// what their rows cost.
+linear::WeightedGraph group_graph(const FlowSpace& space, const std::vector<std::int32_t>& group) {
   const std::int32_t num_groups = 1 + std::ranges::max(group);
-  const Rows vertices = members(num_groups, space.num_vertices(),
-                                [&](std::int32_t v) { return std::span(&group[at(v)], 1); });
   linear::WeightedGraph graph;
+  graph.vertex_weights.assign(at(num_groups), 0);
+  std::vector<std::array<std::int32_t, 2>> joins;
+  joins.reserve(2 * at(space.velocity.num_cells()));
+  for (std::int32_t cell = 0; cell < space.velocity.num_cells(); ++cell) {
+    const auto vertices = corners(space, cell);
+    for (const std::size_t k : {0U, 2U}) {
+      const std::int32_t a = group[at(vertices[k])], b = group[at(vertices[k + 1])];
+      ++graph.vertex_weights[at(a)];
+      ++graph.vertex_weights[at(b)];
+      if (a != b) joins.push_back({a, b});
+    }
+  }
+  const Rows joins_of = members(num_groups, static_cast<std::int32_t>(joins.size()),
+                                [&](std::int32_t join) { return std::span(joins[at(join)]); });
   graph.row_start.push_back(0);
-  std::vector<std::int32_t> shared(at(num_groups), 0), met;
+  std::vector<std::int32_t> count(at(num_groups), 0), met;
   for (std::int32_t g = 0; g < num_groups; ++g) {
     met.clear();
-    std::int32_t weight = 0;
-    for (const std::int32_t v : vertices.of(g))
-      for (const std::int32_t cell : cells.of(v)) {
-        ++weight;
-        for (const std::int32_t w : corners(space, cell)) {
-          const std::int32_t other = group[at(w)];
-          if (other != g && shared[at(other)]++ == 0) met.push_back(other);
-        }
-      }
+    for (const std::int32_t join : joins_of.of(g)) {
+      const auto& [a, b] = joins[at(join)];
+      const std::int32_t other = a + b - g;
+      if (count[at(other)]++ == 0) met.push_back(other);
+    }
     std::ranges::sort(met);
     for (const std::int32_t other : met) {
       graph.neighbours.push_back(other);
-      graph.edge_weights.push_back(std::exchange(shared[at(other)], 0));
+      graph.edge_weights.push_back(std::exchange(count[at(other)], 0));
     }
     graph.row_start.push_back(static_cast<std::int32_t>(graph.neighbours.size()));
-    graph.vertex_weights.push_back(weight);
   }
   return graph;
 }
@@ -109,9 +117,8 @@ std::vector<std::int32_t> vertex_groups(const FlowSpace& space) {
 
 std::vector<std::int32_t> vertex_ranks(const FlowSpace& space, linear::Communicator communicator) {
   const int size = communicator.size();
-  const Rows cells = cells_around_vertices(space);
-  std::vector<std::int32_t> rank = groups_of(space, cells);
-  const linear::WeightedGraph graph = group_graph(space, cells, rank);
+  std::vector<std::int32_t> rank = vertex_groups(space);
+  const linear::WeightedGraph graph = group_graph(space, rank);
   if (graph.num_vertices() < size)
     reject_input("{} ranks are too many for {} vertices", size, space.num_vertices());
   std::vector<std::int32_t> part(at(graph.num_vertices()));

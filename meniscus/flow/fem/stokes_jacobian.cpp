@@ -57,6 +57,23 @@ StokesJacobian::StokesJacobian(const FlowSpace& space, const Share* share)
   }
   A_pattern_ = expanded(velocity_graph_, 3, 3);
   B_pattern_ = expanded(coupling_graph_, 1, 3);
+  for (const RegionId region : space.pressure.region) region_of_pressure_.push_back(region.value);
+}
+
+void StokesJacobian::weigh_constant_pressures(const Field<RegionId, double>& shares) {
+  region_shares_.assign(shares.begin(), shares.end());
+}
+
+/// χ share/(∫χ/μ) χᵀ is the share of μM⁻¹ between constant pressures.
+void StokesJacobian::weigh_regions() {
+  std::vector<double> mass(region_shares_.size(), 0.0);
+  for (std::size_t i = 0; i < at(own_.num_pressures) && !mass.empty(); ++i)
+    mass[at(region_of_pressure_[i])] += pressure_mass_[i];
+  region_weights_.clear();
+  for (std::size_t r = 0; r < mass.size(); ++r) {
+    const double whole = share_ == nullptr ? mass[r] : linear::sum(share_->communicator, mass[r]);
+    region_weights_.push_back(region_shares_[r] / whole);
+  }
 }
 
 bool StokesJacobian::is_same(const std::vector<bool>& a, const std::vector<bool>& b) const {
@@ -96,6 +113,7 @@ void StokesJacobian::assemble(const StokesProblem& problem, const Linearization*
     laplacian.values.assign(velocity_graph_.num_entries(), 0.0);
   with_element(space_, problem.positions,
                [&](auto& element) { add_cells(problem, about, element); });
+  weigh_regions();
 }
 
 bool StokesJacobian::is_free(const Constraints& constraints, CellId c) const {
@@ -222,6 +240,8 @@ linear::SaddleSystem StokesJacobian::system() const {
   }
   system.laplacian_of = laplacian_of_;
   system.pressure_mass = std::span(pressure_mass_).first(at(num_pressures));
+  system.group_of_pressure = std::span(region_of_pressure_).first(at(num_pressures));
+  system.group_weights = region_weights_;
   system.constant_pressure_is_null = constant_pressure_is_null_;
   return system;
 }

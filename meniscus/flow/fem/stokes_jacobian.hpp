@@ -22,6 +22,9 @@ class StokesJacobian {
   /// Where a liquid is generalised-Newtonian it is linearised about a state, or where none is given
   /// taken for a Newtonian one.
   void assemble(const StokesProblem& problem, const Linearization* about = nullptr);
+  /// What preconditioners shall add for constant pressures, by region (region_pressures.hpp).
+  /// Holds for the assemblies to come.
+  void weigh_constant_pressures(const Field<RegionId, double>& shares);
   /// A view of the last assembly.
   [[nodiscard]] linear::SaddleSystem system() const;
 
@@ -43,6 +46,7 @@ class StokesJacobian {
   void add_constrained_cell(const StokesProblem& problem, const Matrices& matrices, CellId c);
   template <class Matrices>
   void add_lower_left(const StokesProblem& problem, const Matrices& matrices, CellId c);
+  void weigh_regions();
   template <class Matrices>
   void add_pressure_blocks(const Matrices& matrices, CellId c);
 
@@ -65,7 +69,9 @@ class StokesJacobian {
   ScalarPattern A_pattern_, B_pattern_;
   std::vector<double> A_, B_, C_, pressure_mass_;
   std::vector<double> consistent_mass_;  ///< on C's pattern; of P2-P1 alone
-  std::vector<double> lower_left_;       ///< on B's pattern; empty where it is B
+  std::vector<std::int32_t> region_of_pressure_;
+  std::vector<double> region_shares_, region_weights_;  ///< of constant pressures
+  std::vector<double> lower_left_;                      ///< on B's pattern; empty where it is B
   std::vector<Laplacian> laplacians_;
   std::array<int, 3> laplacian_of_ = {0, 0, 0};
   bool constant_pressure_is_null_ = false;

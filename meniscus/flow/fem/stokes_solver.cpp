@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "meniscus/core/log.hpp"
+#include "meniscus/flow/fem/region_pressures.hpp"
 #include "meniscus/flow/fem/stokes_residual.hpp"
 
 namespace meniscus::fem {
@@ -130,6 +131,7 @@ linear::SaddleSolver& StokesSolver::linear_solver(LinearSolver which) {
 }
 
 void StokesSolver::prepare(const StokesProblem& problem) {
+  jacobian_.weigh_constant_pressures(constant_pressure_shares(problem));
   if (share_)
     jacobian_.assemble(restricted(problem, *share_));
   else
@@ -140,6 +142,7 @@ void StokesSolver::prepare(const StokesProblem& problem) {
 StokesReport StokesSolver::solve(const StokesProblem& problem, StokesState& state,
                                  linear::Preconditioner preconditioner, PhaseTimes& times) {
   problem.constraints.impose(state.v);
+  jacobian_.weigh_constant_pressures(constant_pressure_shares(problem));
   if (!share_) return solve_part(problem, state, preconditioner, times);
   StokesState part = restricted(state, *share_);
   StokesReport report = solve_part(restricted(problem, *share_), part, preconditioner, times);

@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, LinearIterations,
                                          Case{DropShape::dumbbell, Elements::p1_p1, 160},
                                          Case{DropShape::sphere, Elements::p2_p1, 60},
                                          Case{DropShape::prolate, Elements::p2_p1, 42},
-                                         Case{DropShape::dumbbell, Elements::p2_p1, 60}));
+                                         Case{DropShape::dumbbell, Elements::p2_p1, 42}));
 
 // What the block solver promises: 30 iterations with linear and 40 with quadratic velocities while
 // viscosities differ by ten, 50 while they differ by a hundred.
@@ -63,6 +63,14 @@ TEST_P(LinearIterations, AreFew) {
     const int few = is_quadratic() ? 40 : 30;
     EXPECT_LE(report.iterations, lambda < 0.1 || lambda > 10.0 ? 50 : few) << "lambda " << lambda;
   }
+}
+
+// A pressure that is constant in a drop of next to no viscosity acts through the liquid around: its
+// weight keeps the spectrum what it is between like liquids.
+TEST_P(LinearIterations, StayFewForAGas) {
+  if (GetParam().shape != DropShape::sphere) GTEST_SKIP() << "its ends act on each other";
+  const int between_likes = solved(1.0, {}).iterations, of_a_gas = solved(1e-4, {}).iterations;
+  EXPECT_LE(of_a_gas, 1.25 * between_likes);
 }
 
 class OnTheSphere : public LinearIterations {};
