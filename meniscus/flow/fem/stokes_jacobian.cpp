@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "meniscus/flow/fem/block_rows.hpp"
-#include "meniscus/flow/fem/cell_matrices.hpp"
+#include "meniscus/flow/fem/straight_quadratic_matrices.hpp"
 #include "meniscus/linear/collective.hpp"
 
 namespace meniscus::fem {
@@ -38,6 +38,12 @@ linear::CsrMatrix interpolation_from_linear(const LinearFunctions& coarse, std::
 /// Columns of a rank's share, numbered as all ranks do.
 void renumber(NodeGraph& graph, const std::vector<std::int32_t>& number) {
   for (std::int32_t& column : graph.columns) column = number[at(column)];
+}
+
+StraightQuadraticMatrices straight_quadratic_matrices(const StokesProblem& problem, CellId c) {
+  const auto nodes = problem.space.velocity.of(c);
+  const auto x = [&](std::size_t k) { return problem.positions.x[NodeId{nodes[k]}]; };
+  return {linear_tetrahedron({x(0), x(1), x(2), x(3)}), problem.viscosity[c]};
 }
 
 }  // namespace
@@ -131,6 +137,8 @@ void StokesJacobian::add_cells(const StokesProblem& problem, const Linearization
     else if (std::is_same_v<Element, LinearElement> && lower_left_.empty() &&
              is_free(problem.constraints, c))
       add_free_linear_cell(problem, c);
+    else if (std::is_same_v<Element, QuadraticElement> && !problem.positions.is_curved[c])
+      add_cell(problem, straight_quadratic_matrices(problem, c), c);
     else
       add_cell(problem, CellMatrices<Element>(problem, element.points(c), c), c);
   }

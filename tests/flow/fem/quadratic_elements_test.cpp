@@ -8,6 +8,7 @@
 #include "meniscus/flow/fem/elements.hpp"
 #include "meniscus/flow/fem/face_elements.hpp"
 #include "meniscus/flow/fem/finite_element_flow.hpp"
+#include "meniscus/flow/fem/straight_quadratic_matrices.hpp"
 #include "tests/flow/fem/lamb_mode.hpp"
 #include "tests/flow/fem/sphere_experiments.hpp"
 #include "tests/flow/fem/straight_space.hpp"
@@ -44,6 +45,27 @@ TEST(QuadraticElements, CurvedCellsFillTheBallToFourthOrder) {
   }
   EXPECT_LT(errors[1], 1e-4);
   EXPECT_GT(2.0 * std::log(errors[0] / errors[1]) / std::log(4.0), 3.5);
+}
+
+// The closed form of a straight cell's matrices is what the quadrature makes of them.
+TEST(QuadraticElements, ClosedFormOfStraightCellsIsTheirQuadrature) {
+  const Ball ball(60);
+  const FlowSpace space = flow_space(ball.mesh, Elements::p2_p1);
+  StokesProblem problem(ball.mesh, space, straight_positions(ball.mesh, space));
+  QuadraticElement element(space, problem.positions);
+  for (const CellId c : ball.mesh.cells.ids()) {
+    problem.viscosity[c] = 0.1 + 0.01 * (c.value % 100);
+    const CellMatrices<QuadraticElement> by_points(problem, element.points(c), c);
+    const auto nodes = space.velocity.of(c);
+    const auto x = [&](std::size_t k) { return problem.positions.x[NodeId{nodes[k]}]; };
+    const StraightQuadraticMatrices closed(linear_tetrahedron({x(0), x(1), x(2), x(3)}),
+                                           problem.viscosity[c]);
+    EXPECT_LT((closed.products - by_points.products).norm(), 1e-13 * by_points.products.norm());
+    EXPECT_LT((closed.divergence - by_points.divergence).norm(),
+              1e-13 * by_points.divergence.norm());
+    EXPECT_LT((closed.masses - by_points.masses).norm(), 1e-13 * by_points.masses.norm());
+    EXPECT_EQ(closed.stabilisations.norm(), 0.0);
+  }
 }
 
 // Gradients of the shape functions reproduce those of any quadratic function on straight cells and
