@@ -61,6 +61,7 @@ EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elem
   options.follows_drops =
       settings.choice<bool>("domain.frame", {{"fixed", false}, {"drops", true}});
   options.remesh_every = settings.whole("interface.remesh-every");
+  options.equilibrium = settings.number("interface.equilibrium");
   options.edge_floor =
       settings.number_or("interface.edge-floor", 0.5 * settings.number("topology.breakup-radius"));
   options.topology = read_topology(settings, options.edge_floor);

@@ -436,6 +436,12 @@ const std::vector<Key> kKeys{
      .sentence =
          "Steps from one remeshing of the interfaces to the next: 3 remeshes at the end of steps "
          "3, 6, 9; in between vertices only move, and volumes are restored."},
+    {.path = "interface.equilibrium",
+     .range = {.min = 0.0, .max = 0.99},
+     .value = 0.0,
+     .sentence = "Remeshing slides the vertices over the surface until each is within this "
+                 "fraction of its wanted edge of where springs would have it; 0: 0.006, less above "
+                 "1000 nodes; with 0.9 next to none slides."},
     {.path = "interface.edge-floor",
      .dimension = Dimension::length,
      .range = {.min = 0.0, .max = 1e6},

@@ -209,6 +209,7 @@ void Evolution::remesh_interfaces() {
     options.C0 = interface.C0;
     options.restores_volume = options_.surface == SurfaceShape::faceted;
     if (options.restores_volume) options.volume = interface.volume;
+    options.equilibrium = options_.equilibrium;
     options.edge_floor = options_.edge_floor;
     options.gap_layers = options_.gap_layers;
     for (std::size_t j = 0; j < trees.size(); ++j)

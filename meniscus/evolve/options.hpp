@@ -28,6 +28,7 @@ struct EvolutionOptions {
   /// imposed flow move along.
   bool follows_drops = false;
   int remesh_every = 1;      ///< steps between remeshings
+  double equilibrium = 0.0;  ///< of the springs (RemeshOptions); 0: what the remesher chooses
   double edge_floor = 0.0;   ///< [R0] no interface edge is asked to be shorter
   double gap_layers = 0.0;   ///< layers of tetrahedra asked for where sheets are close; 0: none
   TopologyOptions topology;  ///< when necks are cut and gaps bridged
