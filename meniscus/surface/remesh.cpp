@@ -23,14 +23,21 @@ constexpr int kRoundsWhileRough = 5;
 constexpr double kManyEdits = 0.03;  // of the vertices
 /// Smallest angle of a face that is let through when the surface had none as small before.
 constexpr double kLeastAngleDeg = 5.0;
+/// Of l0: farther from rest angles below 20° become common (docs/surface-remeshing.md).
+constexpr double kMostSlack = 0.2;
 
 RemeshReference reference_surface(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                                   const RemeshOptions& options) {
   SmoothSurface surface(mesh, topology);
   const VertexField<double> lengths =
-      rest_lengths(mesh, topology, surface.vertex_curvature(), options);
+      rest_lengths(mesh, topology, surface.quartic_curvature(), options);
   VertexField<RemeshReference::Corner> corners;
-  for (const VertexId v : mesh.x.ids()) corners.add({surface.vertex_normal(v), lengths[v]});
+  for (const VertexId v : mesh.x.ids()) {
+    // A vertex that slides by s where the surface's slope is known to ε leaves it by ε s.
+    const double slack =
+        options.equilibrium > 0.0 ? 0.0 : std::min(kMostSlack, surface.unresolved()[v]);
+    corners.add({surface.vertex_normal(v), lengths[v], slack});
+  }
   return {std::move(surface), SurfaceWalk(mesh, topology), std::move(corners)};
 }
 
