@@ -238,10 +238,10 @@ std::optional<ResolvedPatch> fit_resolved_patch(const HeightPatch& frame,
       HeightPatch blended = cubic;
       for (std::size_t j = 0; j < blended.c.size(); ++j)
         blended.c[j] += w * (quartic.c[j] - cubic.c[j]);
-      return ResolvedPatch{blended, quartic, (1.0 - w) * turn};
+      return ResolvedPatch{blended, quartic};
     }
   }
-  if (const auto cubic = fit_terms<kCubic>(frame, points)) return ResolvedPatch{*cubic, {}, 0.0};
+  if (const auto cubic = fit_terms<kCubic>(frame, points)) return ResolvedPatch{*cubic, {}};
   return std::nullopt;
 }
 

@@ -55,7 +55,6 @@ struct ResolvedPatch {
   /// The quartic alone: curvature O(h³), O(h⁴) where the points are symmetric. Empty where the
   /// points do not determine it; the patch is then the cubic.
   std::optional<HeightPatch> quartic;
-  double unresolved = 0.0;  ///< (1 − w) q: slope that the patch leaves out [radians]
 };
 /// Of weighted least squares, as `fit_patch`; empty where not even the cubic is determined.
 [[nodiscard]] std::optional<ResolvedPatch> fit_resolved_patch(const HeightPatch& frame,

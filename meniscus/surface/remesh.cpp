@@ -24,8 +24,6 @@ constexpr double kManyEdits = 0.03;  // of the vertices
 constexpr int kSweepsFromNarrowest = 8;
 /// Smallest angle of a face that is let through when the surface had none as small before.
 constexpr double kLeastAngleDeg = 5.0;
-/// Of l0: farther from rest angles below 20° become common (docs/surface-remeshing.md).
-constexpr double kMostSlack = 0.2;
 
 RemeshReference reference_surface(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                                   const RemeshOptions& options) {
@@ -33,12 +31,7 @@ RemeshReference reference_surface(const SurfaceMesh& mesh, const SurfaceTopology
   const VertexField<double> lengths =
       rest_lengths(mesh, topology, surface.quartic_curvature(), options);
   VertexField<RemeshReference::Corner> corners;
-  for (const VertexId v : mesh.x.ids()) {
-    // A vertex that slides by s where the surface's slope is known to ε leaves it by ε s.
-    const double slack =
-        options.equilibrium > 0.0 ? 0.0 : std::min(kMostSlack, surface.unresolved()[v]);
-    corners.add({surface.vertex_normal(v), lengths[v], slack});
-  }
+  for (const VertexId v : mesh.x.ids()) corners.add({surface.vertex_normal(v), lengths[v]});
   return {std::move(surface), SurfaceWalk(mesh, topology), std::move(corners)};
 }
 

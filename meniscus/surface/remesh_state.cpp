@@ -17,20 +17,15 @@ RemeshVertex vertex_at(const RemeshReference& reference, const SurfaceLocation& 
   const FaceVertices& corners = reference.walk.corners(place.face);
   const Vec3 flat = reference.walk.flat_point(place);
   Vec3 lift = Vec3::Zero(), n = Vec3::Zero();
-  double length = 0.0, slack = 0.0;
+  double length = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     const double b = place.weights[static_cast<int>(k)];
     const RemeshReference::Corner& corner = reference.corners[corners[k]];
     lift += b * corner.n.dot(reference.walk.vertex(corners[k]) - flat) * corner.n;
     n += b * corner.n;
     length += b * corner.rest_length;
-    slack += b * corner.slack;
   }
-  return {.x = flat + 0.5 * lift,
-          .rest_length = length,
-          .n = n.normalized(),
-          .place = place,
-          .slack = slack};
+  return {.x = flat + 0.5 * lift, .rest_length = length, .n = n.normalized(), .place = place};
 }
 
 void lift_to_surface(RemeshState& state) {

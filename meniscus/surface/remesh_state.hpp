@@ -12,7 +12,6 @@ struct RemeshReference {
   struct Corner {
     Vec3 n;              ///< unit normal of the smooth surface
     double rest_length;  ///< [R0]
-    double slack;        ///< how far from rest a vertex may stay, in l0
   };
   SmoothSurface surface;
   SurfaceWalk walk;
@@ -25,7 +24,6 @@ struct RemeshVertex {
   double rest_length;  ///< l0 there
   Vec3 n;              ///< its unit normal there, interpolated linearly
   SurfaceLocation place;
-  double slack;  ///< of RemeshReference::Corner, interpolated linearly
 };
 
 /// A triangulation under way from the old to the new one. Most of it comes to rest early: flips and

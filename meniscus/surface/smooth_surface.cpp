@@ -12,8 +12,8 @@ ResolvedPatch patch_at(const HeightPatch& frame, std::span<const Vec3> rings,
   unroll(rings, frame, unrolled);
   if (const auto patch = fit_resolved_patch(frame, unrolled)) return *patch;
   for (const PatchDegree degree : {PatchDegree::quadratic, PatchDegree::umbilic})
-    if (const auto patch = fit_patch(frame, unrolled, degree)) return {*patch, {}, 0.0};
-  return {frame, {}, 0.0};
+    if (const auto patch = fit_patch(frame, unrolled, degree)) return {*patch, {}};
+  return {frame, {}};
 }
 
 struct Lift {
@@ -33,7 +33,6 @@ Lift lift(const HeightPatch& patch, const Vec3& flat) {
 SmoothSurface::SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& topology)
     : curvature_(osculating_curvature(mesh, topology)),
       quartic_(curvature_),
-      unresolved_(mesh.num_vertices()),
       patches_(mesh.num_vertices()),
       normals_(mesh.num_vertices()),
       faces_(mesh.faces) {
@@ -44,7 +43,6 @@ SmoothSurface::SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& top
         patch_at(flat_patch(mesh.x[v], curvature_[v].n), rings.gather(v, true), unrolled);
     const HeightPatch& patch = patches_[v] = fit.patch;
     if (fit.quartic) quartic_[v] = fit.quartic->curvature();
-    unresolved_[v] = fit.unresolved;
     normals_[v] = (patch.n - patch.c[0] * patch.t1 - patch.c[1] * patch.t2).normalized();
   }
 }

@@ -46,8 +46,6 @@ class SmoothSurface {
   [[nodiscard]] const VertexField<VertexCurvature>& vertex_curvature() const { return curvature_; }
   /// Of the quartic fit to two rings; the osculating fit where these do not determine it.
   [[nodiscard]] const VertexField<VertexCurvature>& quartic_curvature() const { return quartic_; }
-  /// ResolvedPatch::unresolved at the vertices [radians].
-  [[nodiscard]] const VertexField<double>& unresolved() const { return unresolved_; }
   [[nodiscard]] const HeightPatch& patch(VertexId v) const { return patches_[v]; }
   [[nodiscard]] const FaceVertices& corners(FaceId f) const { return faces_[f]; }
   [[nodiscard]] std::int32_t num_vertices() const { return patches_.size(); }
@@ -57,7 +55,6 @@ class SmoothSurface {
   [[nodiscard]] Vec3 flat_point(const SurfaceLocation& location) const;
 
   VertexField<VertexCurvature> curvature_, quartic_;
-  VertexField<double> unresolved_;
   VertexField<HeightPatch> patches_;
   VertexField<Vec3> normals_;  // of the patches at their vertices
   FaceField<FaceVertices> faces_;

@@ -101,7 +101,7 @@ void relax_springs(RemeshState& state, double equilibrium, int max_rounds) {
       pulled.release(v);
       const Vec3 d = move_to_rest(state, v);
       const double over_length = d.norm() / state.vertices[v].rest_length;
-      if (over_length <= std::max(equilibrium, state.vertices[v].slack)) continue;
+      if (over_length <= equilibrium) continue;
       if (!try_move(state, v, std::min(kOverRelaxation, kLongestMove / over_length) * d)) continue;
       state.unflipped.insert(v);
       pulled.insert_ring(v);
