@@ -58,7 +58,9 @@ Vec3 move_to_rest(const RemeshState& state, VertexId v) {
     const RemeshVertex& other = state.vertices[state.mesh.to(h)];
     const Vec3 d = other.x - vertex.x;
     const double length = 0.5 * kShortening * (vertex.rest_length + other.rest_length);
-    const double compression = length / d.norm();
+    const double distance = d.norm();
+    if (distance == 0.0) return;  // two in one place: the springs of the others part them
+    const double compression = length / distance;
     pull += (1.0 - compression) * d;
     stiffness += 1.0 - 0.5 * compression;
   });
