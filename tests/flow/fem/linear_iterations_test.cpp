@@ -65,18 +65,17 @@ TEST_P(LinearIterations, AreFew) {
   }
 }
 
-// A pressure that is constant in a drop of next to no viscosity acts through the liquid around: its
-// weight keeps the spectrum what it is between like liquids.
-TEST_P(LinearIterations, StayFewForAGas) {
-  if (GetParam().shape != DropShape::sphere) GTEST_SKIP() << "its ends act on each other";
-  const int between_likes = solved(1.0, {}).iterations, of_a_gas = solved(1e-4, {}).iterations;
-  EXPECT_LE(of_a_gas, 1.25 * between_likes);
-}
-
 class OnTheSphere : public LinearIterations {};
 INSTANTIATE_TEST_SUITE_P(P1AndP2, OnTheSphere,
                          testing::Values(Case{DropShape::sphere, Elements::p1_p1, 300},
                                          Case{DropShape::sphere, Elements::p2_p1, 60}));
+
+// A pressure that is constant in a drop of next to no viscosity acts through the liquid around: its
+// weight keeps the spectrum what it is between like liquids.
+TEST_P(OnTheSphere, StayFewForAGas) {
+  const int between_likes = solved(1.0, {}).iterations, of_a_gas = solved(1e-4, {}).iterations;
+  EXPECT_LE(of_a_gas, 1.25 * between_likes);
+}
 
 // PETSc's own multigrid, which a PETSc without hypre is left with, does the same.
 TEST_P(OnTheSphere, AreFewWithoutHypre) {
