@@ -13,11 +13,6 @@ namespace {
 /// polynomial space are told apart by less than the noise of a fit (columns have unit scale).
 constexpr double kSingularPivot = 1e-3;
 
-/// Turn of the normal by the quartic terms over two rings [radians] at which half of the quartic is
-/// taken. Where a surface is as coarse as its own waves a quartic overshoots, and vertices that
-/// circulate carry that on; where it is resolved the turn is far below this.
-constexpr double kResolvedTurn = 0.3;
-
 /// The functions that the coefficients c0, c1, … multiply; three terms make a sphere.
 template <int Terms>
 Eigen::Matrix<double, Terms, 1> monomials(double u, double v) {
@@ -31,18 +26,11 @@ Eigen::Matrix<double, Terms, 1> monomials(double u, double v) {
     m[2] = 0.5 * u * u;
     m[3] = u * v;
     m[4] = 0.5 * v * v;
-    if constexpr (Terms >= 9) {
+    if constexpr (Terms == 9) {
       m[5] = u * m[2] / 3.0;
       m[6] = m[2] * v;
       m[7] = u * m[4];
       m[8] = v * m[4] / 3.0;
-    }
-    if constexpr (Terms == 14) {
-      m[9] = u * m[5] / 4.0;
-      m[10] = m[5] * v;
-      m[11] = m[2] * m[4];
-      m[12] = u * m[8];
-      m[13] = m[8] * v / 4.0;
     }
     return m;
   }
@@ -54,79 +42,45 @@ double root_mean_square_distance(const Vec3& x, std::span<const Vec3> points) {
   return std::sqrt(sum / static_cast<double>(points.size()));
 }
 
-/// Normal equations of the weighted fit, lengths in units of h, which keeps them well scaled.
-template <int Terms>
-struct NormalEquations {
-  double h;
-  Eigen::Matrix<double, Terms, Terms> matrix;  // its lower half
-  Eigen::Matrix<double, Terms, 1> rhs;
-
-  NormalEquations(const HeightPatch& frame, std::span<const Vec3> points)
-      : h(root_mean_square_distance(frame.x, points)) {
-    matrix.setZero();
-    rhs.setZero();
-    for (const Vec3& p : points) {
-      const Vec3 d = (p - frame.x) / h;
-      const auto m = monomials<Terms>(d.dot(frame.t1), d.dot(frame.t2));
-      const Eigen::Matrix<double, Terms, 1> wm = m / d.squaredNorm();
-      for (int j = 0; j < Terms; ++j) matrix.col(j).tail(Terms - j) += m[j] * wm.tail(Terms - j);
-      rhs += d.dot(frame.n) * wm;
-    }
-  }
-};
-
-/// The patch of so many coefficients in units of h.
-template <class Solution>
-HeightPatch scaled_patch(const HeightPatch& frame, const Solution& solution, double h) {
-  HeightPatch patch = frame;
-  patch.c.fill(0.0);
-  double scale = 1.0;  // h^(1 − degree)
-  for (Eigen::Index j = 0; j < solution.size(); ++j) {
-    if (j == 2 || j == 5 || j == 9) scale /= h;
-    patch.c[static_cast<std::size_t>(j)] = scale * solution[j];
-  }
-  return patch;
-}
-
-template <class Factor>
-bool is_regular(const Factor& factor) {
-  if (factor.info() != Eigen::Success) return false;
-  const auto pivots = factor.matrixLLT().diagonal();
-  return pivots.minCoeff() > kSingularPivot * pivots.maxCoeff();
-}
-
 template <int Terms>
 std::optional<HeightPatch> fit_terms(const HeightPatch& frame, std::span<const Vec3> points) {
   if (points.size() < Terms) return std::nullopt;
-  const NormalEquations<Terms> equations(frame, points);
-  const Eigen::LLT<Eigen::Matrix<double, Terms, Terms>> factor(equations.matrix);
-  if (!is_regular(factor)) return std::nullopt;
-  HeightPatch patch = scaled_patch(frame, factor.solve(equations.rhs).eval(), equations.h);
+  // Lengths in units of h keep the normal equations well scaled.
+  const double h = root_mean_square_distance(frame.x, points);
+  Eigen::Matrix<double, Terms, Terms> normal = Eigen::Matrix<double, Terms, Terms>::Zero();
+  Eigen::Matrix<double, Terms, 1> rhs = Eigen::Matrix<double, Terms, 1>::Zero();
+  for (const Vec3& p : points) {
+    const Vec3 d = (p - frame.x) / h;
+    const auto m = monomials<Terms>(d.dot(frame.t1), d.dot(frame.t2));
+    const double weight = 1.0 / d.squaredNorm();
+    const Eigen::Matrix<double, Terms, 1> wm = weight * m;
+    for (int j = 0; j < Terms; ++j) normal.col(j).tail(Terms - j) += m[j] * wm.tail(Terms - j);
+    rhs += d.dot(frame.n) * wm;
+  }
+  const Eigen::LLT<Eigen::Matrix<double, Terms, Terms>> factor(normal);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  const auto pivots = factor.matrixLLT().diagonal();
+  if (!(pivots.minCoeff() > kSingularPivot * pivots.maxCoeff())) return std::nullopt;
+  const Eigen::Matrix<double, Terms, 1> solution = factor.solve(rhs);
+  HeightPatch patch = frame;
+  patch.c.fill(0.0);
+  for (int j = 0; j < Terms; ++j) {
+    const double scale = j < 2 ? 1.0 : (j < 5 ? 1.0 / h : 1.0 / (h * h));
+    patch.c[static_cast<std::size_t>(j)] = scale * solution[j];
+  }
   if constexpr (Terms == 3) patch.c[4] = patch.c[2];
   return patch;
-}
-
-/// (Σ (f⁗)²)^½, the same in every frame.
-double size_of_quartic_terms(const HeightPatch& patch) {
-  const auto& c = patch.c;
-  return std::sqrt(c[9] * c[9] + 4.0 * c[10] * c[10] + 6.0 * c[11] * c[11] + 4.0 * c[12] * c[12] +
-                   c[13] * c[13]);
 }
 
 }  // namespace
 
 HeightPatch::Height HeightPatch::height(double u, double v) const {
-  // The terms of each degree as quadratic forms, (p, q, r) = p u² + 2 q u v + r v².
-  const double p3 = c[5] * u + c[6] * v, q3 = c[6] * u + c[7] * v, r3 = c[7] * u + c[8] * v;
-  const double uu = u * u, uv = 2.0 * u * v, vv = v * v;
-  const double p4 = c[9] * uu + c[10] * uv + c[11] * vv, q4 = c[10] * uu + c[11] * uv + c[12] * vv,
-               r4 = c[11] * uu + c[12] * uv + c[13] * vv;
-  const double p = c[2] + p3 / 3.0 + p4 / 12.0, q = c[3] + q3 / 3.0 + q4 / 12.0,
-               r = c[4] + r3 / 3.0 + r4 / 12.0;
-  const double q_slope = c[3] + 0.5 * q3 + q4 / 6.0;
-  return {.z = c[0] * u + c[1] * v + 0.5 * (p * uu + q * uv + r * vv),
-          .z_u = c[0] + (c[2] + 0.5 * p3 + p4 / 6.0) * u + q_slope * v,
-          .z_v = c[1] + q_slope * u + (c[4] + 0.5 * r3 + r4 / 6.0) * v};
+  const double uu = 0.5 * (c[2] + c[5] * u / 3.0 + c[6] * v);
+  const double vv = 0.5 * (c[4] + c[8] * v / 3.0 + c[7] * u);
+  return {
+      .z = u * (c[0] + uu * u + c[3] * v) + v * (c[1] + vv * v),
+      .z_u = c[0] + c[2] * u + c[3] * v + 0.5 * c[5] * u * u + c[6] * u * v + 0.5 * c[7] * v * v,
+      .z_v = c[1] + c[3] * u + c[4] * v + 0.5 * c[6] * u * u + c[7] * u * v + 0.5 * c[8] * v * v};
 }
 
 HeightPatch::Height HeightPatch::rolled_height(double u, double v) const {
@@ -141,18 +95,12 @@ HeightPatch::Height HeightPatch::rolled_height(double u, double v) const {
   return {.z = g.z, .z_u = s * g.z_u + along * s_u, .z_v = s * g.z_v + along * s_v};
 }
 
-double HeightPatch::z(double u, double v) const {
-  const double uu = u * u, uv = 2.0 * u * v, vv = v * v;
-  const double p =
-      c[2] + (c[5] * u + c[6] * v) / 3.0 + (c[9] * uu + c[10] * uv + c[11] * vv) / 12.0;
-  const double q =
-      c[3] + (c[6] * u + c[7] * v) / 3.0 + (c[10] * uu + c[11] * uv + c[12] * vv) / 12.0;
-  const double r =
-      c[4] + (c[7] * u + c[8] * v) / 3.0 + (c[11] * uu + c[12] * uv + c[13] * vv) / 12.0;
-  return c[0] * u + c[1] * v + 0.5 * (p * uu + q * uv + r * vv);
-}
-
 double HeightPatch::rolled_z(double u, double v) const {
+  const auto z = [&](double a, double b) {
+    const double uu = 0.5 * (c[2] + c[5] * a / 3.0 + c[6] * b);
+    const double vv = 0.5 * (c[4] + c[8] * b / 3.0 + c[7] * a);
+    return a * (c[0] + uu * a + c[3] * b) + b * (c[1] + vv * b);
+  };
   const double squared = u * u + v * v;
   if (squared == 0.0) return 0.0;
   const double f = z(u, v), s = std::sqrt(1.0 + f * f / squared);
@@ -211,37 +159,6 @@ std::optional<HeightPatch> fit_patch(const HeightPatch& frame, std::span<const V
     case PatchDegree::cubic:
       return fit_terms<9>(frame, points);
   }
-  return std::nullopt;
-}
-
-std::optional<ResolvedPatch> fit_resolved_patch(const HeightPatch& frame,
-                                                std::span<const Vec3> points) {
-  constexpr int kCubic = 9, kQuartic = 14;
-  if (points.size() >= kQuartic) {
-    const NormalEquations<kQuartic> equations(frame, points);
-    const Eigen::LLT<Eigen::Matrix<double, kQuartic, kQuartic>> factor(equations.matrix);
-    if (is_regular(factor)) {
-      // The factor of the cubic's equations is the leading block of that of the quartic's.
-      Eigen::Matrix<double, kQuartic, 1> solution = equations.rhs;
-      factor.matrixL().solveInPlace(solution);
-      Eigen::Matrix<double, kCubic, 1> lower = solution.head<kCubic>();
-      factor.matrixLLT()
-          .topLeftCorner<kCubic, kCubic>()
-          .triangularView<Eigen::Lower>()
-          .transpose()
-          .solveInPlace(lower);
-      factor.matrixU().solveInPlace(solution);
-      const HeightPatch cubic = scaled_patch(frame, lower, equations.h),
-                        quartic = scaled_patch(frame, solution, equations.h);
-      const double h = equations.h, turn = h * h * h * size_of_quartic_terms(quartic);
-      const double w = 1.0 / (1.0 + std::pow(turn / kResolvedTurn, 4));
-      HeightPatch blended = cubic;
-      for (std::size_t j = 0; j < blended.c.size(); ++j)
-        blended.c[j] += w * (quartic.c[j] - cubic.c[j]);
-      return ResolvedPatch{blended, quartic};
-    }
-  }
-  if (const auto cubic = fit_terms<kCubic>(frame, points)) return ResolvedPatch{*cubic, {}};
   return std::nullopt;
 }
 

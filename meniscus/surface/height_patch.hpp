@@ -11,17 +11,16 @@ namespace meniscus {
 
 /// A polynomial height above a plane through a vertex:
 ///   f(u, v) = c0 u + c1 v + ½(c2 u² + 2 c3 u v + c4 v²) + ⅙(c5 u³ + 3 c6 u² v + 3 c7 u v² + c8
-///   v³) + (c9 u⁴ + 4 c10 u³ v + 6 c11 u² v² + 4 c12 u v³ + c13 v⁴)/24,
+///   v³),
 /// with u, v, z along the right-handed unit frame t1, t2, n. It passes through its vertex.
 struct HeightPatch {
   Vec3 x = Vec3::Zero();  ///< the vertex [R0]
   Vec3 t1 = Vec3::UnitX(), t2 = Vec3::UnitY(), n = Vec3::UnitZ();
-  std::array<double, 14> c{};
+  std::array<double, 9> c{};
 
   struct Height {
     double z, z_u, z_v;
   };
-  [[nodiscard]] double z(double u, double v) const;  ///< f
   /// f and its gradient: the surface of a patch fitted to points as they are.
   [[nodiscard]] Height height(double u, double v) const;
   /// z = f(su, sv), s² = 1 + f(u, v)²/(u² + v²), and its gradient: the surface of a patch fitted to
@@ -45,20 +44,6 @@ enum class PatchDegree { umbilic, quadratic, cubic };
 [[nodiscard]] std::optional<HeightPatch> fit_patch(const HeightPatch& frame,
                                                    std::span<const Vec3> points,
                                                    PatchDegree degree);
-
-/// A patch as smooth as the points show the surface to be: a cubic and a quartic of the same
-/// points, blended by how much the quartic terms turn the normal.
-struct ResolvedPatch {
-  /// c = c_cubic + w (c_quartic − c_cubic), w = 1/(1 + (q/0.3)⁴), q = h³ (Σ (f⁗)²)^½ of the
-  /// quartic [radians], h the points' root mean square distance.
-  HeightPatch patch;
-  /// The quartic alone: curvature O(h³), O(h⁴) where the points are symmetric. Empty where the
-  /// points do not determine it; the patch is then the cubic.
-  std::optional<HeightPatch> quartic;
-};
-/// Of weighted least squares, as `fit_patch`; empty where not even the cubic is determined.
-[[nodiscard]] std::optional<ResolvedPatch> fit_resolved_patch(const HeightPatch& frame,
-                                                              std::span<const Vec3> points);
 
 /// Points d = p − x moved away from the axis of the frame to the distance |d| at equal height. A
 /// circle of curvature k has z = −½k|d|² exactly, so that it becomes a parabola: fits of unrolled

@@ -21,7 +21,6 @@ constexpr int kRoundsPerSweep = 30;
 /// In the first sweep and while edits are many the springs need only keep faces apart.
 constexpr int kRoundsWhileRough = 5;
 constexpr double kManyEdits = 0.03;  // of the vertices
-constexpr int kSweepsFromNarrowest = 8;
 /// Smallest angle of a face that is let through when the surface had none as small before.
 constexpr double kLeastAngleDeg = 5.0;
 
@@ -29,7 +28,7 @@ RemeshReference reference_surface(const SurfaceMesh& mesh, const SurfaceTopology
                                   const RemeshOptions& options) {
   SmoothSurface surface(mesh, topology);
   const VertexField<double> lengths =
-      rest_lengths(mesh, topology, surface.quartic_curvature(), options);
+      rest_lengths(mesh, topology, surface.vertex_curvature(), options);
   VertexField<RemeshReference::Corner> corners;
   for (const VertexId v : mesh.x.ids()) corners.add({surface.vertex_normal(v), lengths[v]});
   return {std::move(surface), SurfaceWalk(mesh, topology), std::move(corners)};
@@ -41,17 +40,13 @@ double rest_tolerance(const RemeshState& state, const RemeshOptions& options) {
   return 0.006 * std::min(1.0, std::sqrt(1000.0 / state.mesh.num_vertices()));
 }
 
-/// A few places whose edits undo each other would keep the wider averages from ever being seen to:
-/// later sweeps begin with each width in turn.
-int first_width(int sweep) { return sweep <= kSweepsFromNarrowest ? 0 : sweep % kNumWidths; }
-
 /// Restructures and equilibrates in turn until nothing is left to restructure.
 void equilibrate(RemeshState& state, const RemeshOptions& options, RemeshReport& report) {
   while (report.sweeps < options.max_sweeps) {
     ++report.sweeps;
     const int flips_before = report.flips;
     report.flips += flip_to_delaunay(state);
-    const DensityEdits edits = balance_density(state, first_width(report.sweeps));
+    const DensityEdits edits = balance_density(state);
     report.splits += edits.splits;
     report.collapses += edits.collapses;
     const int num_edits = edits.splits + edits.collapses;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -21,8 +20,7 @@ namespace {
 // or less is 0.16/k: a band of twice that, wide enough that an edit never calls for its own
 // undoing.
 constexpr double kBandTimesAverages = 0.3;
-constexpr std::array<int, kNumWidths> kAverages = {2, 8,
-                                                   32};  // the widest has the band of the whole
+constexpr std::array<int, 3> kAverages = {2, 8, 32};  // the widest has the band of the whole
 constexpr double kLocalBandFar = 0.3;    // beyond, edits may be as close as their faces allow
 constexpr int kMostRings = 5;            // an edit of one in a hundred
 constexpr double kGlobalBand = 0.01;     // of the whole number; a fifth of the law's 5 %
@@ -340,10 +338,10 @@ int flip_to_delaunay(RemeshState& state) {
   return flips;
 }
 
-DensityEdits balance_density(RemeshState& state, int first_width) {
+DensityEdits balance_density(RemeshState& state) {
   const VertexField<double> load = vertex_loads(state);
   RingAverage averaged(state.mesh, load);
-  for (const int averages : std::span(kAverages).subspan(static_cast<std::size_t>(first_width))) {
+  for (const int averages : kAverages) {
     const VertexField<double>& mean_load = averaged.after(averages);
     const double band = std::max(kBandTimesAverages / averages, kGlobalBand);
     const int unlimited = state.mesh.num_vertices();

@@ -13,10 +13,8 @@ struct DensityEdits {
 };
 /// One pass of vertex addition and removal where the number of vertices is out of its band: over
 /// some 12 vertices, or, when all places are within, over 50, 200, or the whole. Edits of one pass
-/// lie so many rings apart that each sees the density the others left. first_width, 0 to
-/// kNumWidths − 1: which of the widths is looked at first; narrower ones are left out.
-inline constexpr int kNumWidths = 3;
-DensityEdits balance_density(RemeshState& state, int first_width);
+/// lie so many rings apart that each sees the density the others left.
+DensityEdits balance_density(RemeshState& state);
 
 /// ∮ρ dS over the smooth surface, ρ = 2/(√3 l0²) (eq. 2): the number of vertices it asks for.
 [[nodiscard]] double expected_vertices(const RemeshState& state);

@@ -16,8 +16,7 @@ void limit_gradation(VertexField<double>& length, const SurfaceMesh& mesh,
                      const SurfaceTopology& topology, double gradation);
 
 /// Rest length l0 at the vertices [R0]:
-///   ρ = C0⟨κ⟩² (eq. 1), ⟨κ⟩² = ½(k1² + k2²) of the curvature given, best that of the quartic fits
-///   (SmoothSurface::quartic_curvature), not averaged any further;
+///   ρ = C0⟨κ⟩² (eq. 1), averaged once with the first ring: ½(own + mean of ring);
 ///   l0 = (2/(√3 ρ))^½, at most edge_ceiling and size_bound(x), at least edge_floor;
 ///   then lowered until l0(a) ≤ l0(b) + gradation |x_a − x_b| along every edge.
 /// Before, C0 is raised to min_vertices/∮⟨κ⟩² dS where it is less, and the floor lowered to half

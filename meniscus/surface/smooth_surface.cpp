@@ -7,13 +7,13 @@
 namespace meniscus {
 namespace {
 
-ResolvedPatch patch_at(const HeightPatch& frame, std::span<const Vec3> rings,
-                       std::vector<Vec3>& unrolled) {
+HeightPatch patch_at(const HeightPatch& frame, std::span<const Vec3> rings,
+                     std::vector<Vec3>& unrolled) {
   unroll(rings, frame, unrolled);
-  if (const auto patch = fit_resolved_patch(frame, unrolled)) return *patch;
-  for (const PatchDegree degree : {PatchDegree::quadratic, PatchDegree::umbilic})
-    if (const auto patch = fit_patch(frame, unrolled, degree)) return {*patch, {}};
-  return {frame, {}};
+  for (const PatchDegree degree :
+       {PatchDegree::cubic, PatchDegree::quadratic, PatchDegree::umbilic})
+    if (const auto patch = fit_patch(frame, unrolled, degree)) return *patch;
+  return frame;
 }
 
 struct Lift {
@@ -32,17 +32,14 @@ Lift lift(const HeightPatch& patch, const Vec3& flat) {
 
 SmoothSurface::SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& topology)
     : curvature_(osculating_curvature(mesh, topology)),
-      quartic_(curvature_),
       patches_(mesh.num_vertices()),
       normals_(mesh.num_vertices()),
       faces_(mesh.faces) {
   RingGatherer rings(mesh, topology);
   std::vector<Vec3> unrolled;
   for (const VertexId v : mesh.x.ids()) {
-    const ResolvedPatch fit =
-        patch_at(flat_patch(mesh.x[v], curvature_[v].n), rings.gather(v, true), unrolled);
-    const HeightPatch& patch = patches_[v] = fit.patch;
-    if (fit.quartic) quartic_[v] = fit.quartic->curvature();
+    HeightPatch& patch = patches_[v];
+    patch = patch_at(flat_patch(mesh.x[v], curvature_[v].n), rings.gather(v, true), unrolled);
     normals_[v] = (patch.n - patch.c[0] * patch.t1 - patch.c[1] * patch.t2).normalized();
   }
 }

@@ -10,18 +10,18 @@ struct SurfaceLocation {
   Vec3 weights = Vec3::Zero();  ///< barycentric: non-negative, sum 1
 };
 
-/// The smooth surface that a triangulation stands for: around each vertex a patch between cubic and
-/// quartic (ResolvedPatch), fitted to two unrolled rings in the frame of the osculating fit's
-/// normal; over a face the three patches of its corners, blended.
+/// The smooth surface that a triangulation stands for: around each vertex a cubic patch, fitted to
+/// two unrolled rings in the frame of the osculating fit's normal; over a face the three patches of
+/// its corners, blended.
 ///
 ///   S(b) = y + Σ_k w_k(b) (z_k(u, v) − n_k·(y − x_k)) n_k,   y = Σ b_k x_k,   w_k = b_k²/Σ b_j²
 ///
 /// where (u, v) are the coordinates of the flat point y in the frame of patch k. It passes through
 /// every vertex with the tangent plane of the vertex's patch; over an edge it depends on the
-/// patches of the two ends alone, so that faces join without gaps. Position error O(h⁴) or better,
-/// normal O(h³), curvature O(h²) on smooth surfaces; a sphere to O(h⁶). Where fewer than two rings
-/// can be seen (filaments as thin as an edge, solids of few vertices) patches fall back to lower
-/// degree. A value: it keeps what it needs of the mesh.
+/// patches of the two ends alone, so that faces join without gaps. Position error O(h⁴), normal
+/// O(h³), curvature O(h²) on smooth surfaces; a sphere to O(h⁶). Where fewer than two rings can be
+/// seen (filaments as thin as an edge, solids of few vertices) patches fall back to lower degree.
+/// A value: it keeps what it needs of the mesh.
 class SmoothSurface {
  public:
   SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& topology);
@@ -44,8 +44,6 @@ class SmoothSurface {
 
   /// The osculating fit at the vertices.
   [[nodiscard]] const VertexField<VertexCurvature>& vertex_curvature() const { return curvature_; }
-  /// Of the quartic fit to two rings; the osculating fit where these do not determine it.
-  [[nodiscard]] const VertexField<VertexCurvature>& quartic_curvature() const { return quartic_; }
   [[nodiscard]] const HeightPatch& patch(VertexId v) const { return patches_[v]; }
   [[nodiscard]] const FaceVertices& corners(FaceId f) const { return faces_[f]; }
   [[nodiscard]] std::int32_t num_vertices() const { return patches_.size(); }
@@ -54,7 +52,7 @@ class SmoothSurface {
   /// y of the formula above.
   [[nodiscard]] Vec3 flat_point(const SurfaceLocation& location) const;
 
-  VertexField<VertexCurvature> curvature_, quartic_;
+  VertexField<VertexCurvature> curvature_;
   VertexField<HeightPatch> patches_;
   VertexField<Vec3> normals_;  // of the patches at their vertices
   FaceField<FaceVertices> faces_;

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "meniscus/mesh/surface_measures.hpp"
-#include "meniscus/surface/smooth_surface.hpp"
 #include "tests/surface/shapes.hpp"
 
 namespace meniscus {
@@ -13,7 +12,7 @@ namespace {
 
 VertexField<double> lengths(const SurfaceMesh& mesh, const RemeshOptions& options) {
   const SurfaceTopology topology(mesh);
-  return rest_lengths(mesh, topology, SmoothSurface(mesh, topology).quartic_curvature(), options);
+  return rest_lengths(mesh, topology, osculating_curvature(mesh, topology), options);
 }
 
 TEST(RestLengths, SphereAsksForItsNodes) {

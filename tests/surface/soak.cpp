@@ -12,7 +12,6 @@
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/remesh.hpp"
 #include "meniscus/surface/sizing.hpp"
-#include "meniscus/surface/smooth_surface.hpp"
 #include "tests/surface/smooth_shapes.hpp"
 
 namespace meniscus::test {
@@ -51,8 +50,7 @@ double integral_of_density(const SurfaceMesh& mesh, const VertexField<double>& l
 /// was given.
 double gap_factor(const Subject& subject, const SurfaceMesh& given) {
   const SurfaceTopology topology(given);
-  const SmoothSurface surface(given, topology);
-  const VertexField<VertexCurvature>& curvature = surface.quartic_curvature();
+  const auto curvature = osculating_curvature(given, topology);
   RemeshOptions without = subject.options;
   without.gap_layers = 0.0;
   return integral_of_density(given, rest_lengths(given, topology, curvature, subject.options)) /
