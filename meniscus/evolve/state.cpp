@@ -115,6 +115,8 @@ void Evolution::save(Archive& archive) const {
   archive.integers["evolution/step"] = {step_, iterations_};
   archive.integers["evolution/interfaces"] = {static_cast<std::int64_t>(scene_.interfaces.size())};
   archive.reals["evolution/corrections"] = correction_;
+  if (options_.follows_drops)
+    archive.reals["evolution/centroid"] = {centroid_.x(), centroid_.y(), centroid_.z()};
   for (std::size_t i = 0; i < scene_.interfaces.size(); ++i)
     save_interface(scene_.interfaces[i], i, archive);
   save_liquids(scene_, archive);
@@ -137,6 +139,8 @@ void Evolution::load(const Archive& archive) {
   scene_.liquids = load_liquids(archive, count);
   events_ = load_events(archive);
   correction_ = entry(archive.reals, "evolution/corrections", count);
+  if (options_.follows_drops)
+    centroid_ = Vec3(entry(archive.reals, "evolution/centroid", 3).data());
   flow_->load(archive, scene_);
 }
 

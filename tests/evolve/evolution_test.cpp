@@ -220,6 +220,31 @@ TEST(Evolution, HoldsTheDropsWhereTheyWereWhenTheFrameMovesWithThem) {
   }
 }
 
+// A resumed run is made without drops: where they were held is the checkpoint's to say.
+TEST(Evolution, GoesOnHoldingTheDropsWhereTheyWere) {
+  Scene scene = one_drop(200);
+  translate_interfaces(scene, Vec3(0.3, 0.0, 0.0));
+  EvolutionOptions options;
+  options.end = 0.1 - 1e-9;
+  options.max_step = 0.05;
+  options.follows_drops = true;
+  auto run = make_run(scene, options, stretching);
+  run_to_end(run.evolution);
+  Archive archive;
+  run.evolution.save(archive);
+  scene.interfaces.clear();
+  auto again = make_run(scene, options, stretching);
+  again.evolution.load(archive);
+  for (Evolution* each : {&run.evolution, &again.evolution}) {
+    ASSERT_TRUE(each->solve().ok);
+    ASSERT_TRUE(each->advance().ok);
+  }
+  const VertexField<Vec3>&x = run.evolution.scene().interfaces[0].mesh.x,
+        &y = again.evolution.scene().interfaces[0].mesh.x;
+  ASSERT_EQ(x.size(), y.size());
+  for (const VertexId v : x.ids()) EXPECT_EQ(x[v], y[v]);
+}
+
 TEST(InterfaceMotion, CentroidOfDropsLeavesOutDropsWithinDrops) {
   Scene scene = one_drop(200);
   Interface other = scene.interfaces.front();
