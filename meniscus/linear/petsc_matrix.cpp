@@ -1,5 +1,6 @@
 #include "meniscus/linear/petsc_matrix.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -41,15 +42,31 @@ struct SplitRows {
       part->values = std::make_unique_for_overwrite<PetscScalar[]>(num_entries);
     }
     for (std::int32_t i = 0; i < csr.num_rows; ++i) {
-      const std::int32_t begin = csr.row_start[at(i)];
-      const std::int32_t middle = begin + own.start[at(i) + 1] - own.start[at(i)];
-      copy(csr, begin, middle, first_column, own, i);
-      copy(csr, middle, csr.row_start[at(i) + 1], 0, others, i);
+      const auto [begin, middle, end] = row(csr, i);
+      take_columns(csr, begin, middle, first_column, own, i);
+      take_columns(csr, middle, end, 0, others, i);
+    }
+    take_values(csr);
+  }
+
+  /// Of a matrix on the same sparsity.
+  void take_values(const CsrView& csr) {
+    for (std::int32_t i = 0; i < csr.num_rows; ++i) {
+      const auto [begin, middle, end] = row(csr, i);
+      const double* values = csr.values.data();
+      std::copy(values + begin, values + middle, own.values.get() + own.start[at(i)]);
+      std::copy(values + middle, values + end, others.values.get() + others.start[at(i)]);
     }
   }
 
  private:
   static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+  /// Where a row begins, where its other columns do, and where it ends.
+  [[nodiscard]] std::array<std::int32_t, 3> row(const CsrView& csr, std::int32_t i) const {
+    const std::int32_t begin = csr.row_start[at(i)];
+    return {begin, begin + own.start[at(i) + 1] - own.start[at(i)], csr.row_start[at(i) + 1]};
+  }
 
   /// Own columns come first in each row: most rows have no others.
   void find_starts(const CsrView& csr, PetscInt first_column) {
@@ -68,13 +85,11 @@ struct SplitRows {
     }
   }
 
-  static void copy(const CsrView& csr, std::int32_t begin, std::int32_t end, PetscInt first_column,
-                   Part& part, std::int32_t row) {
-    const std::int32_t to = part.start[at(row)];
-    for (std::int32_t k = begin; k < end; ++k) {
-      part.columns[at(to + k - begin)] = csr.columns[at(k)] - first_column;
-      part.values[at(to + k - begin)] = csr.values[at(k)];
-    }
+  static void take_columns(const CsrView& csr, std::int32_t begin, std::int32_t end,
+                           PetscInt first_column, Part& part, std::int32_t row) {
+    const std::int32_t to = part.start[at(row)] - begin;
+    for (std::int32_t k = begin; k < end; ++k)
+      part.columns[at(to + k)] = csr.columns[at(k)] - first_column;
   }
 };
 
@@ -82,6 +97,8 @@ PetscErrorCode destroy_rows(void* rows) {
   const std::unique_ptr<SplitRows> owner(static_cast<SplitRows*>(rows));
   return 0;
 }
+
+constexpr const char* kRows = "meniscus_rows";
 
 /// Gives a matrix the arrays that it was made on, to keep as long as it lives.
 void keep_with(Mat matrix, std::unique_ptr<SplitRows> rows) {
@@ -91,9 +108,20 @@ void keep_with(Mat matrix, std::unique_ptr<SplitRows> rows) {
               "PetscContainerSetUserDestroy");
   petsc_check(PetscContainerSetPointer(container.get(), rows.release()),
               "PetscContainerSetPointer");
-  petsc_check(PetscObjectCompose(reinterpret_cast<PetscObject>(matrix), "rows",
+  petsc_check(PetscObjectCompose(reinterpret_cast<PetscObject>(matrix), kRows,
                                  reinterpret_cast<PetscObject>(container.get())),
               "PetscObjectCompose");
+}
+
+/// Of a shared matrix; what PETSc made of the old values it does not know to be stale.
+void take_values(Mat matrix, const CsrView& csr) {
+  PetscObject container = nullptr;
+  void* rows = nullptr;
+  petsc_check(PetscObjectQuery(reinterpret_cast<PetscObject>(matrix), kRows, &container),
+              "PetscObjectQuery");
+  petsc_check(PetscContainerGetPointer(reinterpret_cast<PetscContainer>(container), &rows),
+              "PetscContainerGetPointer");
+  static_cast<SplitRows*>(rows)->take_values(csr);
 }
 
 Matrix shared_matrix(MPI_Comm comm, const CsrView& csr) {
@@ -119,9 +147,7 @@ Matrix nest_of(MPI_Comm comm, std::array<Mat, 4> blocks) {
 }
 
 Matrix scaled(MPI_Comm comm, const CsrView& csr, double scale) {
-  Matrix copy;
-  petsc_check(MatDuplicate(borrowed_matrix(comm, csr).get(), MAT_COPY_VALUES, copy.out()),
-              "MatDuplicate");
+  Matrix copy = copied_matrix(comm, csr);
   petsc_check(MatScale(copy.get(), scale), "MatScale");
   return copy;
 }
@@ -151,6 +177,14 @@ Matrix borrowed_matrix(MPI_Comm comm, const CsrView& csr) {
   return matrix;
 }
 
+Matrix copied_matrix(MPI_Comm comm, const CsrView& csr) {
+  Matrix borrowed = borrowed_matrix(comm, csr);
+  if (is_shared(comm)) return borrowed;
+  Matrix copy;
+  petsc_check(MatDuplicate(borrowed.get(), MAT_COPY_VALUES, copy.out()), "MatDuplicate");
+  return copy;
+}
+
 Vector zero_vector(MPI_Comm comm, PetscInt size) {
   Vector vector;
   if (is_shared(comm))
@@ -175,14 +209,30 @@ Vector borrowed_vector(MPI_Comm comm, std::span<const double> values) {
 
 NestedOperator nested_operator(MPI_Comm comm, const SaddleSystem& system) {
   NestedOperator result;
+  result.A = borrowed_matrix(comm, system.A);
   result.B = borrowed_matrix(comm, system.B);
-  const Matrix A = borrowed_matrix(comm, system.A), minus_C = scaled(comm, system.C, -1.0);
-  Matrix gradient, own_lower_left;
+  result.minus_C = scaled(comm, system.C, -1.0);
+  if (!system.lower_left.empty())
+    result.lower_left = borrowed_matrix(comm, system.lower_left_block());
+  Matrix gradient;
   petsc_check(MatCreateTranspose(result.B.get(), gradient.out()), "MatCreateTranspose");
-  if (!system.lower_left.empty()) own_lower_left = borrowed_matrix(comm, system.lower_left_block());
-  Mat lower_left = own_lower_left ? own_lower_left.get() : result.B.get();
-  result.nest = nest_of(comm, {A.get(), gradient.get(), lower_left, minus_C.get()});
+  Mat lower_left = result.lower_left ? result.lower_left.get() : result.B.get();
+  result.nest = nest_of(comm, {result.A.get(), gradient.get(), lower_left, result.minus_C.get()});
   return result;
+}
+
+bool take_values(MPI_Comm comm, const SaddleSystem& system, NestedOperator& nested) {
+  if (!is_shared(comm) || !nested.nest || bool(nested.lower_left) == system.lower_left.empty())
+    return false;
+  PetscInt num_rows = 0;
+  petsc_check(MatGetLocalSize(nested.A.get(), &num_rows, nullptr), "MatGetLocalSize");
+  if (num_rows != system.num_velocities()) return false;
+  take_values(nested.A.get(), system.A);
+  take_values(nested.B.get(), system.B);
+  take_values(nested.minus_C.get(), system.C);
+  petsc_check(MatScale(nested.minus_C.get(), -1.0), "MatScale");
+  if (nested.lower_left) take_values(nested.lower_left.get(), system.lower_left_block());
+  return true;
 }
 
 MergedMatrix merged_matrix(MPI_Comm comm, const SaddleSystem& system, double continuity_sign,

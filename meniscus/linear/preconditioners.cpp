@@ -37,10 +37,8 @@ void use_interpolation(MPI_Comm comm, KSP cycle, const CsrView& interpolation) {
   petsc_check(PCSetType(pc, PCMG), "PCSetType");
   petsc_check(PCMGSetLevels(pc, 2, nullptr), "PCMGSetLevels");
   petsc_check(PCMGSetGalerkin(pc, PC_MG_GALERKIN_BOTH), "PCMGSetGalerkin");
-  Matrix copy;
-  petsc_check(MatDuplicate(borrowed_matrix(comm, interpolation).get(), MAT_COPY_VALUES, copy.out()),
-              "MatDuplicate");
-  petsc_check(PCMGSetInterpolation(pc, 1, copy.get()), "PCMGSetInterpolation");
+  petsc_check(PCMGSetInterpolation(pc, 1, copied_matrix(comm, interpolation).get()),
+              "PCMGSetInterpolation");
 }
 
 KrylovSolver multigrid_cycle(MPI_Comm comm, Mat laplacian, const CsrView* interpolation) {
@@ -63,10 +61,7 @@ VelocityMultigrid::VelocityMultigrid(Communicator communicator, const SaddleSyst
       component_z_(zero_vector(mpi_communicator(communicator), num_nodes_)) {
   MPI_Comm comm = mpi_communicator(communicator);
   for (std::size_t k = 0; k < system.laplacians.size(); ++k) {
-    Matrix copy;
-    petsc_check(MatDuplicate(borrowed_matrix(comm, system.laplacians[k]).get(), MAT_COPY_VALUES,
-                             copy.out()),
-                "MatDuplicate");
+    Matrix copy = copied_matrix(comm, system.laplacians[k]);
     cycles_.push_back(multigrid_cycle(
         comm, copy.get(), system.interpolations.empty() ? nullptr : &system.interpolations[k]));
     laplacians_.push_back(std::move(copy));

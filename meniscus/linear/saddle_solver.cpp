@@ -155,6 +155,7 @@ class SaddleSolver::Implementation {
   void forget() {
     multigrid_.reset();
     factorization_.reset();
+    nested_ = {};
   }
 
   /// The operator, and a preconditioner for it: what was kept of one, and what is cheap anew.
@@ -162,17 +163,17 @@ class SaddleSolver::Implementation {
     const bool is_paper = options_.method == SaddleMethod::paper_gmres;
     if (is_paper) {
       merged_ = merged_matrix(comm(), system, -1.0, 0.0);
-      operator_ = std::move(merged_.handle);
-      scaling_.emplace(operator_.get());
+      operator_ = merged_.handle.get();
+      scaling_.emplace(operator_);
       apply_ = [this](Vec r, Vec z) { scaling_->apply(r, z); };
     } else {
-      NestedOperator nested = nested_operator(
-          comm(), options_.method == SaddleMethod::minres ? system.symmetric_part() : system);
-      operator_ = std::move(nested.nest);
-      B_ = std::move(nested.B);
+      const bool is_minres = options_.method == SaddleMethod::minres;
+      const SaddleSystem taken = is_minres ? system.symmetric_part() : system;
+      if (!take_values(comm(), taken, nested_)) nested_ = nested_operator(comm(), taken);
+      operator_ = nested_.nest.get();
     }
     if (system.constant_pressure_is_null)
-      attach_constant_pressure(communicator_, operator_.get(), system.num_velocities(),
+      attach_constant_pressure(communicator_, operator_, system.num_velocities(),
                                system.num_pressures());
     if (options_.method == SaddleMethod::mumps) {
       if (!factorization_ || factorization_->size() != system.size())
@@ -185,7 +186,7 @@ class SaddleSolver::Implementation {
       block_.emplace(
           communicator_,
           options_.method == SaddleMethod::minres ? Shape::diagonal : Shape::upper_triangular,
-          system, *multigrid_, B_.get());
+          system, *multigrid_, nested_.B.get());
       apply_ = [this](Vec r, Vec z) { block_->apply(r, z); };
     }
   }
@@ -193,7 +194,7 @@ class SaddleSolver::Implementation {
   KrylovSolver make_outer_solver(double rtol) {
     KrylovSolver outer;
     petsc_check(KSPCreate(comm(), outer.out()), "KSPCreate");
-    petsc_check(KSPSetOperators(outer.get(), operator_.get(), operator_.get()), "KSPSetOperators");
+    petsc_check(KSPSetOperators(outer.get(), operator_, operator_), "KSPSetOperators");
     // A relative tolerance of one or more is refused by PETSc; the absolute one must not interfere.
     petsc_check(KSPSetTolerances(outer.get(), std::min(rtol, 0.9), 1e-300, PETSC_DEFAULT,
                                  options_.max_iterations),
@@ -240,7 +241,7 @@ class SaddleSolver::Implementation {
     Vector residual;
     double norm = 0.0, first = 0.0;
     petsc_check(VecDuplicate(b, residual.out()), "VecDuplicate");
-    petsc_check(MatMult(operator_.get(), x, residual.get()), "MatMult");
+    petsc_check(MatMult(operator_, x, residual.get()), "MatMult");
     petsc_check(VecAYPX(residual.get(), -1.0, b), "VecAYPX");
     petsc_check(VecNorm(residual.get(), NORM_2, &norm), "VecNorm");
     petsc_check(VecNorm(b, NORM_2, &first), "VecNorm");
@@ -256,8 +257,8 @@ class SaddleSolver::Implementation {
     apply_ = nullptr;
     block_.reset();
     scaling_.reset();
-    operator_.reset();
-    B_.reset();
+    operator_ = nullptr;
+    if (communicator_.size() == 1) nested_ = {};
     merged_ = {};
   }
 
@@ -265,8 +266,9 @@ class SaddleSolver::Implementation {
   SaddleOptions options_;
   OptionTable table_;
   bool is_checked_ = false;  ///< the user's options, after a first solve
-  Matrix operator_, B_;
+  NestedOperator nested_;
   MergedMatrix merged_;
+  Mat operator_ = nullptr;  ///< one of the two
   Apply apply_;
   std::optional<BlockPreconditioner> block_;
   std::optional<DiagonalScaling> scaling_;

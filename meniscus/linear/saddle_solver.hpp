@@ -52,7 +52,7 @@ class SaddleSolver {
 
   /// Solves for `solution` (starting from zero) until the residual is `rtol` times its first value
   /// (Euclidean norm; the preconditioner's norm with MINRES). `kept` takes the preconditioner of an
-  /// earlier system of the same size, if there is one. Collective.
+  /// earlier system, if there is one; this one must then be on the same sparsity. Collective.
   LinearReport solve(const SaddleSystem& system, std::span<const double> right_hand_side,
                      std::span<double> solution, double rtol,
                      Preconditioner preconditioner = Preconditioner::fresh);

@@ -70,23 +70,22 @@ std::vector<std::int32_t> groups_of(const FlowSpace& space, const Rows& cells) {
   return group;
 }
 
-/// Groups that share cells are neighbours, by how often two opposite edges of each cell (a third of
-/// its edges) join them; a group weighs as many as there are cells around its vertices, which is
-/// what their rows cost.
-linear::WeightedGraph group_graph(const FlowSpace& space, const std::vector<std::int32_t>& group) {
+/// Groups that share cells are neighbours, by how many cells have their first edge between them (of
+/// six edges one is enough to tell where many cells would be cut); a group weighs as many as there
+/// are cells around its vertices, which is what their rows cost.
+linear::WeightedGraph group_graph(const FlowSpace& space, const Rows& cells,
+                                  const std::vector<std::int32_t>& group) {
   const std::int32_t num_groups = 1 + std::ranges::max(group);
   linear::WeightedGraph graph;
   graph.vertex_weights.assign(at(num_groups), 0);
+  for (std::int32_t v = 0; v < space.num_vertices(); ++v)
+    graph.vertex_weights[at(group[at(v)])] += static_cast<std::int32_t>(cells.of(v).size());
   std::vector<std::array<std::int32_t, 2>> joins;
-  joins.reserve(2 * at(space.velocity.num_cells()));
+  joins.reserve(at(space.velocity.num_cells()));
   for (std::int32_t cell = 0; cell < space.velocity.num_cells(); ++cell) {
     const auto vertices = corners(space, cell);
-    for (const std::size_t k : {0U, 2U}) {
-      const std::int32_t a = group[at(vertices[k])], b = group[at(vertices[k + 1])];
-      ++graph.vertex_weights[at(a)];
-      ++graph.vertex_weights[at(b)];
-      if (a != b) joins.push_back({a, b});
-    }
+    const std::int32_t a = group[at(vertices[0])], b = group[at(vertices[1])];
+    if (a != b) joins.push_back({a, b});
   }
   const Rows joins_of = members(num_groups, static_cast<std::int32_t>(joins.size()),
                                 [&](std::int32_t join) { return std::span(joins[at(join)]); });
@@ -117,8 +116,9 @@ std::vector<std::int32_t> vertex_groups(const FlowSpace& space) {
 
 std::vector<std::int32_t> vertex_ranks(const FlowSpace& space, linear::Communicator communicator) {
   const int size = communicator.size();
-  std::vector<std::int32_t> rank = vertex_groups(space);
-  const linear::WeightedGraph graph = group_graph(space, rank);
+  const Rows cells = cells_around_vertices(space);
+  std::vector<std::int32_t> rank = groups_of(space, cells);
+  const linear::WeightedGraph graph = group_graph(space, cells, rank);
   if (graph.num_vertices() < size)
     reject_input("{} ranks are too many for {} vertices", size, space.num_vertices());
   std::vector<std::int32_t> part(at(graph.num_vertices()));
