@@ -58,6 +58,13 @@ void add_resume(CLI::App& app, Action& action) {
       command->add_option("-o,--output", arguments->output, "New folder, with --from");
   from->needs(output);
   output->needs(from);
+  command
+      ->add_option(
+          "--set", arguments->overrides,
+          "With --from, go on with another value of a key: --set topology.breakup-radius=0.005")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->needs(from);
   command->add_flag("-q,--quiet", arguments->is_quiet, "Print nothing but errors");
   add_watch(*command, arguments->watch);
   command->callback(

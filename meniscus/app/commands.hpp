@@ -29,6 +29,7 @@ struct ResumeArguments {
   std::optional<double> until;  ///< a new end
   std::string from;             ///< a checkpoint file; empty: the newest of the directory
   std::string output;           ///< with `from`: the new folder
+  std::vector<std::string> overrides = {};  ///< key=value, with `from`
   bool is_quiet = false;
   WatchArguments watch = {};
 };

@@ -142,6 +142,17 @@ void copy_reference(const fs::path& case_folder, const fs::path& run_folder) {
     fs::remove(target, ignored);
 }
 
+/// Drops, domain and units are in the checkpoint, as they have become.
+void require_changeable(std::span<const std::string> overrides) {
+  for (const std::string& override : overrides)
+    for (const char* of_the_start : {"drop", "domain", "scale"})
+      if (override.starts_with(of_the_start))
+        reject_input(
+            "--set {}: drops, domain and scale are those of the checkpoint; what may be "
+            "changed is in [flow], [interface], [time], [solver], [topology] and [output]",
+            override);
+}
+
 /// A checkpoint goes on only with the rows of the run it was taken in.
 void require_same_run(const Archive& archive, const fs::path& checkpoint, const fs::path& run) {
   const fs::path own = newest_checkpoint(run);
@@ -194,7 +205,8 @@ int resume(const ResumeArguments& arguments) {
   const fs::path checkpoint =
       arguments.from.empty() ? newest_checkpoint(source) : fs::path(arguments.from);
   const Archive archive = io::read_archive(checkpoint);
-  std::vector<std::string> overrides;
+  require_changeable(arguments.overrides);
+  std::vector<std::string> overrides = arguments.overrides;
   if (arguments.until) overrides.push_back(fmt::format("time.end={}", *arguments.until));
   const Case c = described_case(archive, checkpoint, overrides);
   Evolution evolution = make_evolution(c, build_surroundings(c));

@@ -144,6 +144,14 @@ def check_resuming(program, whole, step):
                     f"from step {taken_up}: {name} differs from that of the run left alone")
 
 
+def check_smaller_radius(program, whole, step):
+    """From just before the cut, a smaller radius puts it off."""
+    again = whole.parent / f"{whole.name}-smaller"
+    run(program, "resume", str(whole), "--from", str(whole / f"checkpoint-{step - 1:06}.h5"), "-o",
+        str(again), "-q", "--set", "topology.breakup-radius=0.05")
+    require(not rows(again, "events.csv"), "cut at a radius above 0.05")
+
+
 def main():
     program, root, work, solver = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3]), sys.argv[4]
     shutil.rmtree(work, ignore_errors=True)
@@ -171,7 +179,9 @@ def main():
                       SOLVERS[solver].format(radius=5), encoding="utf-8")
     whole = work / "break"
     run(program, "run", str(thread), "-o", str(whole), "-q")
-    check_resuming(program, whole, check_breaking(whole))
+    step = check_breaking(whole)
+    check_resuming(program, whole, step)
+    check_smaller_radius(program, whole, step)
 
 
 if __name__ == "__main__":

@@ -61,6 +61,11 @@ def main():
     check(["resume", "corrupt"], "checkpoint-")
     check(["resume", "run", "--until", "-1"], "time.end")
     check(["resume", "run", "--from", "run/none.h5", "-o", "new"], "none.h5")
+    check(["resume", "run", "--set", "time.end=1"], "--from")
+    checkpoint = str(next((work / "run").glob("checkpoint-*.h5")))
+    for override, word in (("drop[0].nodes=200", "drop[0].nodes=200"), ("time.ende=1", "did you mean"),
+                           ("topology.breakup-radius=-1", "topology.breakup-radius")):
+        check(["resume", "run", "--from", checkpoint, "-o", "new", "--set", override], word)
     check(["report", "foreign2"], "foreign2")
     check(["mesh", "none.toml"], "none.toml")
     check(["explain", "drop.vscosity-ratio"], "viscosity-ratio")
