@@ -54,7 +54,9 @@ std::optional<HeightPatch> fit_terms(const HeightPatch& frame, std::span<const V
     const auto m = monomials<Terms>(d.dot(frame.t1), d.dot(frame.t2));
     const double weight = 1.0 / d.squaredNorm();
     const Eigen::Matrix<double, Terms, 1> wm = weight * m;
-    for (int j = 0; j < Terms; ++j) normal.col(j).tail(Terms - j) += m[j] * wm.tail(Terms - j);
+    // The lower triangle, in loops of constant bounds.
+    for (int j = 0; j < Terms; ++j)
+      for (int i = j; i < Terms; ++i) normal(i, j) += m[j] * wm[i];
     rhs += d.dot(frame.n) * wm;
   }
   const Eigen::LLT<Eigen::Matrix<double, Terms, Terms>> factor(normal);

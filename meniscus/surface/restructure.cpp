@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <numeric>
 #include <tuple>
@@ -36,6 +37,25 @@ struct EdgeScore {
   HalfedgeId h;
 };
 
+/// An edge as balancing the density sees it.
+struct DensityEdge {
+  HalfedgeId h;
+  VertexId a, b;         ///< its ends
+  double squared_ratio;  ///< (l/l0)²
+};
+std::vector<DensityEdge> density_edges(const RemeshState& state) {
+  std::vector<DensityEdge> edges;
+  edges.reserve(static_cast<std::size_t>(state.mesh.num_halfedge_slots() / 2));
+  for (std::int32_t i = 0; i < state.mesh.num_halfedge_slots(); ++i) {
+    const HalfedgeId h{i};
+    if (!state.mesh.is_representative(h)) continue;
+    const double rest_length = state.rest_length(h);
+    edges.push_back({h, state.mesh.from(h), state.mesh.to(h),
+                     state.edge_vector(h).squaredNorm() / (rest_length * rest_length)});
+  }
+  return edges;
+}
+
 /// Area of the smooth surface over a face: that of the face times 1 + h²/8R² (equilateral, sphere
 /// of radius R, to leading order), with Σ|Δn|² over its edges for 3h²/R².
 double curved_area(const RemeshState& state, HalfedgeId h) {
@@ -66,22 +86,18 @@ VertexField<double> vertex_loads(const RemeshState& state) {
 /// vertices here and over there together comes out right.
 class RingAverage {
  public:
-  RingAverage(const EditMesh& mesh, VertexField<double> values)
-      : values_(std::move(values)), change_(values_.size()) {
-    edges_.reserve(static_cast<std::size_t>(mesh.num_halfedge_slots() / 2));
-    for (std::int32_t i = 0; i < mesh.num_halfedge_slots(); ++i)
-      if (const HalfedgeId h{i}; mesh.is_representative(h))
-        edges_.push_back({mesh.from(h), mesh.to(h)});
-  }
+  /// The edges must outlive this.
+  RingAverage(const std::vector<DensityEdge>& edges, VertexField<double> values)
+      : edges_(edges), values_(std::move(values)), change_(values_.size()) {}
   /// Averages until `count` times in all.
   const VertexField<double>& after(int count) {
     constexpr double kExchange = 1.0 / 7.0;  // of a vertex of valence 6 with its ring: their mean
     for (; count_ < count; ++count_) {
       std::ranges::fill(change_, 0.0);
-      for (const auto& [a, b] : edges_) {
-        const double exchange = kExchange * (values_[b] - values_[a]);
-        change_[a] += exchange;
-        change_[b] -= exchange;
+      for (const DensityEdge& edge : edges_) {
+        const double exchange = kExchange * (values_[edge.b] - values_[edge.a]);
+        change_[edge.a] += exchange;
+        change_[edge.b] -= exchange;
       }
       for (const VertexId v : values_.ids()) values_[v] += change_[v];
     }
@@ -89,8 +105,8 @@ class RingAverage {
   }
 
  private:
+  const std::vector<DensityEdge>& edges_;
   VertexField<double> values_, change_;
-  std::vector<std::array<VertexId, 2>> edges_;
   int count_ = 0;
 };
 
@@ -175,39 +191,30 @@ bool try_collapse_edge(RemeshState& state, HalfedgeId h) {
   return true;
 }
 
-/// No edge flips whose opposite angles sum to less than π less this [radians].
-constexpr double kLeastExcess = kDelaunaySlack - kLargestAllowance;
-
-/// Sum of the two angles that face an edge less π [radians], if it is more than kLeastExcess;
-/// else some value below that. Most edges are far from flipping: they cost no angle.
-double opposite_angle_excess(const RemeshState& state, HalfedgeId h) {
-  const Vec3 &a = state.vertices[state.mesh.from(h)].x, &b = state.vertices[state.mesh.to(h)].x;
-  const auto cosine_and_sine = [&](const Vec3& apex) {
-    const Vec3 p = a - apex, q = b - apex;
-    return std::pair(p.dot(q), p.cross(q).norm());
-  };
-  const auto [c1, s1] = cosine_and_sine(state.vertices[state.mesh.opposite(h)].x);
-  const auto [c2, s2] = cosine_and_sine(state.vertices[state.mesh.opposite(state.mesh.twin(h))].x);
-  // Cosine and sine of the sum, both times the same length.
-  const double cosine = c1 * c2 - s1 * s2, sine = s1 * c2 + c1 * s2;
-  // The sum is below π where the sine is positive, and below π/2 where the cosine is too.
-  static const double tangent = std::tan(kLeastExcess);
-  if (sine > 0.0 && (cosine >= 0.0 || sine > cosine * tangent)) return -std::numbers::pi;
-  return -std::atan2(sine, -cosine);
+/// Whether the two angles that face an edge sum to π and `excess` [radians] or more.
+bool is_angle_excess(const RemeshState& state, HalfedgeId h, double excess) {
+  const auto x = [&](VertexId v) -> const Vec3& { return state.vertices[v].x; };
+  const Vec3 &a = x(state.mesh.from(h)), &b = x(state.mesh.to(h)), &c = x(state.mesh.opposite(h)),
+             &d = x(state.mesh.opposite(state.mesh.twin(h)));
+  // Cosines and sines, both times one length.
+  const double cos_c = (a - c).dot(b - c), cos_d = (a - d).dot(b - d);
+  // Two that are not obtuse sum to π at most: nearly all edges cost no root and no arc.
+  if (excess > 0.0 && cos_c >= 0.0 && cos_d >= 0.0) return false;
+  const double sin_c = (a - c).cross(b - c).norm(), sin_d = (a - d).cross(b - d).norm();
+  const double cosine = cos_c * cos_d - sin_c * sin_d, sine = sin_c * cos_d + cos_c * sin_d;
+  return -std::atan2(sine, -cosine) >= excess;
 }
 
 bool try_flip(RemeshState& state, HalfedgeId h) {
   const EditMesh& mesh = state.mesh;
   const VertexId a = mesh.from(h), b = mesh.to(h), c = mesh.opposite(h),
                  d = mesh.opposite(mesh.twin(h));
-  const double excess = opposite_angle_excess(state, h);
-  if (excess < kLeastExcess) return false;
   const std::int32_t valence_a = mesh.valence(a), valence_b = mesh.valence(b);
   if (valence_a <= 4 || valence_b <= 4) return false;
   // Growth of Σ(valence − 6)² by the flip.
   const std::int32_t growth = 2 * (mesh.valence(c) + mesh.valence(d) - valence_a - valence_b) + 4;
   const double threshold = std::clamp(kAllowance * growth, -kLargestAllowance, kLargestAllowance);
-  if (excess < threshold + kDelaunaySlack || mesh.are_joined(c, d)) return false;
+  if (!is_angle_excess(state, h, threshold + kDelaunaySlack) || mesh.are_joined(c, d)) return false;
   const VertexField<RemeshVertex>& v = state.vertices;
   if (!is_upright(v[d], v[c], v[a]) || !is_upright(v[c], v[d], v[b])) return false;
   state.mesh.flip(h);
@@ -234,9 +241,12 @@ class EdgeMarks {
   void clear(HalfedgeId h) { marks_[static_cast<std::size_t>(h.value)] = 0; }
   /// The first marked one behind h, or none.
   [[nodiscard]] HalfedgeId next_after(HalfedgeId h) const {
-    const auto found = std::find(marks_.begin() + h.value + 1, marks_.end(), 1);
-    return found == marks_.end() ? HalfedgeId{}
-                                 : HalfedgeId{static_cast<std::int32_t>(found - marks_.begin())};
+    // Few are marked: memchr passes over the others many at a time.
+    const char* const begin = marks_.data() + h.value + 1;
+    const char* const end = marks_.data() + marks_.size();
+    const void* const found = std::memchr(begin, 1, static_cast<std::size_t>(end - begin));
+    if (found == nullptr) return {};
+    return {static_cast<std::int32_t>(static_cast<const char*>(found) - marks_.data())};
   }
 
  private:
@@ -254,15 +264,11 @@ struct Candidates {
 
 /// How far the neighbourhood is from its density, in units of one vertex per vertex, and among its
 /// edges the longest and the shortest first.
-Candidates density_candidates(const RemeshState& state, const VertexField<double>& mean_load,
-                              double band) {
+Candidates density_candidates(const std::vector<DensityEdge>& edges,
+                              const VertexField<double>& mean_load, double band) {
   Candidates result;
-  for (std::int32_t i = 0; i < state.mesh.num_halfedge_slots(); ++i) {
-    const HalfedgeId h{i};
-    if (!state.mesh.is_representative(h)) continue;
-    const double mean = 0.5 * (mean_load[state.mesh.from(h)] + mean_load[state.mesh.to(h)]);
-    const double rest_length = state.rest_length(h);
-    const double squared = state.edge_vector(h).squaredNorm() / (rest_length * rest_length);
+  for (const auto& [h, a, b, squared] : edges) {
+    const double mean = 0.5 * (mean_load[a] + mean_load[b]);
     if ((mean > 1.0 + band && squared > 1.0) || squared > kLongestEdge * kLongestEdge)
       result.splits.push_back({mean * squared, h});
     else if ((mean < 1.0 - band && squared < 1.0) || squared < kShortestEdge * kShortestEdge)
@@ -340,13 +346,14 @@ int flip_to_delaunay(RemeshState& state) {
 
 DensityEdits balance_density(RemeshState& state) {
   const VertexField<double> load = vertex_loads(state);
-  RingAverage averaged(state.mesh, load);
+  const std::vector<DensityEdge> edges = density_edges(state);
+  RingAverage averaged(edges, load);
   for (const int averages : kAverages) {
     const VertexField<double>& mean_load = averaged.after(averages);
     const double band = std::max(kBandTimesAverages / averages, kGlobalBand);
     const int unlimited = state.mesh.num_vertices();
     const DensityEdits edits =
-        edit(state, density_candidates(state, mean_load, band), mean_load, unlimited, unlimited);
+        edit(state, density_candidates(edges, mean_load, band), mean_load, unlimited, unlimited);
     if (edits.splits + edits.collapses > 0) return edits;
   }
   const VertexField<double>& mean_load = averaged.after(kAverages.back());
@@ -356,7 +363,7 @@ DensityEdits balance_density(RemeshState& state) {
   const int count = static_cast<int>(std::lround(std::abs(missing)));
   if (count <= 1 || count <= kGlobalBand * expected) return {};
   // A negative band makes every edge longer (or shorter) than its rest length a candidate.
-  const Candidates candidates = density_candidates(state, mean_load, -1.0);
+  const Candidates candidates = density_candidates(edges, mean_load, -1.0);
   if (missing > 0.0) return edit(state, {candidates.splits, {}}, mean_load, count, 0);
   return edit(state, {{}, candidates.collapses}, mean_load, 0, count);
 }

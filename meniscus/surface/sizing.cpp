@@ -67,6 +67,14 @@ VertexField<double> squared_rms(const VertexField<VertexCurvature>& curvature,
   return squared;
 }
 
+/// Ceiling over floor less 1, below which edges are even.
+constexpr double kEqualBounds = 1e-6;
+
+/// The floor, lowered so far that it leaves a small drop its fewest vertices.
+double lowered_floor(double area, const RemeshOptions& options) {
+  return std::min(options.edge_floor, 0.5 * length_of_density(options.min_vertices / area));
+}
+
 /// C0 and the floor, raised and lowered so far that they leave a small or round drop its fewest
 /// vertices.
 struct Allowance {
@@ -80,8 +88,7 @@ Allowance allowance(const VertexField<double>& squared_curvature, const SurfaceM
     area += areas[v];
     integral += areas[v] * squared_curvature[v];
   }
-  return {std::max(options.C0, options.min_vertices / integral),
-          std::min(options.edge_floor, 0.5 * length_of_density(options.min_vertices / area))};
+  return {std::max(options.C0, options.min_vertices / integral), lowered_floor(area, options)};
 }
 
 }  // namespace
@@ -117,6 +124,10 @@ void limit_gradation(VertexField<double>& length, const SurfaceMesh& mesh,
 VertexField<double> rest_lengths(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                                  const VertexField<VertexCurvature>& curvature,
                                  const RemeshOptions& options) {
+  // Between equal bounds no curvature matters.
+  if (const double least = lowered_floor(surface_area(mesh), options);
+      options.edge_ceiling <= least * (1.0 + kEqualBounds))
+    return {mesh.num_vertices(), least};
   const VertexField<double> squared =
       averaged_over_rings(squared_rms(curvature, topology), topology);
 
