@@ -507,8 +507,8 @@ const std::vector<Key> kKeys{
     {.path = "solver.rtol",
      .range = {.min = 0.0, .max = 0.1, .open_min = true},
      .value = 1e-6,
-     .sentence = "Relative residual of the linear solve; 1e-6 leaves 2.5e-5 in the rate of "
-                 "deformation."},
+     .sentence = "Relative residual of the linear solve, however far the walls are; 1e-6 leaves "
+                 "2.5e-5 in the rate of deformation."},
     {.path = "solver.max-iterations",
      .type = whole,
      .range = kCount,

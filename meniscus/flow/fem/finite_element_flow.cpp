@@ -54,6 +54,7 @@ InstantProblem instant_problem(const Scene& scene, const TetMesh& mesh, const Fl
   }
   if (!std::ranges::all_of(scene.liquids, is_newtonian, &Liquid::law))
     for (const Liquid& liquid : scene.liquids) problem.stokes.laws.add(liquid.law);
+  for (const Vec3& x : at.x) problem.stokes.undisturbed.add(scene.flow.velocity(x, t));
   BoundaryConditions conditions = boundary_conditions(scene.boundary, nodes.boundary, at, t);
   problem.failure = std::move(conditions.failure);
   problem.stokes.constraints = std::move(conditions.constraints);
@@ -207,8 +208,7 @@ FlowReport FiniteElementFlow::solve(const Scene& scene, double t) {
   if (!problem->failure.empty()) return failure(problem->failure);
   if (!state_) {
     state_ = stokes_->state_at_rest();
-    const NodePositions& positions = problem->stokes.positions;
-    for (const NodeId i : positions.x.ids()) state_->v[i] = scene.flow.velocity(positions.x[i], t);
+    state_->v = problem->stokes.undisturbed;
   }
   const bool is_kept = prepared_at_.has_value();
   const StokesReport report = stokes_->solve(

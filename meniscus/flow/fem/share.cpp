@@ -212,6 +212,8 @@ StokesProblem restricted(const StokesProblem& whole, const Share& share) {
     here.viscosity[c] = whole.viscosity[share.cell_of_whole[at(c.value)]];
     here.body_force[c] = whole.body_force[share.cell_of_whole[at(c.value)]];
   }
+  if (!whole.undisturbed.empty())
+    for (const NodeId there : share.node_of_whole) here.undisturbed.add(whole.undisturbed[there]);
   for (const NodeId i : here.load.ids()) {
     const NodeId there = share.node_of_whole[at(i.value)];
     here.load[i] = whole.load[there];

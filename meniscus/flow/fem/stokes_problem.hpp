@@ -35,6 +35,8 @@ struct StokesProblem {
   CellField<Vec3> body_force;  ///< f [μ_out G / R0]
   Field<NodeId, Vec3> load;    ///< further forces on the fluid, by node [μ_out G R0²]
   Constraints constraints;
+  /// What flows where there are no drops and every liquid is the outer one; empty: not known.
+  Field<NodeId, Vec3> undisturbed = {};
   const Share* share = nullptr;    ///< whose problem it is, where ranks have a part each
   bool has_open_boundary = false;  ///< otherwise the pressure is known up to a constant
 

@@ -22,7 +22,7 @@ struct [[nodiscard]] StokesReport {
   int iterations = 0;  ///< linear iterations of all steps and all solvers tried
   int newton_steps = 0;
   int picard_steps = 0;    ///< those of generalised-Newtonian liquids with the viscosity held fixed
-  double reference = 0.0;  ///< residual of the state that rests wherever it may
+  double reference = 0.0;  ///< residual that the tolerance is relative to (StokesSolver::solve)
   double residual = 0.0;   ///< left over
   LinearSolver solver = LinearSolver::block;  ///< the one that gave the answer
   std::vector<double> linear_residuals;       ///< of its last solve
@@ -48,7 +48,8 @@ class StokesSolver {
   void prepare(const StokesProblem& problem);
 
   /// Improves `state` until the residual is below rtol times the reference: that of the state which
-  /// rests wherever it may. Where the chosen linear solver fails it is tried again with a fresh
+  /// rests wherever it may, or 50 times that of the problem's undisturbed flow, if it has one and
+  /// that is less. Where the chosen linear solver fails it is tried again with a fresh
   /// preconditioner, if it had a kept one, and then the others in the order block, minres,
   /// paper-gmres, mumps (mumps below 20 000 nodes); on failure of all `state` is unchanged but
   /// for the imposed velocities.
