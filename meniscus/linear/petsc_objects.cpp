@@ -35,7 +35,8 @@ void start_petsc() {
   if (is_running) return;
   // Open MPI's own choice maps a file of megabytes, which a small limit on file sizes forbids.
   setenv("PMIX_MCA_gds", "hash", 0);
-  // A copy through shared memory costs less than the system call that lets one process read another's.
+  // A copy through shared memory costs less than the system call that lets one process read
+  // another's.
   setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
   // Most of what neighbours exchange in one level of multigrid then goes without asking first.
   setenv("OMPI_MCA_btl_vader_eager_limit", "65536", 0);

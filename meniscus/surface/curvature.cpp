@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kLeastValence = 5;       // a paraboloid with its normal free has five unknowns
 constexpr int kMaxTurns = 30;          // four or five are usual
-constexpr double kSlopeAtRest = 1e-6;  // radians; curvatures are exact to its square
+constexpr double kSlopeAtRest = 1e-8;  // radians; curvatures are exact to its square
 
 /// What is fitted: heights above the tangent plane, or heights of circles.
 enum class Form { paraboloid, osculating };
