@@ -27,10 +27,11 @@ constexpr double kLeastAngleDeg = 5.0;
 RemeshReference reference_surface(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                                   const RemeshOptions& options) {
   SmoothSurface surface(mesh, topology);
-  const VertexField<double> lengths =
-      rest_lengths(mesh, topology, surface.vertex_curvature(), options);
+  const VertexField<double> lengths = rest_lengths(mesh, topology, surface, options);
+  const VertexField<Vec3> slopes = length_slopes(lengths, mesh, topology, surface.vertex_normals());
   VertexField<RemeshReference::Corner> corners;
-  for (const VertexId v : mesh.x.ids()) corners.add({surface.vertex_normal(v), lengths[v]});
+  for (const VertexId v : mesh.x.ids())
+    corners.add({surface.vertex_normal(v), lengths[v], slopes[v]});
   return {std::move(surface), SurfaceWalk(mesh, topology), std::move(corners)};
 }
 

@@ -21,9 +21,10 @@ RemeshVertex vertex_at(const RemeshReference& reference, const SurfaceLocation& 
   for (std::size_t k = 0; k < 3; ++k) {
     const double b = place.weights[static_cast<int>(k)];
     const RemeshReference::Corner& corner = reference.corners[corners[k]];
-    lift += b * corner.n.dot(reference.walk.vertex(corners[k]) - flat) * corner.n;
+    const Vec3 back = reference.walk.vertex(corners[k]) - flat;
+    lift += b * corner.n.dot(back) * corner.n;
     n += b * corner.n;
-    length += b * corner.rest_length;
+    length += b * (corner.rest_length - 0.5 * corner.slope.dot(back));
   }
   return {.x = flat + 0.5 * lift, .rest_length = length, .n = n.normalized(), .place = place};
 }

@@ -12,6 +12,7 @@ struct RemeshReference {
   struct Corner {
     Vec3 n;              ///< unit normal of the smooth surface
     double rest_length;  ///< [R0]
+    Vec3 slope;          ///< gradient of the rest length along the surface
   };
   SmoothSurface surface;
   SurfaceWalk walk;
@@ -53,7 +54,8 @@ struct RemeshState {
                                       const SurfaceTopology& topology);
 /// The vertex at a place y = Σ b_k x_k of the reference surface, half of the way from there to the
 /// tangent planes at the corners, ½ Σ b_k (n_k·(x_k − y)) n_k: where the curvature is even, the
-/// smooth surface, otherwise O(h³) away, at a fifth of the cost.
+/// smooth surface, otherwise O(h³) away, at a fifth of the cost. Its rest length is
+/// Σ b_k (l0_k + ½ ∇l0_k·(y − x_k)), likewise O(h³).
 [[nodiscard]] RemeshVertex vertex_at(const RemeshReference& reference,
                                      const SurfaceLocation& place);
 /// Puts all vertices on the smooth surface.

@@ -25,6 +25,7 @@ constexpr std::array<int, 3> kAverages = {2, 8, 32};  // the widest has the band
 constexpr double kLocalBandFar = 0.3;    // beyond, edits may be as close as their faces allow
 constexpr int kMostRings = 5;            // an edit of one in a hundred
 constexpr double kGlobalBand = 0.01;     // of the whole number; a fifth of the law's 5 %
+constexpr double kFewEdits = 0.002;      // of the vertices: wider averages have their turn as well
 constexpr double kLongestEdge = 1.6;     // l/l0 split, whatever the density: its halves are 0.8
 constexpr double kShortestEdge = 0.55;   // l/l0 collapsed, whatever the density
 constexpr double kDelaunaySlack = 0.02;  // radians of excess over 180°, against flipping for ever
@@ -290,14 +291,13 @@ int rings_of_an_edit(double mean_load) {
   return std::clamp(static_cast<int>(std::sqrt(1.0 / (3.0 * off))), 1, kMostRings);
 }
 
-/// Takes candidates in order of need, at most `max_splits` and `max_collapses`.
+/// Takes candidates in order of need, so many at most.
 DensityEdits edit(RemeshState& state, const Candidates& candidates,
-                  const VertexField<double>& mean_load, int max_splits, int max_collapses) {
+                  const VertexField<double>& mean_load, const DensityEdits& most, Locks& locks) {
   DensityEdits edits;
-  Locks locks(state.mesh);
   for (const auto& [score, h] : candidates.splits) {
-    if (edits.splits == max_splits) break;
-    if (locks.is_locked(h)) continue;
+    if (edits.splits == most.splits) break;
+    if (!state.mesh.is_alive(h) || locks.is_locked(h)) continue;
     const int rings = rings_of_an_edit(mean_load[state.mesh.from(h)]);
     locks.lock_faces(h);
     if (rings > 0)
@@ -306,7 +306,7 @@ DensityEdits edit(RemeshState& state, const Candidates& candidates,
     ++edits.splits;
   }
   for (const auto& [score, h] : candidates.collapses) {
-    if (edits.collapses == max_collapses) break;
+    if (edits.collapses == most.collapses) break;
     if (!state.mesh.is_alive(h) || locks.is_locked(h)) continue;
     const VertexId kept = state.mesh.to(h), c = state.mesh.opposite(h),
                    d = state.mesh.opposite(state.mesh.twin(h));
@@ -348,14 +348,20 @@ DensityEdits balance_density(RemeshState& state) {
   const VertexField<double> load = vertex_loads(state);
   const std::vector<DensityEdge> edges = density_edges(state);
   RingAverage averaged(edges, load);
+  Locks locks(state.mesh);
+  DensityEdits all;
   for (const int averages : kAverages) {
     const VertexField<double>& mean_load = averaged.after(averages);
     const double band = std::max(kBandTimesAverages / averages, kGlobalBand);
     const int unlimited = state.mesh.num_vertices();
-    const DensityEdits edits =
-        edit(state, density_candidates(edges, mean_load, band), mean_load, unlimited, unlimited);
-    if (edits.splits + edits.collapses > 0) return edits;
+    const DensityEdits edits = edit(state, density_candidates(edges, mean_load, band), mean_load,
+                                    {unlimited, unlimited}, locks);
+    all.splits += edits.splits;
+    all.collapses += edits.collapses;
+    // A place or two that no edit cures must not keep the whole waiting.
+    if (all.splits + all.collapses > kFewEdits * state.mesh.num_vertices()) return all;
   }
+  if (all.splits + all.collapses > 0) return all;
   const VertexField<double>& mean_load = averaged.after(kAverages.back());
 
   const double expected = std::accumulate(load.begin(), load.end(), 0.0);
@@ -364,8 +370,8 @@ DensityEdits balance_density(RemeshState& state) {
   if (count <= 1 || count <= kGlobalBand * expected) return {};
   // A negative band makes every edge longer (or shorter) than its rest length a candidate.
   const Candidates candidates = density_candidates(edges, mean_load, -1.0);
-  if (missing > 0.0) return edit(state, {candidates.splits, {}}, mean_load, count, 0);
-  return edit(state, {{}, candidates.collapses}, mean_load, 0, count);
+  if (missing > 0.0) return edit(state, {candidates.splits, {}}, mean_load, {count, 0}, locks);
+  return edit(state, {{}, candidates.collapses}, mean_load, {0, count}, locks);
 }
 
 double expected_vertices(const RemeshState& state) {

@@ -12,8 +12,8 @@ struct DensityEdits {
   int splits = 0, collapses = 0;
 };
 /// One pass of vertex addition and removal where the number of vertices is out of its band: over
-/// some 12 vertices, or, when all places are within, over 50, 200, or the whole. Edits of one pass
-/// lie so many rings apart that each sees the density the others left.
+/// some 12 vertices, or, when nearly all places are within, over 50, 200, or the whole. Edits of
+/// one pass lie so many rings apart that each sees the density the others left.
 DensityEdits balance_density(RemeshState& state);
 
 /// ∮ρ dS over the smooth surface, ρ = 2/(√3 l0²) (eq. 2): the number of vertices it asks for.

@@ -4,68 +4,126 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Geometry>
+
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/gap.hpp"
 
 namespace meniscus {
 namespace {
 
-/// ½(own + mean of first ring): takes the noise of single fits out of the springs.
-VertexField<double> averaged_over_rings(const VertexField<double>& values,
-                                        const SurfaceTopology& topology) {
-  VertexField<double> result(values.size());
-  for (const VertexId v : values.ids()) {
-    double sum = 0.0;
-    for (const VertexId w : topology.ring(v)) sum += values[w];
-    result[v] = 0.5 * (values[v] + sum / topology.valence(v));
+/// Altitude over longest edge below which a face is a needle, whose normals say nothing of the
+/// curvature across it.
+constexpr double kNeedle = 0.2;
+
+/// The normals interpolated linearly over a face turn by dn = W dx: half the trace of W, its
+/// determinant, and the area of the smooth surface (a sphere to fourth order). On a sphere both
+/// are exact, and K times the area sums to 4π as the Gauss map goes round once.
+struct FaceTurn {
+  double H, K, area;
+};
+FaceTurn face_turn(const FaceVertices& v, const SurfaceMesh& mesh, const SmoothSurface& surface) {
+  const auto& n = surface.vertex_normals();
+  const Vec3 e1 = mesh.x[v[1]] - mesh.x[v[0]], e2 = mesh.x[v[2]] - mesh.x[v[0]];
+  const Vec3 n1 = n[v[1]] - n[v[0]], n2 = n[v[2]] - n[v[0]];
+  const Vec3 a = e1.cross(e2);
+  const double squared = a.squaredNorm(), norm = std::sqrt(squared);
+  const double turning = n1.squaredNorm() + n2.squaredNorm() + (n2 - n1).squaredNorm();
+  const double area = 0.5 * norm * (1.0 + turning / 24.0);
+  const double longest = std::max({e1.squaredNorm(), e2.squaredNorm(), (e2 - e1).squaredNorm()});
+  if (norm > kNeedle * longest)
+    return {0.5 * (n1.dot(e2.cross(a)) + n2.dot(a.cross(e1))) / squared,
+            n1.cross(n2).dot(a) / squared, area};
+  FaceTurn turn{0.0, 0.0, area};
+  for (const VertexId w : v) {
+    const VertexCurvature& c = surface.vertex_curvature()[w];
+    turn.H += c.half_sum() / 3.0;
+    turn.K += c.k1 * c.k2 / 3.0;
+  }
+  return turn;
+}
+
+/// Means of what the faces hold over the cells of the vertices, which keep the integral.
+class CellMeans {
+ public:
+  CellMeans(const SurfaceMesh& mesh, const FaceField<FaceTurn>& turns)
+      : mesh_(mesh), turns_(turns), area_(mesh.num_vertices(), 0.0) {
+    for (const FaceId f : mesh.faces.ids())
+      for (const VertexId v : mesh.faces[f]) area_[v] += turns[f].area;
+  }
+  [[nodiscard]] VertexField<double> of(const FaceField<double>& values) const {
+    VertexField<double> means(area_.size(), 0.0);
+    for (const FaceId f : values.ids())
+      for (const VertexId v : mesh_.faces[f]) means[v] += turns_[f].area * values[f];
+    for (const VertexId v : means.ids()) means[v] /= area_[v];
+    return means;
+  }
+
+ private:
+  const SurfaceMesh& mesh_;
+  const FaceField<FaceTurn>& turns_;
+  VertexField<double> area_;
+};
+
+/// Means over the corners.
+FaceField<double> corner_means(const VertexField<double>& values, const SurfaceMesh& mesh) {
+  FaceField<double> means;
+  for (const FaceVertices& v : mesh.faces)
+    means.add((values[v[0]] + values[v[1]] + values[v[2]]) / 3.0);
+  return means;
+}
+
+/// What each face exceeds the mean over its corners' cells by.
+FaceField<double> excess(const FaceField<double>& values, const VertexField<double>& cell_means,
+                         const SurfaceMesh& mesh) {
+  FaceField<double> result = corner_means(cell_means, mesh);
+  for (const FaceId f : values.ids()) result[f] = values[f] - result[f];
+  return result;
+}
+
+/// ⟨κ⟩² = 2H² − K at the vertices, ∮⟨κ⟩² dS as its faces have it. Q is what exceeds the mean over
+/// the corners' cells.
+///   On faces   H ← H + QH/8 + 1.2 Q²H,   ⟨κ⟩² = 2(H² + Σ(H_k − mean)²/12) − K,
+/// H_k the means over the corners' cells. H as it comes is that of the edges: for a peak ½r² it is
+/// h²/6 above the face's centre where the face's mean is h²/12, and QH = −2h²/3: hence 1/8. The
+/// normals of the patches lose the curvature of waves by its fourth order; 1.2 makes ∮⟨κ⟩² right on
+/// the mean over random smooth surfaces (0.8 does it for waves of five edges on an even lattice).
+///   At vertices   q ← q + 5/8 (q − mean over its cell),   q the mean over the cell:
+/// back from that mean, 5h²/12 above the vertex's value for a peak, that of face means 2h²/3.
+VertexField<double> squared_rms(const SurfaceMesh& mesh, const SmoothSurface& surface) {
+  constexpr double kFirst = 1.0 / 8.0, kSecond = 1.2, kSharper = 5.0 / 8.0;
+  FaceField<FaceTurn> turns;
+  FaceField<double> H;
+  for (const FaceVertices& v : mesh.faces) {
+    const FaceTurn turn = face_turn(v, mesh, surface);
+    turns.add(turn);
+    H.add(turn.H);
+  }
+  const CellMeans cells(mesh, turns);
+  const VertexField<double> corner_H = cells.of(H);
+  const FaceField<double> first = excess(H, corner_H, mesh),
+                          second = excess(first, cells.of(first), mesh);
+  FaceField<double> squared(H.size());
+  for (const FaceId f : H.ids()) {
+    const double mean = H[f] - first[f];
+    double variance = 0.0;
+    for (const VertexId v : mesh.faces[f])
+      variance += (corner_H[v] - mean) * (corner_H[v] - mean) / 12.0;
+    H[f] += kFirst * first[f] + kSecond * second[f];
+    squared[f] = 2.0 * (H[f] * H[f] + variance) - turns[f].K;
+  }
+  VertexField<double> result = cells.of(squared);
+  const VertexField<double> blurred = cells.of(corner_means(result, mesh)), least = cells.of(H);
+  for (const VertexId v : result.ids()) {
+    result[v] += kSharper * (result[v] - blurred[v]);
+    // No shape operator has less: noise of K must not feign a flat place.
+    result[v] = std::max(result[v], least[v] * least[v]);
   }
   return result;
 }
 
-Mat3 shape_operator(const VertexCurvature& c) {
-  return c.k1 * c.d1 * c.d1.transpose() + c.k2 * c.d2 * c.d2.transpose();
-}
-
-/// A tensor of the tangent plane at m, turned into that at n by the smallest rotation.
-Mat3 turned(const Mat3& tensor, const Vec3& m, const Vec3& n) {
-  const Mat3 turn = Mat3::Identity() - (n + m) * n.transpose() / (1.0 + n.dot(m));
-  return turn * tensor * turn.transpose();
-}
-
-/// What a tensor exceeds its mean over the ring by; zero where the ring turns by 90° and more.
-VertexField<Mat3> excess_over_ring(const VertexField<Mat3>& tensor,
-                                   const VertexField<VertexCurvature>& curvature,
-                                   const SurfaceTopology& topology) {
-  VertexField<Mat3> excess(tensor.size(), Mat3::Zero());
-  for (const VertexId v : tensor.ids()) {
-    const Vec3& n = curvature[v].n;
-    const auto ring = topology.ring(v);
-    if (std::ranges::any_of(ring, [&](VertexId w) { return curvature[w].n.dot(n) <= 0.0; }))
-      continue;
-    Mat3 sum = Mat3::Zero();
-    for (const VertexId w : ring) sum += turned(tensor[w], curvature[w].n, n);
-    excess[v] = tensor[v] - sum / static_cast<double>(ring.size());
-  }
-  return excess;
-}
-
-/// ⟨κ⟩², the error of the fit taken out by two steps of deferred correction. A wave cos(ξx) of the
-/// height, fitted to a ring of unit radius, loses curvature by the factor 2(1 − J0 + 2J2)/ξ²
-/// = 1 − 7ξ²/96 + …, and exceeds its mean over the ring by q = 1 − J0 = ξ²/4 − …, J(ξ) being
-/// Bessel's: the inverse of the first is 1 + 7/24 q + O(q²). The factor of q² is the one that gives
-/// the inverse right at ξ = 2, a wave of three edges (0.12 is its limit for long ones).
-VertexField<double> squared_rms(const VertexField<VertexCurvature>& curvature,
-                                const SurfaceTopology& topology) {
-  constexpr double kFirst = 7.0 / 24.0, kSecond = 0.2;
-  VertexField<Mat3> fitted(curvature.size());
-  for (const VertexId v : curvature.ids()) fitted[v] = shape_operator(curvature[v]);
-  const auto first = excess_over_ring(fitted, curvature, topology);
-  const auto second = excess_over_ring(first, curvature, topology);
-  VertexField<double> squared(curvature.size());
-  for (const VertexId v : curvature.ids())
-    squared[v] = 0.5 * (fitted[v] + kFirst * first[v] + kSecond * second[v]).squaredNorm();
-  return squared;
-}
+/// Determinant over squared trace below which a ring shows a slope in one direction only.
+constexpr double kRegular = 1e-3;
 
 /// Ceiling over floor less 1, below which edges are even.
 constexpr double kEqualBounds = 1e-6;
@@ -121,16 +179,37 @@ void limit_gradation(VertexField<double>& length, const SurfaceMesh& mesh,
   }
 }
 
+VertexField<Vec3> length_slopes(const VertexField<double>& length, const SurfaceMesh& mesh,
+                                const SurfaceTopology& topology, const VertexField<Vec3>& normals) {
+  VertexField<Vec3> slopes(length.size());
+  for (const VertexId v : length.ids()) {
+    const Vec3 &n = normals[v], t1 = n.unitOrthogonal(), t2 = n.cross(t1);
+    double uu = 0.0, uv = 0.0, vv = 0.0, ru = 0.0, rv = 0.0;
+    for (const VertexId w : topology.ring(v)) {
+      const Vec3 d = mesh.x[w] - mesh.x[v];
+      const double weight = 1.0 / d.squaredNorm(), a = d.dot(t1), b = d.dot(t2);
+      const double rise = weight * (length[w] - length[v]);
+      uu += weight * a * a;
+      uv += weight * a * b;
+      vv += weight * b * b;
+      ru += rise * a;
+      rv += rise * b;
+    }
+    const double det = uu * vv - uv * uv;
+    const double regular = kRegular * (uu + vv) * (uu + vv);
+    slopes[v] = det > regular ? Vec3(((vv * ru - uv * rv) * t1 + (uu * rv - uv * ru) * t2) / det)
+                              : Vec3::Zero();
+  }
+  return slopes;
+}
+
 VertexField<double> rest_lengths(const SurfaceMesh& mesh, const SurfaceTopology& topology,
-                                 const VertexField<VertexCurvature>& curvature,
-                                 const RemeshOptions& options) {
+                                 const SmoothSurface& surface, const RemeshOptions& options) {
   // Between equal bounds no curvature matters.
   if (const double least = lowered_floor(surface_area(mesh), options);
       options.edge_ceiling <= least * (1.0 + kEqualBounds))
     return {mesh.num_vertices(), least};
-  const VertexField<double> squared =
-      averaged_over_rings(squared_rms(curvature, topology), topology);
-
+  const VertexField<double> squared = squared_rms(mesh, surface);
   const auto [C0, edge_floor] = allowance(squared, mesh, options);
   VertexField<double> length(mesh.num_vertices());
   for (const VertexId v : mesh.x.ids()) {
@@ -139,9 +218,7 @@ VertexField<double> rest_lengths(const SurfaceMesh& mesh, const SurfaceTopology&
     length[v] = l;
   }
   if (options.gap_layers > 0.0) {
-    VertexField<Vec3> normals(mesh.num_vertices());
-    for (const VertexId v : mesh.x.ids()) normals[v] = curvature[v].n;
-    bound_by_gaps(length, mesh, normals, options.gap_layers, options.neighbours);
+    bound_by_gaps(length, mesh, surface.vertex_normals(), options.gap_layers, options.neighbours);
   }
   for (double& l : length) l = std::max(l, edge_floor);
   limit_gradation(length, mesh, topology, options.gradation);

@@ -36,6 +36,7 @@ class SmoothSurface {
   [[nodiscard]] Vec3 normal(FaceId f, const Vec3& weights) const { return at({f, weights}).n; }
   /// n at a vertex, unit.
   [[nodiscard]] const Vec3& vertex_normal(VertexId v) const { return normals_[v]; }
+  [[nodiscard]] const VertexField<Vec3>& vertex_normals() const { return normals_; }
   /// S over the edge from a (s = 0) to b (s = 1): the same point as from either face.
   [[nodiscard]] Vec3 edge_point(VertexId a, VertexId b, double s) const;
   /// Principal curvatures: the shape operators of the corners' patches, interpolated linearly.

@@ -20,7 +20,7 @@ struct LengthStatistics {
 /// Mean and standard deviation of l/l0 over the edges.
 LengthStatistics relative_lengths(const SurfaceMesh& mesh, const RemeshOptions& options) {
   const SurfaceTopology topology(mesh);
-  const auto l0 = rest_lengths(mesh, topology, osculating_curvature(mesh, topology), options);
+  const auto l0 = rest_lengths(mesh, topology, SmoothSurface(mesh, topology), options);
   double sum = 0.0, squares = 0.0;
   for (const SurfaceEdge& e : topology.edges()) {
     const double ratio = (mesh.x[e.a] - mesh.x[e.b]).norm() / (0.5 * (l0[e.a] + l0[e.b]));

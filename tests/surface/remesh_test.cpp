@@ -39,7 +39,7 @@ struct LengthStatistics {
 /// Mean and standard deviation of l/l0 over the edges.
 LengthStatistics relative_lengths(const SurfaceMesh& mesh, const RemeshOptions& options) {
   const SurfaceTopology topology(mesh);
-  const auto l0 = rest_lengths(mesh, topology, osculating_curvature(mesh, topology), options);
+  const auto l0 = rest_lengths(mesh, topology, SmoothSurface(mesh, topology), options);
   double sum = 0.0, squares = 0.0;
   for (const SurfaceEdge& e : topology.edges()) {
     const double ratio = (mesh.x[e.a] - mesh.x[e.b]).norm() / (0.5 * (l0[e.a] + l0[e.b]));
@@ -154,7 +154,7 @@ EllipsoidErrors ellipsoid_errors(const SurfaceMesh& mesh, const Vec3& axes,
                                  const RemeshOptions& options) {
   const SurfaceTopology topology(mesh);
   const auto fit = fitted_curvature(mesh, topology);
-  const auto l0 = rest_lengths(mesh, topology, osculating_curvature(mesh, topology), options);
+  const auto l0 = rest_lengths(mesh, topology, SmoothSurface(mesh, topology), options);
   EllipsoidErrors errors;
   for (const VertexId v : mesh.x.ids()) {
     const double distance = std::abs(test::ellipsoid_distance(mesh.x[v], axes));

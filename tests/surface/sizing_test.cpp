@@ -12,7 +12,7 @@ namespace {
 
 VertexField<double> lengths(const SurfaceMesh& mesh, const RemeshOptions& options) {
   const SurfaceTopology topology(mesh);
-  return rest_lengths(mesh, topology, osculating_curvature(mesh, topology), options);
+  return rest_lengths(mesh, topology, SmoothSurface(mesh, topology), options);
 }
 
 TEST(RestLengths, SphereAsksForItsNodes) {

@@ -226,6 +226,27 @@ SmoothShape random_chain(std::mt19937& random, int num_vertices) {
   return shape;
 }
 
+SmoothShape refined(const SmoothShape& shape) {
+  SmoothShape result{shape.level, {}};
+  result.mesh.x = shape.mesh.x;
+  std::map<std::pair<VertexId, VertexId>, VertexId> middles;
+  const auto middle = [&](VertexId a, VertexId b) {
+    const auto [entry, is_new] = middles.try_emplace(std::minmax(a, b));
+    if (is_new)
+      entry->second =
+          result.mesh.x.add(on_level(shape.level, 0.5 * (shape.mesh.x[a] + shape.mesh.x[b])));
+    return entry->second;
+  };
+  for (const FaceVertices& v : shape.mesh.faces) {
+    const VertexId a = middle(v[0], v[1]), b = middle(v[1], v[2]), c = middle(v[2], v[0]);
+    result.mesh.faces.add({v[0], a, c});
+    result.mesh.faces.add({v[1], b, a});
+    result.mesh.faces.add({v[2], c, b});
+    result.mesh.faces.add({a, b, c});
+  }
+  return result;
+}
+
 SmoothShape moved(const SmoothShape& shape, const Mat3& map, const Vec3& shift) {
   SmoothShape result = shape;
   const Mat3 back = map.inverse();

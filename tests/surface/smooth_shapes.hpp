@@ -21,6 +21,8 @@ struct SmoothShape {
 /// Two to four capsules end to end in random directions, of random radii, joined by the smooth
 /// least −log Σ exp(−b d_k)/b of their distances d_k.
 [[nodiscard]] SmoothShape random_chain(std::mt19937& random, int num_vertices);
+/// The shape with every face of its mesh parted into four, the new vertices on the level.
+[[nodiscard]] SmoothShape refined(const SmoothShape& shape);
 /// The shape under x → map·x + shift.
 [[nodiscard]] SmoothShape moved(const SmoothShape& shape, const Mat3& map, const Vec3& shift);
 

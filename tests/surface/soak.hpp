@@ -15,6 +15,8 @@ struct SoakResult {
   long faces_below = 0;  ///< of them with an angle below 20°
   double min_angle_deg = 180.0;
   double law_error = 0.0;       ///< largest |N_S/∮ρ dS − 1|, eq. 2 on the exact smooth surface
+  double law_sum = 0.0;         ///< of N_S/∮ρ dS − 1 after each remesh
+  double law_squares = 0.0;     ///< of its squares
   double count_error = 0.0;     ///< the same with the integral of the remesh's own report
   double remesh_seconds = 0.0;  ///< CPU time of all remeshes
   int vertices = 0;             ///< in all surfaces after each remesh

@@ -169,7 +169,7 @@ TEST(Coalescence, OfTheHoleToAPocketLeavesAVoid) {
   ASSERT_EQ(scene.interfaces.size(), 1U);
   const Scene before = scene;
   const SurfaceMesh& mesh = before.interfaces[0].mesh;
-  const auto necks = find_necks(mesh, SurfaceTree(mesh), Side::outside, 0.25, {});
+  const auto necks = find_necks(mesh, SurfaceTree(mesh), Side::outside, 0.26, {});
   ASSERT_EQ(necks.size(), 1U);
   Surgery surgery = cut_neck(mesh, necks[0]);
   ASSERT_EQ(surgery.failure, "");
