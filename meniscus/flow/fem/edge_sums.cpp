@@ -9,9 +9,8 @@
 namespace meniscus::fem {
 namespace {
 
-// So many turns of a loop before sums are needed they are fetched: what the processor overlaps by
-// itself is less than one cell's work.
-constexpr std::size_t kCellsAhead = 6, kEntriesAhead = 16;
+constexpr std::size_t kBatch = 16;         // cells that are worked on together
+constexpr std::size_t kEntriesAhead = 16;  // sums are fetched so long before they are written
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -47,7 +46,7 @@ EdgeSums::EdgeSums(const FlowSpace& space, const NodeGraph& velocity_graph,
       places_(pressure_graph.num_entries()),
       column_nodes_(coupling_graph.columns),
       node_(at(pressure_graph.num_rows())) {
-  cell_edges_.reserve(6 * (at(space.velocity.num_cells()) + kCellsAhead));
+  cell_edges_.reserve(6 * at(space.velocity.num_cells()));
   for (const CellId c : ids<CellId>(space.velocity.num_cells())) {
     const auto nodes = space.velocity.of(c), pressures = space.pressure.nodes.of(c);
     const std::size_t first = 16 * at(c.value);
@@ -64,37 +63,50 @@ EdgeSums::EdgeSums(const FlowSpace& space, const NodeGraph& velocity_graph,
   for (const std::int32_t i : node_)
     (has_pressure[at(i)] ? is_shared_ : has_pressure)[at(i)] = true;
   sums_.resize((pressure_graph.num_entries() - node_.size()) / 2);
-  cell_edges_.resize(cell_edges_.size() + 6 * kCellsAhead);
   entry_edges_.resize(entry_edges_.size() + kEntriesAhead);
 }
 
 void EdgeSums::clear() { std::ranges::fill(sums_, Sums{}); }
 
-double EdgeSums::add(const StokesProblem& problem, CellId c) {
-  const auto nodes = problem.space.velocity.of(c);
-  const auto x = [&](std::size_t i) -> const Vec3& {
-    return problem.positions.x[NodeId{nodes[i]}];
-  };
-  const auto [volume, g] = linear_tetrahedron({x(0), x(1), x(2), x(3)});
-  const double viscosity = problem.viscosity[c], viscous = viscosity * volume,
-               quarter = 0.25 * volume, stabilisation = volume * pspg_parameter(volume, viscosity);
-  std::array<Eigen::Vector4d, 4> rows;  // (μV g_a, −V/4)
-  for (std::size_t a = 0; a < 4; ++a) rows[a] << viscous * g[a], -quarter;
-  const std::int32_t* edge = cell_edges_.data() + 6 * at(c.value);
-  for (std::size_t k = 6 * kCellsAhead; k < 6 * (kCellsAhead + 1); ++k)
-    fetch(sums_[at(edge[k] / 2)], true);
-  for (const auto& ends : kCellEdges) {
-    const std::size_t is_from_b = *edge % 2;
-    const Eigen::Vector4d& row = rows[ends[is_from_b]];
-    const Vec3 &ga = g[ends[is_from_b]], &gb = g[ends[1 - is_from_b]];
-    Eigen::Matrix4d& products = sums_[at(*edge++ / 2)].products;
-    products.col(0) += gb[0] * row;
-    products.col(1) += gb[1] * row;
-    products.col(2) += gb[2] * row;
-    products.col(3) += Eigen::Vector4d(-quarter * ga[0], -quarter * ga[1], -quarter * ga[2],
-                                       stabilisation * ga.dot(gb));
+// Each of the three steps is short enough that the processor works on several cells at once.
+void EdgeSums::add(const StokesProblem& problem, std::span<const CellId> cells,
+                   std::span<double> pressure_mass) {
+  std::array<LinearTetrahedron, kBatch> tetrahedra;
+  std::array<double, kBatch> stabilisations;  // τV
+  for (std::size_t first = 0; first < cells.size(); first += kBatch) {
+    const auto batch = cells.subspan(first, std::min(kBatch, cells.size() - first));
+    for (std::size_t m = 0; m < batch.size(); ++m) {
+      for (std::size_t k = 0; k < 6; ++k)
+        fetch(sums_[at(cell_edges_[6 * at(batch[m].value) + k] / 2)], true);
+      const auto nodes = problem.space.velocity.of(batch[m]);
+      const auto x = [&](std::size_t i) { return problem.positions.x[NodeId{nodes[i]}]; };
+      tetrahedra[m] = linear_tetrahedron({x(0), x(1), x(2), x(3)});
+    }
+    for (std::size_t m = 0; m < batch.size(); ++m) {
+      const double volume = tetrahedra[m].volume, viscosity = problem.viscosity[batch[m]];
+      stabilisations[m] = volume * pspg_parameter(volume, viscosity);
+      for (const std::int32_t p : problem.space.pressure.nodes.of(batch[m]))
+        pressure_mass[at(p)] += 0.25 * volume / viscosity;
+    }
+    for (std::size_t m = 0; m < batch.size(); ++m)
+      add_cell(batch[m], tetrahedra[m], problem.viscosity[batch[m]], stabilisations[m]);
   }
-  return quarter / viscosity;
+}
+
+void EdgeSums::add_cell(CellId c, const LinearTetrahedron& cell, double viscosity,
+                        double stabilisation) {
+  const double viscous = viscosity * cell.volume, quarter = 0.25 * cell.volume;
+  std::array<Eigen::Vector4d, 4> rows;  // (μV g_a, −V/4)
+  for (std::size_t a = 0; a < 4; ++a) rows[a] << viscous * cell.gradient[a], -quarter;
+  const std::int32_t* edge = cell_edges_.data() + 6 * at(c.value);
+  for (const auto& ends : kCellEdges) {
+    const std::size_t is_from_b = *edge % 2, a = ends[is_from_b], b = ends[1 - is_from_b];
+    const Vec3 &ga = cell.gradient[a], &gb = cell.gradient[b];
+    Eigen::Matrix4d& products = sums_[at(*edge++ / 2)].products;
+    for (Eigen::Index j = 0; j < 3; ++j) products.col(j) += gb[j] * rows[a];
+    products.col(3).head<3>() -= quarter * ga;
+    products(3, 3) += stabilisation * ga.dot(gb);
+  }
 }
 
 void EdgeSums::write(const NodeGraph& velocity_graph, const NodeGraph& pressure_graph,

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "meniscus/flow/fem/elements.hpp"
 #include "meniscus/flow/fem/node_graph.hpp"
 #include "meniscus/flow/fem/stokes_problem.hpp"
 
@@ -25,8 +26,9 @@ class EdgeSums {
            const NodeGraph& pressure_graph);
 
   void clear();
-  /// Returns ∫ψ/μ of each of the cell's pressures.
-  double add(const StokesProblem& problem, CellId c);
+  /// Adds ∫ψ/μ to the pressures as well.
+  void add(const StokesProblem& problem, std::span<const CellId> cells,
+           std::span<double> pressure_mass);
 
   struct Laplacian {
     const std::vector<bool>* is_fixed;  ///< by node
@@ -49,13 +51,14 @@ class EdgeSums {
   struct alignas(128) Sums {
     Eigen::Matrix4d products = Eigen::Matrix4d::Zero();
   };
+  void add_cell(CellId c, const LinearTetrahedron& cell, double viscosity, double stabilisation);
   template <class Put>
   void write_row(std::int32_t p, const NodeGraph& velocity_graph, const NodeGraph& pressure_graph,
                  const Constraints& constraints, const Matrices& matrices, const Put& put) const;
 
   std::vector<Sums> sums_;
   /// 2·edge + whether seen from b, per edge of each cell as in `kCellEdges`, and per entry of C,
-  /// −1 on its diagonal. Longer than that, for what is fetched ahead.
+  /// −1 on its diagonal; that one is longer, for what is fetched ahead.
   std::vector<std::int32_t> cell_edges_, entry_edges_;
   std::vector<std::uint16_t> places_;  ///< per entry of C: the entry of A's row that it adds to
   std::vector<std::int32_t> column_nodes_;  ///< per entry of C

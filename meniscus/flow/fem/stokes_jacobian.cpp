@@ -139,14 +139,9 @@ std::vector<CellId> StokesJacobian::assemble_plain_cells(const StokesProblem& pr
   const auto is_plain = [&](CellId c) { return about == nullptr || problem.law(c) == nullptr; };
   std::vector<CellId> others;
   edge_sums_->clear();
-  for (const CellId c : problem.mesh.cells.ids()) {
-    if (!is_plain(c)) {
-      others.push_back(c);
-      continue;
-    }
-    const double mass = edge_sums_->add(problem, c);
-    for (const std::int32_t p : space_.pressure.nodes.of(c)) pressure_mass_[at(p)] += mass;
-  }
+  std::vector<CellId> plain;
+  for (const CellId c : problem.mesh.cells.ids()) (is_plain(c) ? plain : others).push_back(c);
+  edge_sums_->add(problem, plain, pressure_mass_);
   EdgeSums::Matrices matrices{A_, B_, C_, {}};
   for (Laplacian& laplacian : laplacians_)
     matrices.laplacians.push_back({&laplacian.is_fixed, laplacian.values});
