@@ -1,6 +1,7 @@
 #include "meniscus/mesh/surface_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "meniscus/core/error.hpp"
@@ -9,6 +10,8 @@ namespace meniscus {
 namespace {
 
 constexpr std::int32_t kLeafSize = 4;  // measured: 2 to 8 faces per leaf cost the same
+// Nodes to be looked at: one for each level but the last; halving 2^31 faces makes 29 of them.
+constexpr std::size_t kMostOpen = 64;
 
 double squared_distance_to_box(const Vec3& p, const Vec3& low, const Vec3& high) {
   return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
@@ -139,28 +142,47 @@ void SurfaceTree::search_ray(std::int32_t node, const Vec3& origin, const Vec3& 
   }
 }
 
-void SurfaceTree::visit_box(const Vec3& low, const Vec3& high,
-                            const std::function<bool(FaceId, const Triangle&)>& visit) const {
-  std::vector<std::int32_t> open{0};
-  while (!open.empty()) {
-    const std::int32_t node = open.back();
-    open.pop_back();
+template <class IsOpen>
+void SurfaceTree::visit_where(const IsOpen& is_open, const Visit& visit) const {
+  std::array<std::int32_t, kMostOpen> open{};
+  std::size_t num_open = 1;
+  while (num_open > 0) {
+    const std::int32_t node = open[--num_open];
     const Node& here = nodes_[static_cast<std::size_t>(node)];
-    if (!boxes_touch(low, high, here.low, here.high)) continue;
+    if (!is_open(here.low, here.high)) continue;
     if (here.right != 0) {
-      open.push_back(here.right);
-      open.push_back(node + 1);
+      open[num_open++] = here.right;
+      open[num_open++] = node + 1;
       continue;
     }
     for (std::int32_t i = here.begin; i < here.end; ++i) {
       const Leaf& leaf = leaves_[static_cast<std::size_t>(i)];
       const auto& x = leaf.corners;
-      if (boxes_touch(low, high, x[0].cwiseMin(x[1]).cwiseMin(x[2]),
-                      x[0].cwiseMax(x[1]).cwiseMax(x[2])) &&
+      if (is_open(x[0].cwiseMin(x[1]).cwiseMin(x[2]), x[0].cwiseMax(x[1]).cwiseMax(x[2])) &&
           !visit(leaf.face, x))
         return;
     }
   }
+}
+
+void SurfaceTree::visit_box(const Vec3& low, const Vec3& high, const Visit& visit) const {
+  visit_where([&](const Vec3& other_low,
+                  const Vec3& other_high) { return boxes_touch(low, high, other_low, other_high); },
+              visit);
+}
+
+void SurfaceTree::visit_slice(const Vec3& low, const Vec3& high, const Vec3& origin,
+                              const Vec3& normal, const Visit& visit) const {
+  visit_where(
+      [&](const Vec3& other_low, const Vec3& other_high) {
+        if (!boxes_touch(low, high, other_low, other_high)) return false;
+        const Vec3 half = 0.5 * (other_high - other_low);
+        const Vec3 from_origin = other_low + half - origin;
+        // The slack keeps a box that touches the plane, whatever the rounding.
+        const double slack = 1e-9 * (half.norm() + from_origin.norm());
+        return std::abs(normal.dot(from_origin)) <= normal.cwiseAbs().dot(half) + slack;
+      },
+      visit);
 }
 
 }  // namespace meniscus

@@ -35,8 +35,11 @@ class SurfaceTree {
       const Vec3& origin, const Vec3& direction,
       double within = std::numeric_limits<double>::infinity()) const;
   /// Calls `visit` for every face whose box the box [low, high] touches, until it returns false.
-  void visit_box(const Vec3& low, const Vec3& high,
-                 const std::function<bool(FaceId, const Triangle&)>& visit) const;
+  using Visit = std::function<bool(FaceId, const Triangle&)>;
+  void visit_box(const Vec3& low, const Vec3& high, const Visit& visit) const;
+  /// The same, but only faces whose box the plane through `origin` normal to `normal` meets too.
+  void visit_slice(const Vec3& low, const Vec3& high, const Vec3& origin, const Vec3& normal,
+                   const Visit& visit) const;
 
   [[nodiscard]] const Vec3& low() const { return nodes_.front().low; }
   [[nodiscard]] const Vec3& high() const { return nodes_.front().high; }
@@ -54,6 +57,8 @@ class SurfaceTree {
   void build(std::int32_t begin, std::int32_t end);
   struct ClosestSearch;
   void search_closest(std::int32_t node, ClosestSearch& search) const;
+  template <class IsOpen>
+  void visit_where(const IsOpen& is_open, const Visit& visit) const;
   void search_ray(std::int32_t node, const Vec3& origin, const Vec3& direction, Hit& best) const;
 
   std::vector<Leaf> leaves_;

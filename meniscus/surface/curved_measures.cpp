@@ -98,6 +98,17 @@ FacePoint face_point(const ParabolicFace& x, const RulePoint& at) {
   return point;
 }
 
+/// The volume may jump past what is asked as vertices shift: which vertices a fit takes hangs on
+/// where they are. A similarity changes none of that, so V ∝ scale³. Returns how far the surface
+/// moves on average, (scale − 1) 3V/A.
+double scale_to_curved_volume(SurfaceMesh& mesh, double volume) {
+  const CurvedMeasures measures = curved_measures(mesh);
+  const Vec3 center = enclosed_centroid(mesh);
+  const double scale = std::cbrt(volume / measures.volume);
+  for (Vec3& x : mesh.x) x = center + scale * (x - center);
+  return (scale - 1.0) * 3.0 * measures.volume / measures.area;
+}
+
 }  // namespace
 
 CurvedMeasures curved_measures(const SurfaceMesh& mesh) {
@@ -142,17 +153,24 @@ VertexField<Vec3> smooth_normals(const SurfaceMesh& mesh) {
 }
 
 double restore_curved_volume(SurfaceMesh& mesh, double volume) {
-  double shift = 0.0, last = std::numeric_limits<double>::infinity();
+  double shift = 0.0, moved = 0.0, last = std::numeric_limits<double>::infinity();
   double gain = 1.0;  // what flat faces must gain for the curved ones to gain one
+  VertexField<Vec3> before;
   for (int step = 0; step < kMaxSteps; ++step) {
     const double missing = volume - curved_measures(mesh).volume;
-    if (std::abs(missing) <= kVolumeTolerance * volume || std::abs(missing) >= std::abs(last))
+    if (std::abs(missing) <= kVolumeTolerance * volume) return shift;
+    if (std::abs(missing) >= std::abs(last)) {
+      mesh.x = before;
+      shift -= moved;
       break;
+    }
     if (step > 0) gain *= last / (last - missing);
     last = missing;
-    shift += restore_volume(mesh, enclosed_volume(mesh) + gain * missing);
+    before = mesh.x;
+    moved = restore_volume(mesh, enclosed_volume(mesh) + gain * missing);
+    shift += moved;
   }
-  return shift;
+  return shift + scale_to_curved_volume(mesh, volume);
 }
 
 }  // namespace meniscus

@@ -27,7 +27,9 @@ struct SurfaceMoments {
 [[nodiscard]] VertexField<Vec3> smooth_normals(const SurfaceMesh& mesh);
 
 /// Shifts every vertex by the same multiple of its unit area vector so that the parabolic triangles
-/// enclose `volume` to 1e-12 relative; returns the size of the shift [R0], signed outward.
+/// enclose `volume` to 1e-12 relative; returns the size of the shift [R0], signed outward. Where no
+/// such shift is found, as coarse surfaces' volumes jump while vertices shift, what is left is made
+/// up for by a change of scale about the centroid.
 double restore_curved_volume(SurfaceMesh& mesh, double volume);
 
 }  // namespace meniscus

@@ -26,6 +26,10 @@ namespace {
 /// Distance from a place dealt with, in neck radii or gaps, within which nothing else is due in the
 /// same call: beyond the band that was cut and the hole that was opened.
 constexpr double kWaiting = 4.0;
+/// Area that an event may add, of the unit sphere's [R0²]. Cuts and bridges take area off but where
+/// the liquid of a wide neck or film swells small or crumpled drops; a thinner one swells them
+/// less.
+constexpr double kMostAddedArea = 1e-3 * 4.0 * std::numbers::pi;
 /// Far beyond what one step can bring about: ends a scene of events that make each other.
 constexpr int kMaxEvents = 1000;
 
@@ -103,6 +107,16 @@ bool clips_an_end(const Surgery& surgery, double radius) {
   });
 }
 
+/// `succeed`, all or nothing in what it does to the area too.
+std::string succeed_with_little_area(Scene& scene, Succession succession, TopologyEvent& event) {
+  Scene after = scene;
+  if (std::string failure = succeed(after, std::move(succession), event); !failure.empty())
+    return failure;
+  if (event.area_after - event.area_before > kMostAddedArea) return "it would add area";
+  scene = std::move(after);
+  return {};
+}
+
 std::string cut(Scene& scene, const DueNeck& due, Surgery surgery, TopologyEvent& event) {
   event.place = due.neck.center;
   if (due.side == Side::inside) {
@@ -113,7 +127,7 @@ std::string cut(Scene& scene, const DueNeck& due, Surgery surgery, TopologyEvent
     event.gap = 2.0 * due.neck.radius;
   }
   if (!surgery.failure.empty()) return surgery.failure;
-  return succeed(scene, {{due.interface}, std::move(surgery.pieces)}, event);
+  return succeed_with_little_area(scene, {{due.interface}, std::move(surgery.pieces)}, event);
 }
 
 void cut_necks(Scene& scene, const TopologyOptions& options, const SurfaceMotion& motion,
@@ -163,7 +177,7 @@ std::string open_gap(Scene& scene, const Gap& gap, const TopologyOptions& option
   if (!surgery.failure.empty()) return surgery.failure;
   Succession succession{{gap.a}, std::move(surgery.pieces)};
   if (gap.b != gap.a) succession.parents.push_back(gap.b);
-  return succeed(scene, std::move(succession), event);
+  return succeed_with_little_area(scene, std::move(succession), event);
 }
 
 void open_gaps(Scene& scene, const TopologyOptions& options, const SurfaceMotion& motion,

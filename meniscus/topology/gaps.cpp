@@ -83,7 +83,7 @@ void add_contacts(const Sheet& a, Side side_a, const Sheet& b, Side side_b, doub
 std::optional<SurfaceTree::Hit> across_film(const SurfaceMesh& mesh, const SurfaceTree& tree,
                                             const Vec3& x, const Vec3& into, double limit) {
   const double skip = 1e-3 * limit;  // leaves the faces at the vertex behind
-  auto hit = tree.first_hit(x + skip * into, into);
+  auto hit = tree.first_hit(x + skip * into, into, limit);
   if (!hit) return std::nullopt;
   hit->distance += skip;
   if (hit->distance >= limit) return std::nullopt;

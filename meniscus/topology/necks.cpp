@@ -42,11 +42,12 @@ std::vector<ThinPlace> thin_places(const SurfaceMesh& mesh, const SurfaceTree& t
   std::vector<ThinPlace> places;
   const VertexField<Vec3> area = vertex_area_vectors(mesh);
   const double skip = 1e-3 * widest;  // leaves the faces at the vertex behind
+  // A section's mean radius may be less than half of what one vertex sees across it.
+  const double farthest = 2.5 * widest;
   for (const VertexId v : mesh.x.ids()) {
     const Vec3 across = sign_of(side) * area[v].normalized();
-    const auto hit = tree.first_hit(mesh.x[v] + skip * across, across);
-    // 2.5 radii: a section's mean radius may be less than half of what one vertex sees across it.
-    if (!hit || hit->distance > 2.5 * widest) continue;
+    const auto hit = tree.first_hit(mesh.x[v] + skip * across, across, farthest);
+    if (!hit) continue;
     places.push_back({hit->distance, 0.5 * (mesh.x[v] + hit->point)});
   }
   std::ranges::sort(places, [](const ThinPlace& a, const ThinPlace& b) {

@@ -36,7 +36,8 @@ Crossings crossings_near(const SurfaceMesh& mesh, const SurfaceTree& tree, const
                          double reach) {
   Crossings result;
   const Vec3 half = Vec3::Constant(reach);
-  tree.visit_box(plane.origin - half, plane.origin + half, [&](FaceId f, const Triangle&) {
+  const Vec3 low = plane.origin - half, high = plane.origin + half;
+  tree.visit_slice(low, high, plane.origin, plane.normal, [&](FaceId f, const Triangle&) {
     const FaceVertices& v = mesh.faces[f];
     EdgeKey up{}, down{};
     int num_crossed = 0;

@@ -87,5 +87,32 @@ TEST(SurfaceTree, VisitsEveryFaceInABox) {
   EXPECT_EQ(visited, 3);
 }
 
+TEST(SurfaceTree, VisitsEveryFaceThatAPlaneCutsInABox) {
+  const SurfaceMesh mesh = stretched_sphere(400, Vec3(1.5, 0.5, 1.0));
+  const SurfaceTree tree(mesh);
+  std::mt19937 random(7);
+  const Vec3 half = Vec3::Constant(0.6);
+  int num_cut = 0, num_visited = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    const Vec3 origin = random_point(random, 1.0), normal = random_point(random, 1.0).normalized();
+    FaceField<char> is_visited(mesh.num_faces(), false), is_in_box(mesh.num_faces(), false);
+    tree.visit_slice(origin - half, origin + half, origin, normal,
+                     [&](FaceId f, const Triangle&) { return is_visited[f] = true; });
+    tree.visit_box(origin - half, origin + half,
+                   [&](FaceId f, const Triangle&) { return is_in_box[f] = true; });
+    for (const FaceId f : mesh.faces.ids()) {
+      const Triangle x = corners(mesh, f);
+      const auto is_above = [&](const Vec3& p) { return normal.dot(p - origin) >= 0.0; };
+      const bool is_cut = is_above(x[0]) != is_above(x[1]) || is_above(x[0]) != is_above(x[2]);
+      EXPECT_TRUE(is_in_box[f] || !is_visited[f]);
+      EXPECT_TRUE(is_visited[f] || !(is_cut && is_in_box[f]));
+      num_cut += is_cut && is_in_box[f] ? 1 : 0;
+      num_visited += is_visited[f] ? 1 : 0;
+    }
+  }
+  EXPECT_GT(num_cut, 200);
+  EXPECT_LT(num_visited, 4 * num_cut);  // boxes are larger than their faces
+}
+
 }  // namespace
 }  // namespace meniscus

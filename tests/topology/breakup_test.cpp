@@ -61,6 +61,38 @@ TEST(Breakup, CutsALongThreadInSeveralPlacesAtOnce) {
   EXPECT_EQ(scene.interfaces.size(), 4U);
 }
 
+/// A thread with a knob at one end, the neck before it narrower than the thread by a factor.
+SurfaceMesh knobbed_thread(double factor) {
+  return test::revolved(
+      1.0,
+      [=](double xi) {
+        const double round = 0.22 * std::sqrt(std::max(0.0, 1.0 - std::pow(xi, 8)));
+        return round * (1.0 - (1.0 - factor) * std::exp(-std::pow((xi - 0.7) / 0.12, 2)));
+      },
+      kC0);
+}
+
+TEST(Breakup, WaitsWhereTheCutWouldAddArea) {
+  // The knob is hardly wider than its neck: to give it half of what is taken out swells it.
+  {
+    const std::vector<SurfaceMesh> meshes{knobbed_thread(0.55)};
+    Scene scene = scene_of(meshes, kC0);
+    const Scene before = scene;
+    const TopologyReport report = apply_topology(scene, {.breakup_radius = 0.17}, {});
+    EXPECT_EQ(fault_after(before, scene, report), "");
+    EXPECT_EQ(report.events.size(), 0U);
+    EXPECT_EQ(report.warnings.size(), 1U);
+    EXPECT_EQ(scene.interfaces[0].mesh.x, before.interfaces[0].mesh.x);
+  }
+  // Thinner, it is cut.
+  const std::vector<SurfaceMesh> meshes{knobbed_thread(0.2)};
+  Scene scene = scene_of(meshes, kC0);
+  const Scene before = scene;
+  const TopologyReport report = apply_topology(scene, {.breakup_radius = 0.17}, {});
+  EXPECT_EQ(fault_after(before, scene, report), "");
+  EXPECT_EQ(report.events.size(), 1U) << (report.warnings.empty() ? "" : report.warnings[0]);
+}
+
 TEST(Breakup, LeavesATorusInOnePiece) {
   // A torus whose tube thins to 0.05 on one side.
   SurfaceMesh mesh = test::torus(96, 12, 1.0, 0.3);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
@@ -23,38 +24,172 @@ namespace {
 // which is to stay below 1e-3 · 4π.
 constexpr double kBreakupRadius = 0.13, kGap = 0.09, kFloor = 0.045;
 constexpr double kC0 = 42.0 / (4.0 * std::numbers::pi);
-constexpr double kBox = 3.0;
-constexpr double kStep = 0.06;
-constexpr int kTurn = 12;  // steps: strains of one or two
+constexpr double kBox = 2.5;
+constexpr double kStep = 0.15;  // at 0.2 some drops crumple beyond mending
+constexpr int kTurn = 8;        // steps: strains of one or two
+// Of a drop of this radius a neck is made and what comes of it can still be told from its neck.
+constexpr double kBreakable = 2.2 * kBreakupRadius;
+// Area over the sphere's beyond which a drop is only gathered: that of a cylinder nine diameters
+// long, or of a disc a sixth as thick as wide.
+constexpr double kCrumpled = 1.7;
 
-/// v = Σ a × k sin(k·x + φ): smooth and free of divergence.
+/// A strain that fades away around a place, v = ∇ × (s ρ z e_φ exp(−r²/2w²)/2): at the place a
+/// uniaxial extension of rate s along the axis, farther than w along it the opposite. So it draws a
+/// drop into a dumbbell; with s < 0 it flattens one, or brings two together.
+struct LocalStrain {
+  Vec3 center, axis;
+  double rate = 0.0, width = 0.0;
+
+  [[nodiscard]] Vec3 operator()(const Vec3& x) const {
+    const Vec3 d = x - center;
+    const double fade = std::exp(-0.5 * d.squaredNorm() / (width * width));
+    const double z = d.dot(axis);
+    const Vec3 rho = d - z * axis;
+    return rate * fade *
+           (z * (1.0 - 0.5 * rho.squaredNorm() / (width * width)) * axis -
+            0.5 * (1.0 - z * z / (width * width)) * rho);
+  }
+};
+
+/// v = a × k sin(k·x + φ).
+struct FourierMode {
+  Vec3 k, v;
+  double phase = 0.0;
+
+  [[nodiscard]] Vec3 operator()(const Vec3& x) const { return v * std::sin(k.dot(x) + phase); }
+};
+
+/// Where a drop is and how it is shaped, for a flow that does something to it.
+struct Place {
+  Vec3 center, long_axis, short_axis;
+  double radius = 0.0;
+  double stretch = 0.0, flatness = 0.0;  ///< longest over middle, middle over shortest
+  double area = 0.0;                     ///< over the sphere's
+
+  explicit Place(const SurfaceMesh& mesh)
+      : center(enclosed_centroid(mesh)),
+        radius(std::cbrt(0.75 / std::numbers::pi * enclosed_volume(mesh))),
+        area(surface_area(mesh) / (4.0 * std::numbers::pi * radius * radius)) {
+    const Eigen::SelfAdjointEigenSolver<Mat3> moments(enclosed_second_moments(mesh));
+    long_axis = moments.eigenvectors().col(2);
+    short_axis = moments.eigenvectors().col(0);
+    stretch = std::sqrt(moments.eigenvalues()[2] / moments.eigenvalues()[1]);
+    flatness = std::sqrt(moments.eigenvalues()[1] / moments.eigenvalues()[0]);
+  }
+};
+
+/// A random smooth velocity without divergence: for every drop a local strain that draws it apart,
+/// flattens it, gathers it again or brings it to the drop beside it, over a few waves that turn and
+/// shear all. A strain lasts for some steps or as long as its drops do.
 class RandomFlow {
  public:
-  explicit RandomFlow(std::mt19937& random) {
-    std::normal_distribution<double> normal;
-    std::uniform_real_distribution<double> phase(0.0, 2.0 * std::numbers::pi);
-    for (Mode& mode : modes_) {
-      mode.k = 0.7 * Vec3(normal(random), normal(random), normal(random));
-      const Vec3 a(normal(random), normal(random), normal(random));
-      mode.v = 0.8 * a.cross(mode.k);
-      mode.phase = phase(random);
+  /// `wanted`: how many drops there are to be; while there are fewer, more are drawn apart.
+  RandomFlow(int wanted, std::mt19937& random) : wanted_(wanted), random_(random) {}
+
+  void follow(const Scene& scene) {
+    if (steps_++ % kTurn == 0) make_waves();
+    std::erase_if(tasks_, [&](Task& task) {
+      return --task.steps_left < 0 || !has_drop(scene, task.drop) || !has_drop(scene, task.other);
+    });
+    std::vector<Place> places;
+    for (const Interface& drop : scene.interfaces) places.emplace_back(drop.mesh);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const int drop = scene.interfaces[i].drop;
+      if (std::ranges::find(tasks_, drop, &Task::drop) != tasks_.end()) continue;
+      const std::size_t other = nearest(places, i);
+      const int steps = kTurn / 2 + static_cast<int>(random_() % kTurn);
+      tasks_.push_back({strain_for(places, i, other), drop, scene.interfaces[other].drop, steps});
     }
   }
-  void turn(bool is_forth) { sign_ = is_forth ? 1.0 : -1.0; }
+  /// All strains are drawn anew at the next step.
+  void forget() { tasks_.clear(); }
+
   [[nodiscard]] Vec3 operator()(const Vec3& x) const {
-    // Drawn back to the middle: drops that drift apart meet no more.
-    Vec3 v = -0.3 * x;
-    for (const Mode& mode : modes_) v += sign_ * mode.v * std::sin(mode.k.dot(x) + mode.phase);
+    Vec3 v = Vec3::Zero();
+    for (const Task& task : tasks_) v += task.strain(x);
+    for (const FourierMode& wave : waves_) v += wave(x);
     return v;
   }
 
  private:
-  struct Mode {
-    Vec3 k, v;
-    double phase;
+  struct Task {
+    LocalStrain strain;
+    int drop = -1, other = -1;  ///< ids
+    int steps_left = 0;
   };
-  std::array<Mode, 6> modes_;
-  double sign_ = 1.0;
+
+  static bool has_drop(const Scene& scene, int id) {
+    return std::ranges::find(scene.interfaces, id, &Interface::drop) != scene.interfaces.end();
+  }
+  /// The drop whose surface is nearest to another drop's; the drop itself when it is alone.
+  static std::size_t nearest(const std::vector<Place>& places, std::size_t i) {
+    const auto gap = [&](const Place& other) {
+      const double distance = (other.center - places[i].center).norm();
+      return &other == &places[i] ? 1e300 : std::abs(distance - other.radius) - places[i].radius;
+    };
+    return static_cast<std::size_t>(std::ranges::min_element(places, {}, gap) - places.begin());
+  }
+
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  Vec3 vector() {
+    std::normal_distribution<double> normal;
+    const double x = normal(random_), y = normal(random_), z = normal(random_);
+    return {x, y, z};
+  }
+  void make_waves() {
+    for (FourierMode& wave : waves_) {
+      wave.k = vector();
+      wave.v = 0.08 * vector().cross(wave.k);
+      wave.phase = uniform(0.0, 2.0 * std::numbers::pi);
+    }
+  }
+
+  LocalStrain strain_for(const std::vector<Place>& places, std::size_t i, std::size_t other) {
+    const Place& drop = places[i];
+    const auto num = static_cast<double>(places.size());
+    const bool is_breakable = drop.radius > kBreakable;
+    if (drop.area > kCrumpled) return gathering(drop);
+    if (is_breakable && uniform(0.0, 1.0) < wanted_ / (wanted_ + num)) return drawing(drop);
+    if (is_breakable && uniform(0.0, 1.0) < 0.1) return flattening(drop);
+    if (drop.stretch > 1.5 && uniform(0.0, 1.0) < 0.5) return gathering(drop);
+    return other == i ? gathering(drop) : bringing(drop, places[other]);
+  }
+  LocalStrain drawing(const Place& drop) {
+    // A drop that is long already goes on in its own direction.
+    const Vec3 axis = drop.stretch > 1.2 ? drop.long_axis : Vec3(vector().normalized());
+    const Vec3 center = drop.center + uniform(-0.3, 0.3) * drop.radius * axis;
+    return {center, axis, uniform(0.8, 1.4), uniform(0.7, 1.1) * drop.radius};
+  }
+  LocalStrain flattening(const Place& drop) {
+    return {drop.center, vector().normalized(), -uniform(0.6, 1.0),
+            uniform(0.8, 1.2) * drop.radius};
+  }
+  /// Without tension nothing else rounds a drop.
+  LocalStrain gathering(const Place& drop) {
+    const double rate = uniform(0.5, 1.0);
+    if (drop.flatness > drop.stretch)
+      return {drop.center, drop.short_axis, rate, 1.5 * std::sqrt(drop.flatness) * drop.radius};
+    return {drop.center, drop.long_axis, -rate, 1.5 * drop.stretch * drop.radius};
+  }
+  /// To another drop, or to the surface of the one that it lies in.
+  LocalStrain bringing(const Place& drop, const Place& other) {
+    const Vec3 apart = other.center - drop.center;
+    const double distance = apart.norm();
+    const double sign = distance < other.radius ? -1.0 : 1.0;
+    const Vec3 axis =
+        distance < 0.1 * drop.radius ? Vec3(vector().normalized()) : Vec3(sign / distance * apart);
+    const double gap = std::abs(distance - other.radius) - drop.radius;
+    const double reach = drop.radius + 0.5 * std::max(0.0, gap);
+    return {drop.center + reach * axis, axis, -uniform(0.8, 1.6), 1.2 * reach};
+  }
+
+  int wanted_;
+  std::mt19937& random_;
+  int steps_ = 0;
+  std::vector<Task> tasks_;
+  std::array<FourierMode, 3> waves_;
 };
 
 /// Drops that do not meet, the later ones fewer and fewer tries from being given up.
@@ -96,7 +231,7 @@ bool remeshed(Scene& scene) {
   return find_touching_drops(scene).empty();
 }
 
-void record(const TopologyReport& report, EventSoak& soak) {
+void record(const TopologyReport& report, const Scene& after, EventSoak& soak) {
   for (const TopologyEvent& event : report.events) {
     ++(event.kind == EventKind::breakup ? soak.breakups : soak.coalescences);
     soak.largest_area_rise = std::max(
@@ -105,6 +240,14 @@ void record(const TopologyReport& report, EventSoak& soak) {
                                          std::abs(event.volume_after / event.volume_before - 1.0));
     soak.largest_volume_moved =
         std::max(soak.largest_volume_moved, event.volume_moved / event.volume_before);
+    for (const int id : event.children) {
+      const auto child = std::ranges::find(after.interfaces, id, &Interface::drop);
+      if (child == after.interfaces.end()) continue;  // the parent of another event
+      soak.largest_volume_error = std::max(
+          soak.largest_volume_error, std::abs(enclosed_volume(child->mesh) / child->volume - 1.0));
+      soak.tori += euler_characteristic(child->mesh) < 2 ? 1 : 0;
+      soak.nested += child->outside != RegionId{0} ? 1 : 0;
+    }
   }
   soak.warnings += static_cast<int>(report.warnings.size());
   soak.log.insert(soak.log.end(), report.warnings.begin(), report.warnings.end());
@@ -116,20 +259,14 @@ EventSoak event_soak(unsigned seed, int events, int max_steps) {
   std::mt19937 random(seed);
   Scene scene = random_scene(random);
   EventSoak soak;
-  RandomFlow flow(random);
+  RandomFlow flow(static_cast<int>(scene.interfaces.size()), random);
   const TopologyOptions options{.breakup_radius = kBreakupRadius,
                                 .coalescence = true,
                                 .coalescence_gap = kGap,
                                 .edge_floor = kFloor};
   double dt = kStep;
-  bool is_forth = true;
   while (soak.breakups + soak.coalescences < events && soak.steps < max_steps) {
-    if (soak.steps % kTurn == 0) {
-      // What a flow has drawn out it brings back: without tension nothing else would round it.
-      if (is_forth) flow = RandomFlow(random);
-      flow.turn(is_forth);
-      is_forth = !is_forth;
-    }
+    flow.follow(scene);
     ++soak.steps;
     Scene moved = scene;
     for (Interface& drop : moved.interfaces)
@@ -141,14 +278,13 @@ EventSoak event_soak(unsigned seed, int events, int max_steps) {
     if (!remeshed(moved)) {
       ++soak.refused_steps;
       dt = std::max(0.5 * dt, 1e-4);
-      flow = RandomFlow(random);
-      is_forth = true;
+      flow.forget();
       continue;
     }
     dt = std::min(kStep, 1.5 * dt);
     const Scene before = moved;
     const TopologyReport report = apply_topology(moved, options, motion);
-    record(report, soak);
+    record(report, moved, soak);
     soak.fault = report.refusal.empty() ? fault_after(before, moved, report) : report.refusal;
     if (!soak.fault.empty()) {
       soak.fault = fmt::format("seed {}, step {}: {}", seed, soak.steps, soak.fault);

@@ -9,6 +9,8 @@ namespace meniscus::test {
 struct EventSoak {
   int steps = 0;
   int breakups = 0, coalescences = 0;
+  int tori = 0;           ///< children of events that have a hole, however many
+  int nested = 0;         ///< children of events that lie in another drop
   int warnings = 0;       ///< events that were due and could not be carried out
   int refused_steps = 0;  ///< steps that made drops touch and were taken again at half the length
   std::string fault;      ///< the first thing that must not be; empty: none
@@ -18,9 +20,10 @@ struct EventSoak {
   std::vector<std::string> log;
 };
 
-/// 5 to 30 drops of random sizes at random places, some of them in others, carried by sums of
-/// random Fourier modes, each for some steps forth and as many back, until `events` events have
-/// happened or `max_steps` steps are done. The seed alone decides everything.
+/// 5 to 30 drops of random sizes at random places, some of them in others, carried by random smooth
+/// velocities without divergence, local strains that draw drops apart, flatten them or bring them
+/// together, until `events` events have happened or `max_steps` steps are done. The seed alone
+/// decides everything.
 [[nodiscard]] EventSoak event_soak(unsigned seed, int events, int max_steps);
 
 }  // namespace meniscus::test

@@ -56,6 +56,8 @@ StokesJacobian::StokesJacobian(const FlowSpace& space, const Share* share)
       velocity_graph_(node_graph(space.velocity, space.velocity)),
       coupling_graph_(node_graph(space.pressure.nodes, space.velocity)),
       pressure_graph_(node_graph(space.pressure.nodes, space.pressure.nodes)) {
+  if (space.elements == Elements::p1_p1)
+    edge_sums_.emplace(space, velocity_graph_, coupling_graph_, pressure_graph_);
   if (share != nullptr) {
     renumber(velocity_graph_, share->node_number);
     renumber(coupling_graph_, share->node_number);
@@ -107,19 +109,45 @@ void StokesJacobian::choose_laplacians(const Constraints& constraints) {
 void StokesJacobian::assemble(const StokesProblem& problem, const Linearization* about) {
   choose_laplacians(problem.constraints);
   constant_pressure_is_null_ = !problem.has_open_boundary;
-  C_.assign(pressure_graph_.num_entries(), 0.0);
   pressure_mass_.assign(at(pressure_graph_.num_rows()), 0.0);
-  consistent_mass_.assign(space_.elements == Elements::p2_p1 ? C_.size() : 0, 0.0);
+  consistent_mass_.assign(space_.elements == Elements::p2_p1 ? pressure_graph_.num_entries() : 0,
+                          0.0);
   const bool has_lower_left = about != nullptr && about->kind == Linearization::Kind::newton &&
                               space_.elements == Elements::p1_p1;
   lower_left_.assign(has_lower_left ? 3 * coupling_graph_.num_entries() : 0, 0.0);
-  A_.assign(9 * velocity_graph_.num_entries(), 0.0);
-  B_.assign(3 * coupling_graph_.num_entries(), 0.0);
-  for (Laplacian& laplacian : laplacians_)
-    laplacian.values.assign(velocity_graph_.num_entries(), 0.0);
+  A_.resize(9 * velocity_graph_.num_entries());
+  B_.resize(3 * coupling_graph_.num_entries());
+  C_.resize(pressure_graph_.num_entries());
+  for (Laplacian& laplacian : laplacians_) laplacian.values.resize(velocity_graph_.num_entries());
+  const std::vector<CellId> others = assemble_plain_cells(problem, about);
   with_element(space_, problem.positions,
-               [&](auto& element) { add_cells(problem, about, element); });
+               [&](auto& element) { add_cells(problem, about, others, element); });
   weigh_regions();
+}
+
+/// Sets A, B, C and the Laplacians to what plain cells, whose matrices are summed by edges, make of
+/// them: linear ones on Newtonian liquids.
+/// Returns the other cells.
+std::vector<CellId> StokesJacobian::assemble_plain_cells(const StokesProblem& problem,
+                                                         const Linearization* about) {
+  if (!edge_sums_.has_value() || !lower_left_.empty()) {
+    for (std::vector<double>* values : {&A_, &B_, &C_}) std::ranges::fill(*values, 0.0);
+    for (Laplacian& laplacian : laplacians_) std::ranges::fill(laplacian.values, 0.0);
+    const auto all = problem.mesh.cells.ids();
+    return {all.begin(), all.end()};
+  }
+  const auto is_plain = [&](CellId c) { return about == nullptr || problem.law(c) == nullptr; };
+  std::vector<CellId> others;
+  edge_sums_->clear();
+  std::vector<CellId> plain;
+  for (const CellId c : problem.mesh.cells.ids()) (is_plain(c) ? plain : others).push_back(c);
+  edge_sums_->add(problem, plain, pressure_mass_);
+  EdgeSums::Matrices matrices{A_, B_, C_, {}};
+  for (Laplacian& laplacian : laplacians_)
+    matrices.laplacians.push_back({&laplacian.is_fixed, laplacian.values});
+  edge_sums_->write(velocity_graph_, pressure_graph_, own_.num_pressures, problem.constraints,
+                    matrices);
+  return others;
 }
 
 bool StokesJacobian::is_free(const Constraints& constraints, CellId c) const {
@@ -130,13 +158,10 @@ bool StokesJacobian::is_free(const Constraints& constraints, CellId c) const {
 
 template <class Element>
 void StokesJacobian::add_cells(const StokesProblem& problem, const Linearization* about,
-                               Element& element) {
-  for (const CellId c : problem.mesh.cells.ids()) {
+                               std::span<const CellId> cells, Element& element) {
+  for (const CellId c : cells) {
     if (about != nullptr && problem.law(c) != nullptr)
       add_cell(problem, TangentMatrices<Element>(problem, element.points(c), c, *about), c);
-    else if (std::is_same_v<Element, LinearElement> && lower_left_.empty() &&
-             is_free(problem.constraints, c))
-      add_free_linear_cell(problem, c);
     else if (std::is_same_v<Element, QuadraticElement> && !problem.positions.is_curved[c])
       add_cell(problem, straight_quadratic_matrices(problem, c), c);
     else

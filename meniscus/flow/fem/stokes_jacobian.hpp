@@ -1,8 +1,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <span>
 #include <vector>
 
+#include "meniscus/flow/fem/edge_sums.hpp"
 #include "meniscus/flow/fem/node_graph.hpp"
 #include "meniscus/flow/fem/share.hpp"
 #include "meniscus/flow/fem/stokes_problem.hpp"
@@ -35,11 +38,12 @@ class StokesJacobian {
   /// Whether no node of a cell is constrained.
   [[nodiscard]] bool is_free(const Constraints& constraints, CellId c) const;
   template <class Element>
-  void add_cells(const StokesProblem& problem, const Linearization* about, Element& element);
+  void add_cells(const StokesProblem& problem, const Linearization* about,
+                 std::span<const CellId> cells, Element& element);
   template <class Matrices>
   void add_cell(const StokesProblem& problem, const Matrices& matrices, CellId c);
-  /// A cell of linear elements without constraints on a Newtonian liquid.
-  void add_free_linear_cell(const StokesProblem& problem, CellId c);
+  std::vector<CellId> assemble_plain_cells(const StokesProblem& problem,
+                                           const Linearization* about);
   template <class Matrices>
   void add_free_cell(const Matrices& matrices, CellId c);
   template <class Matrices>
@@ -66,6 +70,7 @@ class StokesJacobian {
   OwnPart own_;
   LinearFunctions coarse_;
   NodeGraph velocity_graph_, coupling_graph_, pressure_graph_;
+  std::optional<EdgeSums> edge_sums_;  ///< of P1-P1 alone
   ScalarPattern A_pattern_, B_pattern_;
   std::vector<double> A_, B_, C_, pressure_mass_;
   std::vector<double> consistent_mass_;  ///< on C's pattern; of P2-P1 alone
