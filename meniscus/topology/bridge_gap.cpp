@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -234,9 +235,22 @@ Surgery opened(const Film& film, const std::array<VertexId, 2>& at, double edge,
   return surgery;
 }
 
-}  // namespace
+/// Where the smaller of two drops lies within the hole as a whole there is nothing to open it from:
+/// the other takes it up. None where it is larger, or holds another drop.
+std::optional<Surgery> taken_up(const Scene& scene, const Gap& gap, double hole) {
+  if (gap.a == gap.b) return std::nullopt;
+  const Interface *large = &scene.interfaces[gap.a], *small = &scene.interfaces[gap.b];
+  if (large->volume < small->volume) std::swap(large, small);
+  const bool is_within = std::ranges::all_of(
+      small->mesh.x, [&](const Vec3& x) { return (x - gap.middle()).norm() < hole; });
+  const bool is_around = std::ranges::any_of(
+      scene.interfaces, [&](const Interface& other) { return other.outside == small->inside; });
+  if (!is_within || is_around) return std::nullopt;
+  return Surgery{{large->mesh}, {}};
+}
 
-Surgery bridge_gap(const Scene& scene, const Gap& gap, const BridgeOptions& options) {
+/// The bridge as `bridge_gap` makes it where both drops are larger than the hole.
+Surgery bridged(const Scene& scene, const Gap& gap, const BridgeOptions& options) {
   const double edge = edge_at(gap, options);
   const SurfaceMesh mesh = refined_surfaces(scene, gap, edge);
   // The film lies outside the liquid of the bridge, or is that liquid when it lies inside of a.
@@ -255,6 +269,14 @@ Surgery bridge_gap(const Scene& scene, const Gap& gap, const BridgeOptions& opti
                                    nearest_vertex(film, gap.to, -across)};
   if (!at[0].is_valid() || !at[1].is_valid()) return {{}, "the two sides are not to be found"};
   return opened(film, at, edge, options);
+}
+
+}  // namespace
+
+Surgery bridge_gap(const Scene& scene, const Gap& gap, const BridgeOptions& options) {
+  Surgery surgery = bridged(scene, gap, options);
+  if (surgery.failure.empty()) return surgery;
+  return taken_up(scene, gap, kHole * options.limit).value_or(std::move(surgery));
 }
 
 }  // namespace meniscus
