@@ -125,8 +125,32 @@ TEST(Coalescence, TakesUpADropThatIsSmallerThanTheHole) {
   }
 }
 
+TEST(Coalescence, MovesLittleOfTheLiquidOfSmallDrops) {
+  // The first hole that is tried is as wide as these drops, or as their halves that face each
+  // other.
+  for (const double aspect : {1.0, 0.5, 0.3})
+    for (const double radius : {1.5 * kGap, 2.0 * kGap, 3.0 * kGap}) {
+      std::vector<SurfaceMesh> meshes;
+      for (const double side : {-1.0, 1.0}) {
+        meshes.push_back(sphere(162, 1.0));
+        for (Vec3& x : meshes.back().x)
+          x = radius * Vec3(aspect * x.x(), x.y(), x.z()) +
+              side * (aspect * radius + 0.3 * kGap) * Vec3::UnitX();
+      }
+      Scene scene = scene_of(meshes, 42 / (4.0 * std::numbers::pi));
+      const Scene before = scene;
+      const TopologyReport report = apply_topology(scene, kMerge, {});
+      ASSERT_EQ(report.events.size(), 1U) << (report.warnings.empty() ? "" : report.warnings[0]);
+      EXPECT_EQ(fault_after(before, scene, report), "");
+      // A tenth where a smaller hole does; to take one of two up moves half.
+      const TopologyEvent& event = report.events[0];
+      EXPECT_LT(event.volume_moved, (aspect == 1.0 ? 0.1 : 0.51) * event.volume_before)
+          << aspect << " " << radius;
+    }
+}
+
 TEST(Coalescence, DoesNotTakeUpADropThatHoldsAnother) {
-  const double radius = 0.5 * kGap;
+  const double radius = 0.2 * kGap;
   const Vec3 center(1.0 + radius + 0.2 * kGap, 0, 0);
   const std::vector<SurfaceMesh> meshes{unit_sphere(Vec3::Zero()), sphere(42, radius, center),
                                         sphere(42, 0.3 * radius, center)};
