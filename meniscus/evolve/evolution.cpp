@@ -221,9 +221,12 @@ void Evolution::remesh_interfaces() {
                                   : remesh_or_mend(interface.mesh, options);
     const RemeshReport& report = mended.remesh;
     if (mended.is_mended) {
-      warnings_.push_back(fmt::format(
-          "t = {:.6g}: creases of drop {} were rounded, {} holes through it closed, to remesh it",
-          t_, interface.drop, mended.closed_holes));
+      const std::string what = mended.smoothed_over > 0.0
+                                   ? fmt::format("drop {} was smoothed over {:.4g}", interface.drop,
+                                                 mended.smoothed_over)
+                                   : fmt::format("creases of drop {} were rounded", interface.drop);
+      warnings_.push_back(fmt::format("t = {:.6g}: {}, {} holes through it closed, to remesh it",
+                                      t_, what, mended.closed_holes));
       log::warning("{}", warnings_.back());
     }
     correction_[i] = report.volume_shift;
