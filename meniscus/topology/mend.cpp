@@ -165,6 +165,7 @@ MendReport remesh_or_mend(SurfaceMesh& mesh, const RemeshOptions& given) {
   RemeshOptions options = given;
   if (options.volume == 0.0) options.volume = enclosed_volume(mesh);
   const double volume = options.volume;
+  if (!(volume > 0.0)) return report;  // turned inside out: no shape to be mended
   if (const auto remeshed = round_and_remesh(mesh, options, volume)) return {*remeshed, true};
   SurfaceMesh even = evened_out(mesh, kEvenEdge * mean_edge(mesh));
   const auto replaced = [&](const RemeshReport& remeshed) {
