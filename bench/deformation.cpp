@@ -1,6 +1,6 @@
 // The deformation test of leveque1996 and enright2002 at full length (docs/surface-remeshing.md).
 //
-//     deformation PERIOD N0 [EDGE_FLOOR [STEP]]
+//     deformation PERIOD N0 [EDGE_FLOOR [STEP [EQUILIBRIUM]]]
 #include "tests/surface/deformation.hpp"
 
 #include <cstdio>
@@ -9,13 +9,14 @@
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    std::puts("deformation PERIOD N0 [EDGE_FLOOR [STEP]]");
+    std::puts("deformation PERIOD N0 [EDGE_FLOOR [STEP [EQUILIBRIUM]]]");
     return 2;
   }
   meniscus::test::DeformationOptions options{.N0 = std::atof(argv[2]),
                                              .period = std::atof(argv[1])};
   if (argc > 3) options.edge_floor = std::atof(argv[3]);
   if (argc > 4) options.step = std::atof(argv[4]);
+  if (argc > 5) options.equilibrium = std::atof(argv[5]);
   const auto r = meniscus::test::deform_and_return(options);
   std::printf(
       "T %g N0 %g floor %g: vertices %d, at most %d, %d in the end; shape error %.3g rms, "

@@ -12,6 +12,7 @@
 #include <sys/resource.h>
 
 #include "bench/memory_bandwidth.hpp"
+#include "meniscus/core/memory.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
 #include "meniscus/volume/tetrahedralize.hpp"
 #include "tests/flow/fem/stretched_drop.hpp"
@@ -78,10 +79,13 @@ double assembly_bytes(const FlowSpace& space, const linear::SaddleSystem& system
                       3 * static_cast<std::size_t>(space.velocity.num_nodes);
   for (const linear::CsrView& laplacian : system.laplacians) reals += laplacian.values.size();
   const auto nodes = static_cast<std::size_t>(space.velocity.nodes_per_cell);
+  // Nodes, and where entries are: of P1-P1 its edges, and edge, place and column of each entry.
+  const bool has_edges = space.elements == Elements::p1_p1;
   const std::size_t bytes_per_cell =
-      2 * (nodes * nodes + 4 * nodes + 16) + 4 * (nodes + 4);  // where entries are, and nodes
+      4 * (nodes + 4) + (has_edges ? 24 : 2 * (nodes * nodes + 4 * nodes + 16));
   return 8.0 * static_cast<double>(reals) +
-         static_cast<double>(bytes_per_cell) * space.velocity.num_cells();
+         static_cast<double>(bytes_per_cell) * space.velocity.num_cells() +
+         (has_edges ? 10.0 * static_cast<double>(system.C.values.size()) : 0.0);
 }
 
 void print_assembly(const StokesProblem& problem) {
@@ -134,6 +138,7 @@ void print_solve(const Arguments& arguments, const StokesProblem& problem, doubl
 int main(int count, char** given) {
   using namespace meniscus;
   using namespace meniscus::fem;
+  keep_freed_memory();
   const Arguments arguments = read_arguments(count, given);
   check_linear_options(arguments.options);  // and PETSc has started
   const Scene scene = stretched_drop(shape_of(arguments.shape), arguments.N0, 1.0);

@@ -1,3 +1,7 @@
 #include "meniscus/app/command_line.hpp"
+#include "meniscus/core/memory.hpp"
 
-int main(int argc, char** argv) { return meniscus::run_command_line(argc, argv); }
+int main(int argc, char** argv) {
+  meniscus::keep_freed_memory();
+  return meniscus::run_command_line(argc, argv);
+}

@@ -103,6 +103,8 @@ FacePoint face_point(const ParabolicFace& x, const RulePoint& at) {
 /// moves on average, (scale − 1) 3V/A.
 double scale_to_curved_volume(SurfaceMesh& mesh, double volume) {
   const CurvedMeasures measures = curved_measures(mesh);
+  // A surface far off is crumpled; its curved volume says nothing.
+  if (!(measures.volume > 0.5 * volume && measures.volume < 2.0 * volume)) return 0.0;
   const Vec3 center = enclosed_centroid(mesh);
   const double scale = std::cbrt(volume / measures.volume);
   for (Vec3& x : mesh.x) x = center + scale * (x - center);

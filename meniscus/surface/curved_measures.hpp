@@ -29,7 +29,8 @@ struct SurfaceMoments {
 /// Shifts every vertex by the same multiple of its unit area vector so that the parabolic triangles
 /// enclose `volume` to 1e-12 relative; returns the size of the shift [R0], signed outward. Where no
 /// such shift is found, as coarse surfaces' volumes jump while vertices shift, what is left is made
-/// up for by a change of scale about the centroid.
+/// up for by a change of scale about the centroid; not where the curved volume is off by more than
+/// a factor of two, as on crumpled surfaces: it then stays off.
 double restore_curved_volume(SurfaceMesh& mesh, double volume);
 
 }  // namespace meniscus

@@ -16,8 +16,6 @@ namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
 
-/// An icosahedron, the coarsest sphere there is to be smoothed, turns its normals by 42°.
-constexpr double kCreaseDeg = 50.0;
 constexpr double kLowAngleDeg = 15.0;  // of the 5 % quantile; relaxed meshes have 40° and more
 constexpr int kIterations = 5;         // CGAL's examples take 1 to 10; the angles settle by 5
 
@@ -33,10 +31,10 @@ bool is_rough(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
   return false;
 }
 
-SurfaceMesh evened_out(const SurfaceMesh& mesh, double edge) {
+SurfaceMesh evened_out(const SurfaceMesh& mesh, double edge, double crease_deg) {
   CgalMesh cgal = to_cgal(mesh);
   auto [is_crease, added] = cgal.add_property_map<CgalMesh::Edge_index, bool>("e:crease", false);
-  pmp::detect_sharp_edges(cgal, kCreaseDeg, is_crease);
+  if (crease_deg < 180.0) pmp::detect_sharp_edges(cgal, crease_deg, is_crease);
   // Constrained edges are kept as they are, so that they have to be short before.
   std::vector<CgalMesh::Edge_index> creases;
   for (const auto e : cgal.edges())

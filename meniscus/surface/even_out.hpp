@@ -4,12 +4,17 @@
 
 namespace meniscus {
 
+/// An icosahedron, the coarsest sphere there is to be smoothed, turns its normals by 42°.
+inline constexpr double kCreaseDeg = 50.0;
+
 /// Whether a closed surface is too rough for a smooth surface to be fitted to: normals turned by
 /// more than 50° along an edge, or a twentieth of the angles below 15°.
 [[nodiscard]] bool is_rough(const SurfaceMesh& mesh, const SurfaceTopology& topology);
 
 /// The same polyhedron with triangles of edges about `edge`: CGAL's isotropic remeshing, new
-/// vertices on the given faces, creases (above 50°) kept as lines of edges.
-[[nodiscard]] SurfaceMesh evened_out(const SurfaceMesh& mesh, double edge);
+/// vertices on the given faces, edges where normals turn by more than `crease_deg` kept as lines of
+/// edges; 180: none.
+[[nodiscard]] SurfaceMesh evened_out(const SurfaceMesh& mesh, double edge,
+                                     double crease_deg = kCreaseDeg);
 
 }  // namespace meniscus

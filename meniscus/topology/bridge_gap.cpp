@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -25,13 +26,16 @@ namespace {
 constexpr double kHole = 2.0;
 /// The holes that are tried, and whether they take all of the thin film around with them: smaller
 /// ones where the rim of a larger one comes round to the back of a drop or to another fold.
-constexpr std::array<std::pair<double, bool>, 4> kHoles{
-    {{kHole, true}, {kHole, false}, {1.5, false}, {1.0, false}}};
+constexpr std::array<std::pair<double, bool>, 5> kHoles{
+    {{kHole, true}, {kHole, false}, {1.5, false}, {1.0, false}, {0.5, false}}};
 /// Area that an opening may add, in limits²; at the default limit of 0.01 it is 1.5e-4. Taking much
 /// film out adds more, where its liquid swells the rest.
 constexpr double kMostAddedArea = 1.5;
 /// Edges at the hole, in limits: the rim of the film turns round within one limit.
 constexpr double kEdge = 0.5;
+/// Of the liquid: an opening moves of the order of the limit cubed, but of drops no larger than the
+/// hole, or flat ones, it would take most.
+constexpr double kMostMoved = 0.1;
 constexpr int kRefinements = 8;  // remeshings at most: each can make edges four times shorter
 /// A patch of film wider than this many of its edges is refined less: its rim is what matters.
 constexpr double kPatchVertices = 2000.0;
@@ -209,34 +213,66 @@ std::string join(const SurfaceMesh& mesh, const Holes& patches, SurfaceMesh& res
   return find_defect(joined(connected_pieces(result)));
 }
 
-/// What a surgery adds to the area, the volume being restored.
-double added_area(const SurfaceMesh& before, SurfaceMesh after) {
+/// Why an opening is not to be taken although its surface is sound: with the volume restored it
+/// has more area, or meets itself.
+std::string find_harm(const SurfaceMesh& before, SurfaceMesh after, double most_added_area) {
   restore_volume(after, enclosed_volume(before));
-  return surface_area(after) - surface_area(before);
+  if (surface_area(after) - surface_area(before) > most_added_area)
+    return "the bridge would add area";
+  return find_self_intersection(after);
 }
 
-/// The first of the openings that leaves a sound surface and adds little area; why none does, else.
-Surgery opened(const Film& film, const std::array<VertexId, 2>& at, double edge,
+/// A surgery, and the part of the liquid that it moves.
+struct Opening {
+  Surgery surgery;
+  double moved = std::numeric_limits<double>::infinity();
+};
+
+/// One opening; why it is none, else.
+Opening opening(const Film& film, const Holes& patches, double unit) {
+  SurfaceMesh result;
+  std::string failure = join(film.mesh, patches, result);
+  if (!failure.empty()) return {{{}, std::move(failure)}};
+  std::vector<SurfaceMesh> pieces = connected_pieces(result);  // without the vertices taken out
+  SurfaceMesh whole = joined(pieces);
+  const double moved = std::abs(enclosed_volume(whole) / enclosed_volume(film.mesh) - 1.0);
+  failure = find_harm(film.mesh, std::move(whole), kMostAddedArea * unit * unit);
+  if (!failure.empty()) return {{{}, std::move(failure)}};
+  return {{std::move(pieces), {}}, moved};
+}
+
+/// The first of the openings that leaves a sound surface, adds little area and moves little liquid;
+/// where all move much, the one that moves least. Why there is none, else.
+Opening opened(const Film& film, const std::array<VertexId, 2>& at, double edge,
                const BridgeOptions& options) {
   const double unit = edge / kEdge;  // the limit, but for patches too large for its edges
-  Surgery surgery{{}, "no two discs can be opened there"};
+  Opening best{{{}, "no two discs can be opened there"}};
   for (const auto& [radius, takes_film] : kHoles) {
     const auto patches = holes(film, at, radius * unit, takes_film ? options.limit : 0.0, options);
     if (!patches) continue;
-    SurfaceMesh result;
-    surgery.failure = join(film.mesh, *patches, result);
-    if (!surgery.failure.empty()) continue;
-    std::vector<SurfaceMesh> pieces = connected_pieces(result);  // without the vertices taken out
-    if (added_area(film.mesh, joined(pieces)) <= kMostAddedArea * unit * unit)
-      return {std::move(pieces), {}};
-    surgery.failure = "the bridge would add area";
+    Opening next = opening(film, *patches, unit);
+    if (next.moved < best.moved || best.surgery.pieces.empty()) best = std::move(next);
+    if (best.moved < kMostMoved) break;
   }
-  return surgery;
+  return best;
 }
 
-}  // namespace
+/// Where the smaller of two drops lies within the hole as a whole there is nothing to open it from:
+/// the other takes it up. None where it is larger, or holds another drop.
+std::optional<Surgery> taken_up(const Scene& scene, const Gap& gap, double hole) {
+  if (gap.a == gap.b) return std::nullopt;
+  const Interface *large = &scene.interfaces[gap.a], *small = &scene.interfaces[gap.b];
+  if (large->volume < small->volume) std::swap(large, small);
+  const bool is_within = std::ranges::all_of(
+      small->mesh.x, [&](const Vec3& x) { return (x - gap.middle()).norm() < hole; });
+  const bool is_around = std::ranges::any_of(
+      scene.interfaces, [&](const Interface& other) { return other.outside == small->inside; });
+  if (!is_within || is_around) return std::nullopt;
+  return Surgery{{large->mesh}, {}};
+}
 
-Surgery bridge_gap(const Scene& scene, const Gap& gap, const BridgeOptions& options) {
+/// The bridge as `bridge_gap` makes it where both drops are larger than the hole.
+Opening bridged(const Scene& scene, const Gap& gap, const BridgeOptions& options) {
   const double edge = edge_at(gap, options);
   const SurfaceMesh mesh = refined_surfaces(scene, gap, edge);
   // The film lies outside the liquid of the bridge, or is that liquid when it lies inside of a.
@@ -253,8 +289,16 @@ Surgery bridge_gap(const Scene& scene, const Gap& gap, const BridgeOptions& opti
   const Vec3 across = gap.to - gap.from;
   const std::array<VertexId, 2> at{nearest_vertex(film, gap.from, across),
                                    nearest_vertex(film, gap.to, -across)};
-  if (!at[0].is_valid() || !at[1].is_valid()) return {{}, "the two sides are not to be found"};
+  if (!at[0].is_valid() || !at[1].is_valid()) return {{{}, "the two sides are not to be found"}};
   return opened(film, at, edge, options);
+}
+
+}  // namespace
+
+Surgery bridge_gap(const Scene& scene, const Gap& gap, const BridgeOptions& options) {
+  Opening bridge = bridged(scene, gap, options);
+  if (bridge.moved < kMostMoved) return std::move(bridge.surgery);
+  return taken_up(scene, gap, kHole * options.limit).value_or(std::move(bridge.surgery));
 }
 
 }  // namespace meniscus

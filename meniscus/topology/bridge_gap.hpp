@@ -16,7 +16,10 @@ struct BridgeOptions {
 /// two holes joined and smoothed. A thicker part of the film that this would enclose is taken out
 /// with it unless it is large enough to be resolved (a sphere of its volume wider than twice the
 /// limit and four times the edge floor); then the disc of two limits alone is opened, where the
-/// film is closest.
+/// film is closest. Where an opening would add area, make the surface meet itself once its volume
+/// is restored, or move more than a tenth of the liquid, smaller discs are tried, down to half a
+/// limit; a drop that lies within two limits of that place as a whole is left out rather, for its
+/// liquid to be given to the other.
 ///
 /// The surface of the liquid that the bridge belongs to: for a film inside of a (between a drop in
 /// a drop and the matrix around both), that of the film's liquid.

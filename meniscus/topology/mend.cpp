@@ -13,6 +13,7 @@
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
+#include "meniscus/surface/diffused.hpp"
 #include "meniscus/surface/even_out.hpp"
 #include "meniscus/topology/smooth_fill.hpp"
 
@@ -32,6 +33,9 @@ constexpr std::array<Rounding, 5> kRoundings{
 constexpr double kMostVolume = 0.05;
 constexpr std::array<double, 4> kMargins{0.5, 1.0, 2.0, 3.0};  // mean edges
 constexpr double kEvenEdge = 0.5;  // of the mean edge: creases need faces to be rounded with
+/// Lengths that a crumpled surface is smoothed over, mean edges: from what the lattice resolves to
+/// where a fold of two edges' width is gone.
+constexpr std::array<double, 5> kLengths{0.5, 0.71, 1.0, 1.41, 2.0};
 
 /// The faces beside creases.
 FacePatch creases(const SurfaceMesh& mesh, double crease_deg) {
@@ -134,19 +138,45 @@ std::optional<RemeshReport> round_and_remesh(SurfaceMesh& mesh, const RemeshOpti
   return std::nullopt;
 }
 
+/// The least smoothed of the surfaces of the same volume that can be remeshed. None may have more
+/// holes than there were.
+std::optional<MendReport> diffuse_and_remesh(SurfaceMesh& mesh, const RemeshOptions& options) {
+  if (!find_self_intersection(mesh).empty()) return std::nullopt;  // it has no inside
+  const double edge = mean_edge(mesh);
+  DiffusedSurface diffused(mesh, edge);
+  for (const double length : kLengths) {
+    std::optional<SurfaceMesh> smooth = diffused.smoothed(length * edge, kMostVolume);
+    if (!smooth || !find_defect(*smooth).empty()) continue;
+    const int closed = (euler_characteristic(*smooth) - euler_characteristic(mesh)) / 2;
+    if (closed < 0) continue;
+    const RemeshReport report = remesh(*smooth, options);
+    if (!report.ok) continue;
+    mesh = std::move(*smooth);
+    return MendReport{report, true, closed, length * edge};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-MendReport remesh_or_mend(SurfaceMesh& mesh, const RemeshOptions& options) {
-  MendReport report{.remesh = remesh(mesh, options)};
+MendReport remesh_or_mend(SurfaceMesh& mesh, const RemeshOptions& given) {
+  MendReport report{.remesh = remesh(mesh, given)};
   if (report.remesh.ok) return report;
-  const double volume = options.volume > 0.0 ? options.volume : enclosed_volume(mesh);
+  RemeshOptions options = given;
+  if (options.volume == 0.0) options.volume = enclosed_volume(mesh);
+  const double volume = options.volume;
+  if (!(volume > 0.0)) return report;  // turned inside out: no shape to be mended
   if (const auto remeshed = round_and_remesh(mesh, options, volume)) return {*remeshed, true};
-  if (const auto mended = recap_and_remesh(mesh, options, volume)) return *mended;
   SurfaceMesh even = evened_out(mesh, kEvenEdge * mean_edge(mesh));
-  const auto remeshed = round_and_remesh(even, options, volume);
-  if (!remeshed) return report;
-  mesh = std::move(even);
-  return {*remeshed, true};
+  const auto replaced = [&](const RemeshReport& remeshed) {
+    mesh = std::move(even);
+    return MendReport{remeshed, true};
+  };
+  if (const RemeshReport remeshed = remesh(even, options); remeshed.ok) return replaced(remeshed);
+  if (const auto mended = recap_and_remesh(mesh, options, volume)) return *mended;
+  if (const auto remeshed = round_and_remesh(even, options, volume)) return replaced(*remeshed);
+  if (const auto mended = diffuse_and_remesh(mesh, options)) return *mended;
+  return report;
 }
 
 }  // namespace meniscus

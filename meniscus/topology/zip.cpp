@@ -51,14 +51,19 @@ std::vector<FaceVertices> zipped(const SurfaceMesh& mesh, std::span<const Vertex
   const auto length = [&](std::size_t i, std::size_t j) {
     return (mesh.x[p[i]] - mesh.x[q[j]]).squaredNorm();
   };
-  // cost[i][j]: least sum of the lines up to that from p[i] to q[j].
+  // cost[i][j]: least sum of the lines up to that from p[i] to q[j]. Neither end of a line is half
+  // a turn or more ahead of the other: one that stays while the other goes all the way around would
+  // begin and end with the same line, which the tube then has twice.
+  const auto is_ahead = [&](std::size_t i, std::size_t j) {
+    return 2 * std::max(i * n, j * m) >= 2 * std::min(i * n, j * m) + m * n;
+  };
   constexpr double kNever = std::numeric_limits<double>::infinity();
   std::vector<double> cost((m + 1) * (n + 1), kNever);
   const auto at = [&](std::size_t i, std::size_t j) -> double& { return cost[i * (n + 1) + j]; };
   at(0, 0) = 0.0;
   for (std::size_t i = 0; i <= m; ++i)
     for (std::size_t j = 0; j <= n; ++j) {
-      if (i == 0 && j == 0) continue;
+      if ((i == 0 && j == 0) || is_ahead(i, j)) continue;
       const double before = std::min(i > 0 ? at(i - 1, j) : kNever, j > 0 ? at(i, j - 1) : kNever);
       at(i, j) = before + length(i, j);
     }

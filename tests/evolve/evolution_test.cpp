@@ -130,6 +130,24 @@ TEST(Evolution, FailedStepIsUndoneAndHalved) {
   log::set_level(log::Level::warning);
 }
 
+// Euler's step scales this drop by 1 − 100 dt: it is turned inside out by one of 0.08, and the
+// volume is above half of what it was from (1/8)·0.01 on.
+TEST(Evolution, AStepThatDoesNotKeepTheVolumeIsHalved) {
+  log::set_level(log::Level::off);
+  EvolutionOptions options;
+  options.max_step = 0.08;
+  options.step_factor = 1e3;
+  options.scheme = TimeScheme::euler;
+  auto run =
+      make_run(one_drop(110), options, [](const Vec3& x, double) { return Vec3(-100.0 * x); });
+  ASSERT_TRUE(run.evolution.prepare().ok);
+  ASSERT_TRUE(run.evolution.solve().ok);
+  ASSERT_TRUE(run.evolution.advance().ok);
+  EXPECT_NEAR(run.evolution.t(), 0.00125, 1e-15);
+  EXPECT_EQ(run.evolution.warnings().size(), 6u);
+  log::set_level(log::Level::warning);
+}
+
 TEST(Evolution, GivesUpBelowTheSmallestStepWithTheStateAsItWas) {
   log::set_level(log::Level::off);
   EvolutionOptions options;

@@ -35,6 +35,7 @@ struct DeformationOptions {
   double period = 0.75;
   double edge_floor = 0.0;
   double step = 0.01;  ///< |∇v| ≤ 4π, so that a step stretches by at most 13 %
+  double equilibrium = 0.0;  ///< of the springs (`RemeshOptions`)
 };
 
 struct DeformationResult {
@@ -85,6 +86,7 @@ inline DeformationResult deform_and_return(const DeformationOptions& options) {
       .restores_volume = false,
       .edge_floor = options.edge_floor,
       .min_vertices = 12,
+      .equilibrium = options.equilibrium,
       .find_fault = [](const SurfaceMesh& m) { return find_self_intersection(m); }};
   DeformationResult result;
   SurfaceMesh mesh = sphere(static_cast<int>(options.N0), kDeformedRadius);

@@ -1,11 +1,15 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "meniscus/mesh/shapes.hpp"
+#include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/topology/bridge_gap.hpp"
 #include "meniscus/topology/cut_neck.hpp"
+#include "meniscus/topology/gaps.hpp"
 #include "meniscus/topology/successors.hpp"
 #include "tests/surface/shapes.hpp"
 #include "tests/topology/scenes.hpp"
@@ -98,6 +102,63 @@ TEST(Coalescence, ReleasesADropFromTheDropAroundIt) {
   EXPECT_EQ(scene.liquids[RegionId{1}].viscosity, 5.0);
   EXPECT_NEAR(scene.interfaces[0].volume, before.interfaces[0].volume - before.interfaces[1].volume,
               1e-12);
+}
+
+TEST(Coalescence, TakesUpADropThatIsSmallerThanTheHole) {
+  for (const double inside : {1.0, -1.0}) {  // beside the drop, and within it
+    const double radius = 0.5 * kGap, gap = 0.5 * kGap;
+    const std::vector<SurfaceMesh> meshes{
+        unit_sphere(Vec3::Zero()),
+        sphere(42, radius, (1.0 + inside * (radius + gap)) * Vec3::UnitX())};
+    Scene scene = scene_of(meshes, 400 / (4.0 * std::numbers::pi));
+    // The faces of the large sphere lie up to 0.17²/8 below it.
+    const double off = gap - smallest_gap(meshes[0], meshes[1]);
+    for (Vec3& x : scene.interfaces[1].mesh.x) x.x() += inside * off;
+    const Scene before = scene;
+    const TopologyReport report = apply_topology(scene, kMerge, {});
+    ASSERT_EQ(report.events.size(), 1U) << (report.warnings.empty() ? "" : report.warnings[0]);
+    EXPECT_EQ(fault_after(before, scene, report), "");
+    ASSERT_EQ(scene.interfaces.size(), 1U);
+    EXPECT_NEAR(scene.interfaces[0].volume,
+                before.interfaces[0].volume + inside * before.interfaces[1].volume, 1e-12);
+    EXPECT_LT(report.events[0].area_after, report.events[0].area_before);
+  }
+}
+
+TEST(Coalescence, MovesLittleOfTheLiquidOfSmallDrops) {
+  // The first hole that is tried is as wide as these drops, or as their halves that face each
+  // other.
+  for (const double aspect : {1.0, 0.5, 0.3})
+    for (const double radius : {1.5 * kGap, 2.0 * kGap, 3.0 * kGap}) {
+      std::vector<SurfaceMesh> meshes;
+      for (const double side : {-1.0, 1.0}) {
+        meshes.push_back(sphere(162, 1.0));
+        for (Vec3& x : meshes.back().x)
+          x = radius * Vec3(aspect * x.x(), x.y(), x.z()) +
+              side * (aspect * radius + 0.3 * kGap) * Vec3::UnitX();
+      }
+      Scene scene = scene_of(meshes, 42 / (4.0 * std::numbers::pi));
+      const Scene before = scene;
+      const TopologyReport report = apply_topology(scene, kMerge, {});
+      ASSERT_EQ(report.events.size(), 1U) << (report.warnings.empty() ? "" : report.warnings[0]);
+      EXPECT_EQ(fault_after(before, scene, report), "");
+      // A tenth where a smaller hole does; to take one of two up moves half.
+      const TopologyEvent& event = report.events[0];
+      EXPECT_LT(event.volume_moved, (aspect == 1.0 ? 0.1 : 0.51) * event.volume_before)
+          << aspect << " " << radius;
+    }
+}
+
+TEST(Coalescence, DoesNotTakeUpADropThatHoldsAnother) {
+  const double radius = 0.2 * kGap;
+  const Vec3 center(1.0 + radius + 0.2 * kGap, 0, 0);
+  const std::vector<SurfaceMesh> meshes{unit_sphere(Vec3::Zero()), sphere(42, radius, center),
+                                        sphere(42, 0.3 * radius, center)};
+  const Scene scene = scene_of(meshes, 400 / (4.0 * std::numbers::pi));
+  const std::vector<Gap> gaps = find_gaps(scene, kGap, {});
+  const auto outer = std::ranges::find_if(gaps, [](const Gap& gap) { return gap.a == 0; });
+  ASSERT_NE(outer, gaps.end());
+  EXPECT_NE(bridge_gap(scene, *outer, {kGap, 0.0}).failure, "");
 }
 
 /// A torus with a gap in it: a drop bent until its ends nearly meet, `gap` apart.

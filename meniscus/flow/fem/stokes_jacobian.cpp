@@ -56,8 +56,10 @@ StokesJacobian::StokesJacobian(const FlowSpace& space, const Share* share)
       velocity_graph_(node_graph(space.velocity, space.velocity)),
       coupling_graph_(node_graph(space.pressure.nodes, space.velocity)),
       pressure_graph_(node_graph(space.pressure.nodes, space.pressure.nodes)) {
-  if (space.elements == Elements::p1_p1)
+  if (space.elements == Elements::p1_p1) {
     edge_sums_.emplace(space, velocity_graph_, coupling_graph_, pressure_graph_);
+    forget_positions();
+  }
   if (share != nullptr) {
     renumber(velocity_graph_, share->node_number);
     renumber(coupling_graph_, share->node_number);
@@ -66,6 +68,21 @@ StokesJacobian::StokesJacobian(const FlowSpace& space, const Share* share)
   A_pattern_ = expanded(velocity_graph_, 3, 3);
   B_pattern_ = expanded(coupling_graph_, 1, 3);
   for (const RegionId region : space.pressure.region) region_of_pressure_.push_back(region.value);
+}
+
+/// Gives back 600 bytes a node of linear elements.
+void StokesJacobian::forget_positions() {
+  for (NodeGraph* graph : {&velocity_graph_, &coupling_graph_, &pressure_graph_})
+    std::vector<std::uint16_t>().swap(graph->position);
+}
+
+/// Finds them again where they were given back.
+void StokesJacobian::recall_positions() {
+  if (!velocity_graph_.position.empty()) return;
+  const NodeTable &velocity = space_.velocity, &pressure = space_.pressure.nodes;
+  velocity_graph_.position = node_graph(velocity, velocity).position;
+  coupling_graph_.position = node_graph(pressure, velocity).position;
+  pressure_graph_.position = node_graph(pressure, pressure).position;
 }
 
 void StokesJacobian::weigh_constant_pressures(const Field<RegionId, double>& shares) {
@@ -120,6 +137,7 @@ void StokesJacobian::assemble(const StokesProblem& problem, const Linearization*
   C_.resize(pressure_graph_.num_entries());
   for (Laplacian& laplacian : laplacians_) laplacian.values.resize(velocity_graph_.num_entries());
   const std::vector<CellId> others = assemble_plain_cells(problem, about);
+  if (!others.empty()) recall_positions();
   with_element(space_, problem.positions,
                [&](auto& element) { add_cells(problem, about, others, element); });
   weigh_regions();

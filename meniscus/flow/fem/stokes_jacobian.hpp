@@ -32,6 +32,8 @@ class StokesJacobian {
   [[nodiscard]] linear::SaddleSystem system() const;
 
  private:
+  void forget_positions();
+  void recall_positions();
   void choose_laplacians(const Constraints& constraints);
   [[nodiscard]] Eigen::Map<Vec3> coupling(std::vector<double>& values, CellId c, std::size_t k,
                                           std::size_t j) const;
@@ -69,6 +71,7 @@ class StokesJacobian {
   const Share* share_;
   OwnPart own_;
   LinearFunctions coarse_;
+  /// Without positions while all cells are summed by edges.
   NodeGraph velocity_graph_, coupling_graph_, pressure_graph_;
   std::optional<EdgeSums> edge_sums_;  ///< of P1-P1 alone
   ScalarPattern A_pattern_, B_pattern_;

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "meniscus/mesh/contour.hpp"
+
+namespace meniscus {
+
+/// Surfaces of the same volume that are smoother and smoother: where the distance from a surface,
+/// negative inside, smoothed over a length s (by a Gaussian of that deviation), has the level that
+/// keeps the volume. As the Laplacian of the distance is 2H, that moves a place by s²(⟨H⟩ − H)
+/// along the normal to first order; but never does the result meet itself. Threads that are thinner
+/// than about s, and crevices that narrow, vanish, and films as thin are holed.
+class DiffusedSurface {
+ public:
+  /// Lattice points are half an `edge` apart, or farther where there would be too many.
+  DiffusedSurface(const SurfaceMesh& mesh, double edge);
+
+  /// Smoothed over `length`, not less than the last: its largest piece, of any number of holes, in
+  /// even triangles; none where what is lost with others is more than `most_lost` of the volume.
+  [[nodiscard]] std::optional<SurfaceMesh> smoothed(double length, double most_lost);
+
+ private:
+  void smooth_by(double variance);
+  [[nodiscard]] SurfaceMesh contour_of_volume() const;
+
+  double volume_, edge_;
+  double variance_ = 0.0;
+  Lattice distance_;
+};
+
+}  // namespace meniscus
