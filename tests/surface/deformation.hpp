@@ -34,7 +34,7 @@ struct DeformationOptions {
   double N0 = 100.0;
   double period = 0.75;
   double edge_floor = 0.0;
-  double step = 0.01;  ///< |∇v| ≤ 4π, so that a step stretches by at most 13 %
+  double step = 0.01;        ///< |∇v| ≤ 4π, so that a step stretches by at most 13 %
   double equilibrium = 0.0;  ///< of the springs (`RemeshOptions`)
 };
 
