@@ -91,7 +91,7 @@ FaceField<double> excess(const FaceField<double>& values, const VertexField<doub
 ///   At vertices   q ← q + 5/8 (q − mean over its cell),   q the mean over the cell:
 /// back from that mean, 5h²/12 above the vertex's value for a peak, that of face means 2h²/3.
 VertexField<double> squared_rms(const SurfaceMesh& mesh, const SmoothSurface& surface) {
-  constexpr double kFirst = 1.0 / 8.0, kSecond = 1.2, kSharper [[maybe_unused]] = 5.0 / 8.0;
+  constexpr double kFirst = 1.0 / 8.0, kSecond = 1.2, kSharper = 5.0 / 8.0;
   FaceField<FaceTurn> turns;
   FaceField<double> H;
   for (const FaceVertices& v : mesh.faces) {
@@ -115,7 +115,7 @@ VertexField<double> squared_rms(const SurfaceMesh& mesh, const SmoothSurface& su
   VertexField<double> result = cells.of(squared);
   const VertexField<double> blurred = cells.of(corner_means(result, mesh)), least = cells.of(H);
   for (const VertexId v : result.ids()) {
-    result[v] = blurred[v];
+    result[v] += kSharper * (result[v] - blurred[v]);
     // No shape operator has less: noise of K must not feign a flat place.
     result[v] = std::max(result[v], least[v] * least[v]);
   }
