@@ -88,10 +88,12 @@ FaceField<double> excess(const FaceField<double>& values, const VertexField<doub
 /// h²/6 above the face's centre where the face's mean is h²/12, and QH = −2h²/3: hence 1/8. The
 /// normals of the patches lose the curvature of waves by its fourth order; 1.2 makes ∮⟨κ⟩² right on
 /// the mean over random smooth surfaces (0.8 does it for waves of five edges on an even lattice).
-///   At vertices   q ← q + 5/8 (q − mean over its cell),   q the mean over the cell:
-/// back from that mean, 5h²/12 above the vertex's value for a peak, that of face means 2h²/3.
+///   At vertices   q ← q + 5/8 d · d²/(d² + (q̄/10)²),   q the mean over the cell, d = q − q̄ what it
+/// exceeds the mean of these over the cell by: back from that mean, 5h²/12 above the vertex's value
+/// for a peak, that of face means 2h²/3; but a d of a few per cent is noise of the fits, which
+/// would only make coarse meshes uneven.
 VertexField<double> squared_rms(const SurfaceMesh& mesh, const SmoothSurface& surface) {
-  constexpr double kFirst = 1.0 / 8.0, kSecond = 1.2, kSharper = 5.0 / 8.0;
+  constexpr double kFirst = 1.0 / 8.0, kSecond = 1.2, kSharper = 5.0 / 8.0, kNoise = 0.1;
   FaceField<FaceTurn> turns;
   FaceField<double> H;
   for (const FaceVertices& v : mesh.faces) {
@@ -115,7 +117,8 @@ VertexField<double> squared_rms(const SurfaceMesh& mesh, const SmoothSurface& su
   VertexField<double> result = cells.of(squared);
   const VertexField<double> blurred = cells.of(corner_means(result, mesh)), least = cells.of(H);
   for (const VertexId v : result.ids()) {
-    result[v] += kSharper * (result[v] - blurred[v]);
+    const double more = result[v] - blurred[v], noise = kNoise * blurred[v];
+    if (more != 0.0) result[v] += kSharper * more * more * more / (more * more + noise * noise);
     // No shape operator has less: noise of K must not feign a flat place.
     result[v] = std::max(result[v], least[v] * least[v]);
   }

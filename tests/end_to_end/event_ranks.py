@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 # The flow presses the drops together along y and draws the thread out along x; both limits are
-# passed in the third step, by far more than ranks differ.
+# passed within four steps, by far more than ranks differ.
 CASE = """
 [flow]
 kind = "planar-extension"
@@ -19,20 +19,20 @@ capillary-number = 0.2
 [[drop]]
 surface = "thread.off"
 center = [0, 0, -1.2]
-nodes = 42
+nodes = 52
 [[drop]]
 center = [0, 0.57, 1.2]
 radius = 0.5
-nodes = 42
+nodes = 52
 [[drop]]
 center = [0, -0.57, 1.2]
 radius = 0.5
-nodes = 42
+nodes = 52
 [interface]
 gap-layers = 0
 [topology]
-breakup-radius = 0.1755
-coalescence-gap = 0.1143
+breakup-radius = 0.1715
+coalescence-gap = 0.1446
 [domain]
 shape = "sphere"
 radius = 5
@@ -40,15 +40,16 @@ radius = 5
 elements = "P1-P1"
 rtol = 1e-12
 [time]
-end = 0.033
+end = 0.041
 [output]
 volume = false
 """
 EXACT = ("step", "kind", "parents", "children")
 # Measured: 1e-12, the solver's tolerance, where TetGen makes the same meshes on all; 1e-4 where it
-# does not, as it may: coordinates differ in their last digit.
+# does not, as it may: coordinates differ in their last digit. (And 3e-2 in the place of a cut where
+# the drop's own triangles then differ, as they did with 42 vertices a drop.)
 TOLERANCE = 1e-3
-# The bridge between drops of 42 vertices is remeshed: its area hangs on which triangles it gets.
+# The bridge between drops of 52 vertices is remeshed: its area hangs on which triangles it gets.
 OF_NEW_MESH = {"area_after": 0.1, "energy_after": 0.5}  # 2 % of the two drops'
 
 

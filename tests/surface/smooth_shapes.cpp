@@ -135,8 +135,8 @@ SurfaceMesh meshed_level(const std::function<double(const Vec3&)>& level, const 
                          double reach, double edge) {
   SurfaceMesh mesh = MarchingTetrahedra(level, center, reach, 0.7 * edge).mesh;
   for (Vec3& x : mesh.x) x = on_level(level, x);
-  // In one of two hundred shapes evening leaves a needle, which the way to the level folds over: the
-  // next pass is not to take it for a crease.
+  // In one of two hundred shapes evening leaves a needle, which the way to the level folds over:
+  // the next pass is not to take it for a crease.
   constexpr double kEvenAngleDeg = 20.0, kNoCreasesDeg = 180.0;
   constexpr int kMostPasses = 5;
   for (int pass = 0; pass < kMostPasses; ++pass) {
