@@ -3,12 +3,13 @@
 
     event_scenes.py PROGRAM WORK METHOD FIRST COUNT EVENTS
 
-METHOD: boundary-integral (unbounded), or the finite elements P1-P1 or P2-P1 (in a sphere). Six drops of radius
-0.35 to 0.55, lambda = 1, Ca = 1, so close that they meet, in a flow whose gradient is random and turns
-round every half unit of time, so that they come back. A scene is run until it has had EVENTS events or
-its time is over; it must end by itself with volumes conserved to 1e-12 in each event and to 1e-6 in all.
+METHOD: boundary-integral (unbounded), or the finite elements P1-P1 or P2-P1 (in a sphere). Ten to sixteen drops of
+radius 0.3 to 0.4, lambda = 1, so close that they meet, in a flow of Ca about 2 whose gradient is random and turns round
+every unit of time, so that they come back. A scene is run until it has had EVENTS events or its time is over; it must
+end by itself with volumes conserved to 1e-12 in each event and to 1e-6 in all.
 """
 import csv
+import math
 import random
 import shutil
 import subprocess
@@ -16,33 +17,34 @@ import sys
 import time
 from pathlib import Path
 
-END = 3.0
+END = 6.0
 
 SOLVERS = {
     "boundary-integral": 'method = "boundary-integral"\n[domain]\nshape = "unbounded"\n',
-    "P1-P1": 'elements = "P1-P1"\n[domain]\nshape = "sphere"\nradius = 4\n',
-    "P2-P1": 'elements = "P2-P1"\n[domain]\nshape = "sphere"\nradius = 4\n',
+    "P1-P1": 'elements = "P1-P1"\n[domain]\nshape = "sphere"\nradius = 10\n',
+    "P2-P1": 'elements = "P2-P1"\n[domain]\nshape = "sphere"\nradius = 10\n',
 }
 
 
 def scene(seed, method):
     r = random.Random(seed)
-    g = [[r.gauss(0, 1.5) for _ in range(3)] for _ in range(3)]
+    g = [[r.gauss(0, 1.0) for _ in range(3)] for _ in range(3)]
     trace = sum(g[i][i] for i in range(3)) / 3
     for i in range(3):
         g[i][i] -= trace
-    text = [f'title = "Random scene {seed}"', "[flow]", f"gradient = {g}", "capillary-number = 1.0"]
-    for k in range(1, int(2 * END)):
-        text += ["[[flow.schedule]]", f"time = {0.5 * k}", f"factor = {-1.0 if k % 2 else 1.0}"]
-    drops = []
-    while len(drops) < 6:
-        c, radius = [r.uniform(-1.0, 1.0) for _ in range(3)], r.uniform(0.35, 0.55)
-        if all(sum((a - b) ** 2 for a, b in zip(c, d)) > (1.03 * (radius + s)) ** 2 for d, s in drops):
+    text = [f'title = "Random scene {seed}"', "[flow]", f"gradient = {g}", "capillary-number = 0.8"]
+    for k in range(1, int(END)):
+        text += ["[[flow.schedule]]", f"time = {k}", f"factor = {-1.0 if k % 2 else 1.0}"]
+    drops, size, count = [], 0.5, r.randint(10, 16)
+    while len(drops) < count:
+        size += 1e-4  # the smallest cube that they are found to fit in
+        c, radius = [r.uniform(-size, size) for _ in range(3)], r.uniform(0.3, 0.4)
+        if all(math.dist(c, d) > radius + s + 0.17 for d, s in drops):
             drops.append((c, radius))
     for c, radius in drops:
         text += ["[[drop]]", f"center = {c}", f"radius = {radius}", "nodes = 42"]
-    text += ["[interface]", "gap-layers = 0", "[topology]", "breakup-radius = 0.08",
-             "coalescence-gap = 0.08", "[time]", "max-step = 0.05", f"end = {END}", "[output]",
+    text += ["[interface]", "gap-layers = 0", "[topology]", "breakup-radius = 0.12",
+             "coalescence-gap = 0.15", "[time]", "max-step = 0.05", f"end = {END}", "[output]",
              "interval = 1.0", "[solver]", SOLVERS[method]]
     return "\n".join(text)
 

@@ -19,6 +19,9 @@ constexpr std::size_t kMostPoints = 32;
 // vertices is amplified more than the lower degree's truncation is worth. The spline fades out
 // until twice that, so that middles, and the volume under them, follow the vertices without jumps.
 constexpr double kMostAmplification = 4.0;
+// A middle stands no higher over its edge than on a circle over the sides of its regular triangle,
+// or a little more; where the spline says more, as on crumpled surfaces, it fades out likewise.
+constexpr double kHighestMiddle = 0.3;  // edges
 
 using Vec2 = Eigen::Vector2d;
 
@@ -46,6 +49,9 @@ struct LevelFrame {
   }
 };
 
+/// 1 up to a limit, 0 from twice that.
+double trust(double size, double limit) { return std::clamp(2.0 - size / limit, 0.0, 1.0); }
+
 /// The spline's value at the frame's origin, Σ w_i g_i, the weights w solving
 /// [Φ P; Pᵀ 0] (w, ·) = (φ(0 − x_i), p(0)), times how far it is to be trusted, 0 to 1.
 double interpolated_level(const LevelFrame& frame, std::span<const Vec3> points) {
@@ -72,11 +78,10 @@ double interpolated_level(const LevelFrame& frame, std::span<const Vec3> points)
   const double amplification = weights.lpNorm<1>();
   // A singular matrix leaves weights that are large or not numbers.
   if (!(amplification < 2.0 * kMostAmplification)) return 0.0;
-  const double trust = std::min(1.0, 2.0 - amplification / kMostAmplification);
   double level = 0.0;
   for (Eigen::Index i = 0; i < count; ++i)
     level += weights[i] * frame.g(points[static_cast<std::size_t>(i)]);
-  return trust * level;
+  return trust(amplification, kMostAmplification) * level;
 }
 
 /// z of z + ½H z² = g.
@@ -113,7 +118,9 @@ std::vector<Vec3> edge_middles(const SurfaceMesh& mesh, const SurfaceTopology& t
         0.5 * (at_a.half_sum() + at_b.half_sum())};
     gather(rings, edge, frame.axes.x, points);
     const double z = height_of_level(interpolated_level(frame, points), frame.half_sum);
-    middles.push_back(frame.axes.x + z * frame.axes.n);
+    const Vec3 lift = frame.axes.x + z * frame.axes.n - 0.5 * (mesh.x[edge.a] + mesh.x[edge.b]);
+    const double limit = kHighestMiddle * (mesh.x[edge.b] - mesh.x[edge.a]).norm();
+    middles.push_back(frame.axes.x + trust(lift.norm(), limit) * z * frame.axes.n);
   }
   return middles;
 }

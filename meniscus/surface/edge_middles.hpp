@@ -17,8 +17,8 @@ namespace meniscus {
 /// spheres; the error, about O(h⁶), is a tenth of that of the cubic patches of SmoothSurface at 200
 /// vertices. Their O(h⁴) repeats from edge to edge, and a flow takes it for a corrugation: it pulls
 /// the vertices in and the middles out, 1.6 % too slow a relaxation at 110 vertices. Where the
-/// rings do not determine the spline, or it would amplify the vertices' noise, the smooth surface's
-/// point stands. About 40 µs per edge.
+/// rings do not determine the spline, it would amplify the vertices' noise, or it swings far from
+/// the edge, the smooth surface's point stands. About 40 µs per edge.
 [[nodiscard]] std::vector<Vec3> edge_middles(const SurfaceMesh& mesh,
                                              const SurfaceTopology& topology);
 

@@ -1,5 +1,6 @@
 #include "meniscus/surface/smooth_surface.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "meniscus/surface/rings.hpp"
@@ -7,13 +8,42 @@
 namespace meniscus {
 namespace {
 
-HeightPatch patch_at(const HeightPatch& frame, std::span<const Vec3> rings,
+/// Over the middle of an edge a patch is trusted to this many of its lengths, a little more than
+/// the height of a circle over the sides of its regular triangle, and fades out until twice that.
+/// Where vertices lie as on a crease, fits swing out by a hundred.
+constexpr double kHighestMiddle = 0.3;
+
+double height_above(const HeightPatch& patch, const Vec3& flat) {
+  const Vec3 d = flat - patch.x;
+  return patch.rolled_z(d.dot(patch.t1), d.dot(patch.t2)) - d.dot(patch.n);
+}
+
+/// How far a patch is to be trusted over the edges to its neighbours, 0 to 1.
+double trust(const HeightPatch& patch, std::span<const Vec3> neighbours) {
+  double highest = 0.0;
+  for (const Vec3& end : neighbours)
+    highest = std::max(
+        highest, std::abs(height_above(patch, 0.5 * (patch.x + end))) / (end - patch.x).norm());
+  return std::clamp(2.0 - highest / kHighestMiddle, 0.0, 1.0);
+}
+
+/// The patch of the highest degree that the rings determine, as far as it is to be trusted; for the
+/// rest, so that it follows the vertices without jumps, those of lower degrees.
+HeightPatch patch_at(const HeightPatch& frame, std::span<const Vec3> rings, std::size_t valence,
                      std::vector<Vec3>& unrolled) {
   unroll(rings, frame, unrolled);
+  HeightPatch result = frame;
+  double missing = 1.0;
   for (const PatchDegree degree :
-       {PatchDegree::cubic, PatchDegree::quadratic, PatchDegree::umbilic})
-    if (const auto patch = fit_patch(frame, unrolled, degree)) return *patch;
-  return frame;
+       {PatchDegree::cubic, PatchDegree::quadratic, PatchDegree::umbilic}) {
+    const auto patch = fit_patch(frame, unrolled, degree);
+    if (!patch) continue;
+    const double share = missing * trust(*patch, rings.first(valence));
+    for (std::size_t k = 0; k < result.c.size(); ++k) result.c[k] += share * patch->c[k];
+    missing -= share;
+    if (missing == 0.0) break;
+  }
+  return result;
 }
 
 struct Lift {
@@ -39,7 +69,8 @@ SmoothSurface::SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& top
   std::vector<Vec3> unrolled;
   for (const VertexId v : mesh.x.ids()) {
     HeightPatch& patch = patches_[v];
-    patch = patch_at(flat_patch(mesh.x[v], curvature_[v].n), rings.gather(v, true), unrolled);
+    patch = patch_at(flat_patch(mesh.x[v], curvature_[v].n), rings.gather(v, true),
+                     topology.ring(v).size(), unrolled);
     normals_[v] = (patch.n - patch.c[0] * patch.t1 - patch.c[1] * patch.t2).normalized();
   }
 }
@@ -76,9 +107,7 @@ Vec3 SmoothSurface::point(const SurfaceLocation& location) const {
   for (int k = 0; k < 3; ++k) {
     if (squares[k] == 0.0) continue;
     const HeightPatch& patch = patches_[v[static_cast<std::size_t>(k)]];
-    const Vec3 d = flat - patch.x;
-    const double height = patch.rolled_z(d.dot(patch.t1), d.dot(patch.t2)) - d.dot(patch.n);
-    lift += squares[k] * height * patch.n;
+    lift += squares[k] * height_above(patch, flat) * patch.n;
   }
   return flat + lift / squares.sum();
 }

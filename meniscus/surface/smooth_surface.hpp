@@ -20,8 +20,9 @@ struct SurfaceLocation {
 /// every vertex with the tangent plane of the vertex's patch; over an edge it depends on the
 /// patches of the two ends alone, so that faces join without gaps. Position error O(h⁴), normal
 /// O(h³), curvature O(h²) on smooth surfaces; a sphere to O(h⁶). Where fewer than two rings can be
-/// seen (filaments as thin as an edge, solids of few vertices) patches fall back to lower degree.
-/// A value: it keeps what it needs of the mesh.
+/// seen (filaments as thin as an edge, solids of few vertices), or a patch swings away from the
+/// edges at its vertex (crumpled surfaces), patches fall back to lower degree. A value: it keeps
+/// what it needs of the mesh.
 class SmoothSurface {
  public:
   SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& topology);

@@ -1,5 +1,8 @@
 #include "meniscus/flow/bem/quartic_curvature.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 #include <Eigen/Cholesky>
@@ -51,6 +54,14 @@ std::optional<Eigen::Matrix<double, 5, 1>> fit(const HeightPatch& frame, double 
   return g;
 }
 
+/// A circle is no wider than 2/|k|: where even the closest neighbour is further away, what bends so
+/// is the polynomial.
+bool is_seen(const VertexCurvature& curvature, const Vec3& x, std::span<const Vec3> neighbours) {
+  double closest = std::numeric_limits<double>::infinity();
+  for (const Vec3& p : neighbours) closest = std::min(closest, (p - x).norm());
+  return closest * std::max(std::abs(curvature.k1), std::abs(curvature.k2)) <= 2.0;
+}
+
 }  // namespace
 
 VertexField<VertexCurvature> quartic_curvature(const SurfaceMesh& mesh,
@@ -61,13 +72,15 @@ VertexField<VertexCurvature> quartic_curvature(const SurfaceMesh& mesh,
   for (const VertexId v : mesh.x.ids()) {
     const double half_sum = osculating[v].half_sum();
     HeightPatch frame = flat_patch(mesh.x[v], osculating[v].n);
-    const auto g = fit(frame, half_sum, rings.gather(v, true));
+    const std::span<const Vec3> points = rings.gather(v, true);
+    const auto g = fit(frame, half_sum, points);
     if (!g) continue;
     // z + ½H(u² + v² + z²) = g twice differentiated at the vertex.
     const double z_u = (*g)[0], z_v = (*g)[1];
     frame.c = {z_u, z_v, (*g)[2] - half_sum * (1.0 + z_u * z_u), (*g)[3] - half_sum * z_u * z_v,
                (*g)[4] - half_sum * (1.0 + z_v * z_v)};
-    result[v] = frame.curvature();
+    if (const VertexCurvature quartic = frame.curvature(); is_seen(quartic, mesh.x[v], points))
+      result[v] = quartic;
   }
   return result;
 }
