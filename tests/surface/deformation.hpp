@@ -85,11 +85,10 @@ inline DeformationResult deform_and_return(const DeformationOptions& options) {
       .C0 = options.N0 / (4.0 * std::numbers::pi),
       .restores_volume = false,
       .edge_floor = options.edge_floor,
-      .min_vertices = 12,
       .equilibrium = options.equilibrium,
       .find_fault = [](const SurfaceMesh& m) { return find_self_intersection(m); }};
   DeformationResult result;
-  SurfaceMesh mesh = sphere(static_cast<int>(options.N0), kDeformedRadius);
+  SurfaceMesh mesh = sphere(std::max(static_cast<int>(options.N0), remeshing.min_vertices));
   for (Vec3& x : mesh.x) x = kDeformedCenter + kDeformedRadius * x.normalized();
   result.start_vertices = mesh.num_vertices();
   const double exact = 4.0 / 3.0 * std::numbers::pi * std::pow(kDeformedRadius, 3),

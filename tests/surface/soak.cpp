@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <limits>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -48,65 +49,30 @@ double integral_of_density(const SurfaceMesh& mesh, const VertexField<double>& l
   return sum;
 }
 
-/// By how much gaps raise the number of vertices, by the engine's own rule on the surface that it
-/// was given.
-double gap_factor(const Subject& subject, const SurfaceMesh& given) {
-  const SurfaceTopology topology(given);
-  const SmoothSurface surface(given, topology);
+/// By how much gaps and gradation raise the number of vertices, by the engine's own rule.
+double raised_by_others(const Subject& subject) {
+  const SurfaceTopology topology(subject.mesh);
+  const SmoothSurface surface(subject.mesh, topology);
   RemeshOptions without = subject.options;
   without.gap_layers = 0.0;
-  return integral_of_density(given, rest_lengths(given, topology, surface, subject.options)) /
-         integral_of_density(given, rest_lengths(given, topology, surface, without));
+  without.gradation = std::numeric_limits<double>::infinity();
+  const auto count = [&](const RemeshOptions& options) {
+    return integral_of_density(subject.mesh,
+                               rest_lengths(subject.mesh, topology, surface, options));
+  };
+  return count(subject.options) / count(without);
 }
 
-/// Vertices that may lower others: from them a length rises along an edge by a third as much as
-/// gradation allows, as it does at the foot of all that gradation lowers.
-VertexField<char> feet(const VertexField<double>& length, const SurfaceMesh& mesh,
-                       double gradation) {
-  constexpr double kThird = 0.35;  // 0.7 misses some
-  VertexField<char> is_foot(length.size(), 0);
-  for (const FaceVertices& v : mesh.faces)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const VertexId a = v[k], b = v[(k + 1) % 3];
-      const double rise = length[b] - length[a];
-      if (std::abs(rise) > kThird * gradation * (mesh.x[b] - mesh.x[a]).norm())
-        is_foot[rise > 0.0 ? a : b] = 1;
-    }
-  return is_foot;
-}
-
-/// Lowers lengths to l0(x) ≤ l0(y) + gradation |x − y| for all x and y. (Along the edges of a mesh
-/// that a map has stretched ways are too long, by up to a third.)
-void limit_gradation_everywhere(VertexField<double>& length, const SurfaceMesh& mesh,
-                                double gradation) {
-  const VertexField<char> is_foot = feet(length, mesh, gradation);
-  std::vector<VertexId> order, kept;  // from the shortest; those feet that no other has lowered
-  for (const VertexId v : length.ids()) order.push_back(v);
-  std::ranges::stable_sort(order, {}, [&](VertexId v) { return length[v]; });
-  for (const VertexId v : order) {
-    const double own = length[v];
-    for (const VertexId w : kept) {
-      const double reach = (length[v] - length[w]) / gradation;
-      if (reach <= 0.0) break;
-      const double squared_distance = (mesh.x[v] - mesh.x[w]).squaredNorm();
-      if (squared_distance < reach * reach)
-        length[v] = length[w] + gradation * std::sqrt(squared_distance);
-    }
-    if (length[v] == own && is_foot[v] != 0) kept.push_back(v);
-  }
-}
-
-/// ∮ρ dS of eq. 2: the rule of docs/surface-remeshing.md with the exact curvature of the shape
-/// under the map, which nothing averages, on a mesh that has nothing to do with the remeshed one.
-/// (That mesh does not resolve a gap, whose share comes from the given one.)
-double law(const Subject& subject, const SurfaceMesh& given, const Mat3& map) {
+/// ∮ρ dS of eq. 2 with the exact curvature of the shape under the map, which nothing averages, on a
+/// mesh that has nothing to do with the remeshed one, times what is not in eq. 2: gaps and
+/// gradation, which bound neighbouring lengths of the mesh at hand.
+double law(const Subject& subject, const Mat3& map) {
   SurfaceMesh mesh = subject.fine.mesh;
   for (Vec3& x : mesh.x) x = map * x;
   auto length = subject.curvature.squared_rms(map);
   for (double& l : length)
     l = std::max(length_of_density(subject.options.C0 * l), subject.options.edge_floor);
-  limit_gradation_everywhere(length, mesh, subject.options.gradation);
-  return gap_factor(subject, given) * integral_of_density(mesh, length);
+  return raised_by_others(subject) * integral_of_density(mesh, length);
 }
 
 SmoothShape random_shape(std::mt19937& random, bool is_chain) {
@@ -175,7 +141,6 @@ void record_angles(const SurfaceMesh& mesh, SoakResult& result) {
 }
 
 void remesh_and_judge(Subject& subject, const Mat3& map, int round, SoakResult& result) {
-  const SurfaceMesh given = subject.mesh;
   const std::clock_t start = std::clock();
   const RemeshReport report = remesh(subject.mesh, subject.options);
   result.remesh_seconds += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -193,7 +158,7 @@ void remesh_and_judge(Subject& subject, const Mat3& map, int round, SoakResult& 
   record_angles(subject.mesh, result);
   const double n = subject.mesh.num_vertices();
   const double count_error = std::abs(n / report.expected_vertices - 1.0);
-  const double asked = law(subject, given, map);
+  const double asked = law(subject, map);
   const double law_error = std::abs(n / asked - 1.0);
   result.law_sum += n / asked - 1.0;
   result.law_squares += (n / asked - 1.0) * (n / asked - 1.0);
