@@ -210,14 +210,17 @@ void EdgeSums::write_row(std::int32_t p, const Constraints& constraints,
   const std::int32_t node = node_[at(p)];
   const std::size_t start = at(matrices.velocity_graph.row_start[at(node)]),
                     next = at(matrices.velocity_graph.row_start[at(node) + 1]),
+                    begin = at(matrices.pressure_graph.row_start[at(p)]),
                     end = at(matrices.pressure_graph.row_start[at(p) + 1]);
   const Row row{constraints, matrices, constraints.find(NodeId{node}),
                 node,        start,    3 * (next - start)};
   const auto end_of_edges = static_cast<std::int32_t>(2 * (sums_.size() - 2));
   std::size_t diagonal = 0;
   EdgeIntegrals<double> rest{};  // minus what has been written
-  for (std::size_t k = at(matrices.pressure_graph.row_start[at(p)]); k < end; ++k) {
+  for (std::size_t k = begin; k < end; ++k) {
     fetch(sums_[at(entry_edges_[k + kEntriesAhead]) / 2], false);
+    // Where the next node's blocks go, one line each: 43 ns a cell without, 32 with.
+    __builtin_prefetch(matrices.A.data() + 9 * (next + k - begin), 1);
     const std::int32_t edge = entry_edges_[k];
     if (edge == end_of_edges) diagonal = k;  // written twice
     const EdgeIntegrals<double>& sums = sums_[at(edge) / 2];

@@ -155,8 +155,8 @@ std::vector<CellId> StokesJacobian::assemble_plain_cells(const StokesProblem& pr
     return {all.begin(), all.end()};
   }
   const auto is_plain = [&](CellId c) { return about == nullptr || problem.law(c) == nullptr; };
-  std::vector<CellId> others;
-  std::vector<CellId> plain;
+  std::vector<CellId> plain, others;
+  plain.reserve(at(problem.mesh.num_cells()));
   for (const CellId c : problem.mesh.cells.ids()) (is_plain(c) ? plain : others).push_back(c);
   EdgeSums::Matrices matrices{velocity_graph_, pressure_graph_, A_, B_, C_, {}, pressure_mass_};
   for (Laplacian& laplacian : laplacians_)
