@@ -82,7 +82,7 @@ double assembly_bytes(const FlowSpace& space, const linear::SaddleSystem& system
   // Nodes, and where entries are: of P1-P1 its edges, and edge, place and column of each entry.
   const bool has_edges = space.elements == Elements::p1_p1;
   const std::size_t bytes_per_cell =
-      4 * (nodes + 4) + (has_edges ? 24 : 2 * (nodes * nodes + 4 * nodes + 16));
+      4 * nodes + (has_edges ? 24 : 16 + 2 * (nodes * nodes + 4 * nodes + 16));
   return 8.0 * static_cast<double>(reals) +
          static_cast<double>(bytes_per_cell) * space.velocity.num_cells() +
          (has_edges ? 10.0 * static_cast<double>(system.C.values.size()) : 0.0);

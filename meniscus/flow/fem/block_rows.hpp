@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
+#include <span>
 
 #include "meniscus/flow/fem/constraints.hpp"
 #include "meniscus/flow/fem/node_graph.hpp"
@@ -11,7 +11,7 @@ namespace meniscus::fem {
 /// The three rows of node i where a graph's entries are 3 × 3 blocks (see ScalarPattern).
 class BlockRows {
  public:
-  BlockRows(std::vector<double>& values, const NodeGraph& graph, std::int32_t i) {
+  BlockRows(std::span<double> values, const NodeGraph& graph, std::int32_t i) {
     const std::int32_t start = graph.row_start[static_cast<std::size_t>(i)];
     width_ = 3 * static_cast<std::size_t>(graph.row_start[static_cast<std::size_t>(i) + 1] - start);
     first_ = values.data() + 9 * static_cast<std::size_t>(start);

@@ -3,46 +3,70 @@
 #include <algorithm>
 #include <array>
 
+#include <Eigen/Geometry>
+
+#include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/block_rows.hpp"
-#include "meniscus/flow/fem/elements.hpp"
 
 namespace meniscus::fem {
 namespace {
 
-constexpr std::size_t kBatch = 16;         // cells that are worked on together
 constexpr std::size_t kEntriesAhead = 16;  // sums are fetched so long before they are written
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Asks for the two cache lines of a sum.
-template <class Sums>
-void fetch(const Sums& sums, bool to_write) {
+void fetch(const EdgeIntegrals<double>& sums, bool to_write) {
   const char* const first = reinterpret_cast<const char*>(&sums);
   for (const char* line : {first, first + 64})
     to_write ? __builtin_prefetch(line, 1) : __builtin_prefetch(line, 0);
 }
 
+void subtract(EdgeIntegrals<double>& from, const EdgeIntegrals<double>& sums, double turn) {
+  from = {from.xx - sums.xx,      from.yy - sums.yy,
+          from.zz - sums.zz,      from.stabilisation - sums.stabilisation,
+          from.xy - sums.xy,      from.xz - sums.xz,
+          from.yz - sums.yz,      from.mass - sums.mass,
+          from.x - turn * sums.x, from.y - turn * sums.y,
+          from.z - turn * sums.z, 0.0};
+}
+
 /// The edges of a graph, numbered by their lower end, then by their upper one:
-/// 2·edge + (row > column) for each entry, −1 on the diagonal.
+/// 2·edge + (row > column) for each entry; on the diagonal edge is the number of them all.
 std::vector<std::int32_t> number_edges(const NodeGraph& graph) {
   std::vector<std::int32_t> edges(graph.num_entries()), next(at(graph.num_rows()));
+  const std::int32_t num_edges =
+      (static_cast<std::int32_t>(graph.num_entries()) - graph.num_rows()) / 2;
   std::int32_t count = 0;
   for (std::int32_t p = 0; p < graph.num_rows(); ++p) {
     std::size_t k = at(graph.row_start[at(p)]);
     // Row q names its upper neighbours in the order in which they come here.
     for (; graph.columns[k] < p; ++k) edges[k] = 2 * next[at(graph.columns[k])]++ + 1;
-    edges[k++] = -1;
+    edges[k++] = 2 * num_edges;
     next[at(p)] = count;
     for (; k < at(graph.row_start[at(p) + 1]); ++k) edges[k] = 2 * count++;
   }
   return edges;
 }
 
+[[maybe_unused]] bool is_constant_in_regions(const StokesProblem& problem) {
+  Field<RegionId, double> of_region;
+  for (const CellId c : problem.mesh.cells.ids()) {
+    const RegionId region = problem.mesh.region[c];
+    if (region.value >= of_region.size()) of_region.resize(region.value + 1);
+    double& own = of_region[region];
+    if (own == 0.0) own = problem.viscosity[c];
+    if (own != problem.viscosity[c]) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 EdgeSums::EdgeSums(const FlowSpace& space, const NodeGraph& velocity_graph,
                    const NodeGraph& coupling_graph, const NodeGraph& pressure_graph)
-    : entry_edges_(number_edges(pressure_graph)),
+    : sums_((pressure_graph.num_entries() - at(pressure_graph.num_rows())) / 2 + 2),
+      entry_edges_(number_edges(pressure_graph)),
       places_(pressure_graph.num_entries()),
       column_nodes_(coupling_graph.columns),
       node_(at(pressure_graph.num_rows())) {
@@ -62,124 +86,178 @@ EdgeSums::EdgeSums(const FlowSpace& space, const NodeGraph& velocity_graph,
   is_shared_ = has_pressure;
   for (const std::int32_t i : node_)
     (has_pressure[at(i)] ? is_shared_ : has_pressure)[at(i)] = true;
-  sums_.resize((pressure_graph.num_entries() - node_.size()) / 2);
   entry_edges_.resize(entry_edges_.size() + kEntriesAhead);
+  for (const auto& [c, corners] : liquid_faces(space.pressure.nodes, pressure_graph))
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::int32_t p = space.pressure.nodes.of(c)[corners[a]];
+      const auto entry = [&](std::size_t b) {
+        const std::size_t pair = 16 * at(c.value) + 4 * corners[a] + corners[b % 3];
+        return static_cast<std::int32_t>(pressure_graph.entry(p, pair));
+      };
+      corners_.push_back({p, c, entry(a), entry(a + 1), entry(a + 2)});
+    }
+  std::ranges::stable_sort(corners_, {}, &BoundaryCorner::pressure);
 }
 
-void EdgeSums::clear() { std::ranges::fill(sums_, Sums{}); }
+void EdgeSums::assemble(const StokesProblem& problem, std::span<const CellId> cells,
+                        std::int32_t num_pressures, const Matrices& matrices) {
+  MENISCUS_ASSERT(is_constant_in_regions(problem));
+  std::ranges::fill(sums_, EdgeIntegrals<double>{});
+  add(problem, cells);
+  write(problem, num_pressures, matrices);
+}
 
-// Each of the three steps is short enough that the processor works on several cells at once.
-void EdgeSums::add(const StokesProblem& problem, std::span<const CellId> cells,
-                   std::span<double> pressure_mass) {
-  std::array<LinearTetrahedron, kBatch> tetrahedra;
-  std::array<double, kBatch> stabilisations;  // τV
-  for (std::size_t first = 0; first < cells.size(); first += kBatch) {
-    const auto batch = cells.subspan(first, std::min(kBatch, cells.size() - first));
-    for (std::size_t m = 0; m < batch.size(); ++m) {
-      for (std::size_t k = 0; k < 6; ++k)
-        fetch(sums_[at(cell_edges_[6 * at(batch[m].value) + k] / 2)], true);
-      const auto nodes = problem.space.velocity.of(batch[m]);
-      const auto x = [&](std::size_t i) { return problem.positions.x[NodeId{nodes[i]}]; };
-      tetrahedra[m] = linear_tetrahedron({x(0), x(1), x(2), x(3)});
+void EdgeSums::add(const StokesProblem& problem, std::span<const CellId> cells) {
+  const auto of_no_use = static_cast<std::int32_t>(2 * (sums_.size() - 1));
+  CellBatch batch;
+  for (std::size_t first = 0; first < cells.size(); first += CellBatch::size) {
+    const auto some = cells.subspan(first, std::min(CellBatch::size, cells.size() - first));
+    for (std::size_t m = 0; m < some.size(); ++m) put(problem, some[m], batch, m);
+    for (std::size_t m = some.size(); m < CellBatch::size; ++m) {
+      put(problem, some.front(), batch, m);
+      for (auto& edge : batch.edge) edge[m] = of_no_use;
     }
-    for (std::size_t m = 0; m < batch.size(); ++m) {
-      const double volume = tetrahedra[m].volume, viscosity = problem.viscosity[batch[m]];
-      stabilisations[m] = volume * pspg_parameter(volume, viscosity);
-      for (const std::int32_t p : problem.space.pressure.nodes.of(batch[m]))
-        pressure_mass[at(p)] += 0.25 * volume / viscosity;
-    }
-    for (std::size_t m = 0; m < batch.size(); ++m)
-      add_cell(batch[m], tetrahedra[m], problem.viscosity[batch[m]], stabilisations[m]);
+    batch.add_to(sums_);
   }
 }
 
-void EdgeSums::add_cell(CellId c, const LinearTetrahedron& cell, double viscosity,
-                        double stabilisation) {
-  const double viscous = viscosity * cell.volume, quarter = 0.25 * cell.volume;
-  std::array<Eigen::Vector4d, 4> rows;  // (μV g_a, −V/4)
-  for (std::size_t a = 0; a < 4; ++a) rows[a] << viscous * cell.gradient[a], -quarter;
-  const std::int32_t* edge = cell_edges_.data() + 6 * at(c.value);
-  for (const auto& ends : kCellEdges) {
-    const std::size_t is_from_b = *edge % 2, a = ends[is_from_b], b = ends[1 - is_from_b];
-    const Vec3 &ga = cell.gradient[a], &gb = cell.gradient[b];
-    Eigen::Matrix4d& products = sums_[at(*edge++ / 2)].products;
-    for (Eigen::Index j = 0; j < 3; ++j) products.col(j) += gb[j] * rows[a];
-    products.col(3).head<3>() -= quarter * ga;
-    products(3, 3) += stabilisation * ga.dot(gb);
+/// As cell m of a batch. Asks for the sums that it will be added to.
+void EdgeSums::put(const StokesProblem& problem, CellId c, CellBatch& batch, std::size_t m) const {
+  for (std::size_t k = 0; k < 6; ++k) {
+    batch.edge[k][m] = cell_edges_[6 * at(c.value) + k];
+    fetch(sums_[at(batch.edge[k][m]) / 2], true);
   }
+  const auto nodes = problem.space.velocity.of(c);
+  for (std::size_t a = 0; a < 4; ++a) {
+    const Vec3& x = problem.positions.x[NodeId{nodes[a]}];
+    for (std::size_t i = 0; i < 3; ++i) batch.corner[a][i][m] = x[static_cast<Eigen::Index>(i)];
+  }
+  batch.viscosity[m] = problem.viscosity[c];
 }
 
-void EdgeSums::write(const NodeGraph& velocity_graph, const NodeGraph& pressure_graph,
-                     std::int32_t num_pressures, const Constraints& constraints,
+void EdgeSums::write(const StokesProblem& problem, std::int32_t num_pressures,
                      const Matrices& matrices) const {
-  const auto write_rows = [&](bool shared, const auto& put) {
-    for (std::int32_t p = 0; p < num_pressures; ++p)
-      if (is_shared_[at(node_[at(p)])] == shared)
-        write_row(p, velocity_graph, pressure_graph, constraints, matrices, put);
-  };
-  write_rows(false, [](double& to, double value) { to = value; });
-  for (std::size_t i = 0; i < is_shared_.size(); ++i) {
-    if (!is_shared_[i]) continue;
-    const std::size_t start = at(velocity_graph.row_start[i]),
-                      count = at(velocity_graph.row_start[i + 1]) - start;
+  const std::vector<bool> is_plain = find_plain_nodes(problem.constraints, matrices);
+  for (std::size_t i = 0; i < is_plain.size(); ++i) {
+    if (is_plain[i]) continue;
+    const std::size_t start = at(matrices.velocity_graph.row_start[i]),
+                      count = at(matrices.velocity_graph.row_start[i + 1]) - start;
     std::ranges::fill(matrices.A.subspan(9 * start, 9 * count), 0.0);
     for (const Laplacian& laplacian : matrices.laplacians)
       std::ranges::fill(laplacian.values.subspan(start, count), 0.0);
   }
-  write_rows(true, [](double& to, double value) { to += value; });
+  auto corner = corners_.begin();
+  for (std::int32_t p = 0; p < num_pressures; ++p) {
+    if (is_plain[at(node_[at(p)])])
+      write_row<true>(p, problem.constraints, matrices);
+    else
+      write_row<false>(p, problem.constraints, matrices);
+    for (; corner != corners_.end() && corner->pressure == p; ++corner)
+      if (matrices.pressure_mass[at(p)] != 0.0)  // this liquid's cells are in the sums
+        add_boundary(*corner, problem, matrices);
+  }
 }
 
-/// The row of a pressure in B and C, and what it knows of its node's rows of A and the Laplacians.
-template <class Put>
-void EdgeSums::write_row(std::int32_t p, const NodeGraph& velocity_graph,
-                         const NodeGraph& pressure_graph, const Constraints& constraints,
-                         const Matrices& matrices, const Put& put) const {
-  const std::size_t i = at(node_[at(p)]), start = at(velocity_graph.row_start[i]),
-                    width = 3 * (at(velocity_graph.row_start[i + 1]) - start);
-  const NodeConstraint* const here = constraints.find(NodeId{node_[at(p)]});
-  const auto write_entry = [&](std::size_t k, const auto& sums) {
-    const std::size_t place = start + places_[k];
-    const NodeConstraint* const there = constraints.find(NodeId{column_nodes_[k]});
-    const double laplacian = sums(0, 0) + sums(1, 1) + sums(2, 2);
-    Mat3 block = sums.template topLeftCorner<3, 3>().transpose();
-    block.diagonal().array() += laplacian;
-    Vec3 divergence = sums.template bottomLeftCorner<1, 3>();
-    const bool is_constrained = here != nullptr || there != nullptr;
-    if (is_constrained) {
-      eliminate(block, here, there, entry_edges_[k] < 0);
-      divergence = free_divergence(divergence, there);
-    }
-    double* row = matrices.A.data() + 9 * start + 3 * std::size_t{places_[k]};
-    for (Eigen::Index a = 0; a < 3; ++a, row += width)
-      for (Eigen::Index b = 0; b < 3; ++b) put(row[b], block(a, b));
-    for (const Laplacian& other : matrices.laplacians) {
-      const auto is_fixed = [&](std::size_t node) { return (*other.is_fixed)[node]; };
-      const bool is_out =
-          is_constrained && entry_edges_[k] >= 0 && (is_fixed(i) || is_fixed(at(column_nodes_[k])));
-      put(other.values[place], is_out ? 0.0 : laplacian);
-    }
-    for (std::size_t b = 0; b < 3; ++b)
-      matrices.B[3 * k + b] = divergence[static_cast<Eigen::Index>(b)];
-    matrices.C[k] = sums(3, 3);
-  };
-  std::size_t k = at(pressure_graph.row_start[at(p)]);
-  const auto next_sums = [&]() -> const Eigen::Matrix4d& {
-    fetch(sums_[at(entry_edges_[k + kEntriesAhead] / 2)], false);
-    return sums_[at(entry_edges_[k] / 2)].products;
-  };
-  Eigen::Matrix4d from_a = Eigen::Matrix4d::Zero(), from_b = Eigen::Matrix4d::Zero();
-  for (; entry_edges_[k] >= 0; ++k) {
-    const Eigen::Matrix4d& sums = next_sums();
-    from_b += sums;
-    write_entry(k, sums.transpose());
+/// Those of one liquid that neither are constrained nor have a neighbour that is.
+std::vector<bool> EdgeSums::find_plain_nodes(const Constraints& constraints,
+                                             const Matrices& matrices) const {
+  std::vector<bool> is_plain = is_shared_;
+  is_plain.flip();
+  const std::vector<std::int32_t>& row_start = matrices.pressure_graph.row_start;
+  for (std::size_t p = 0; p < node_.size(); ++p) {
+    if (constraints.find(NodeId{node_[p]}) == nullptr) continue;
+    for (std::size_t k = at(row_start[p]); k < at(row_start[p + 1]); ++k)
+      is_plain[at(column_nodes_[k])] = false;
   }
-  const std::size_t diagonal = k++;
-  for (; k < at(pressure_graph.row_start[at(p) + 1]); ++k) {
-    const Eigen::Matrix4d& sums = next_sums();
-    from_a += sums;
-    write_entry(k, sums);
+  return is_plain;
+}
+
+/// Of B and C, and what the row's pressure knows of A and the Laplacians.
+template <bool is_plain>
+[[gnu::always_inline]] inline void EdgeSums::write_entry(const Row& row, std::size_t k,
+                                                         const EdgeIntegrals<double>& sums,
+                                                         double turn, bool is_diagonal) const {
+  const double laplacian = sums.xx + sums.yy + sums.zz;
+  Mat3 block;
+  block << laplacian + sums.xx, sums.xy, sums.xz,  //
+      sums.xy, laplacian + sums.yy, sums.yz,       //
+      sums.xz, sums.yz, laplacian + sums.zz;
+  Vec3 divergence(turn * sums.x, turn * sums.y, turn * sums.z);
+  bool is_constrained = false;
+  if constexpr (!is_plain) {
+    const NodeConstraint* const there = row.constraints.find(NodeId{column_nodes_[k]});
+    is_constrained = row.constraint != nullptr || there != nullptr;
+    eliminate(block, row.constraint, there, is_diagonal);
+    divergence = free_divergence(divergence, there);
   }
-  write_entry(diagonal, Eigen::Matrix4d(-from_a - from_b.transpose()));
+  const auto put = [](double& to, double value) { is_plain ? to = value : to += value; };
+  double* to = row.matrices.A.data() + 9 * row.start + 3 * std::size_t{places_[k]};
+  for (Eigen::Index a = 0; a < 3; ++a, to += row.width)
+    for (Eigen::Index b = 0; b < 3; ++b) put(to[b], block(a, b));
+  for (const Laplacian& other : row.matrices.laplacians) {
+    const auto is_fixed = [&](std::int32_t i) { return (*other.is_fixed)[at(i)]; };
+    const bool is_out =
+        is_constrained && !is_diagonal && (is_fixed(row.node) || is_fixed(column_nodes_[k]));
+    put(other.values[row.start + places_[k]], is_out ? 0.0 : laplacian);
+  }
+  Eigen::Map<Vec3>(row.matrices.B.data() + 3 * k) = divergence;
+  row.matrices.C[k] = sums.stabilisation;
+}
+
+template <bool is_plain>
+void EdgeSums::write_row(std::int32_t p, const Constraints& constraints,
+                         const Matrices& matrices) const {
+  const std::int32_t node = node_[at(p)];
+  const std::size_t start = at(matrices.velocity_graph.row_start[at(node)]),
+                    next = at(matrices.velocity_graph.row_start[at(node) + 1]),
+                    begin = at(matrices.pressure_graph.row_start[at(p)]),
+                    end = at(matrices.pressure_graph.row_start[at(p) + 1]);
+  const Row row{constraints, matrices, constraints.find(NodeId{node}),
+                node,        start,    3 * (next - start)};
+  const auto end_of_edges = static_cast<std::int32_t>(2 * (sums_.size() - 2));
+  std::size_t diagonal = 0;
+  EdgeIntegrals<double> rest{};  // minus what has been written
+  for (std::size_t k = begin; k < end; ++k) {
+    fetch(sums_[at(entry_edges_[k + kEntriesAhead]) / 2], false);
+    // Where the next node's blocks go, one line each: 43 ns a cell without, 32 with.
+    __builtin_prefetch(matrices.A.data() + 9 * (next + k - begin), 1);
+    const std::int32_t edge = entry_edges_[k];
+    if (edge == end_of_edges) diagonal = k;  // written twice
+    const EdgeIntegrals<double>& sums = sums_[at(edge) / 2];
+    const double turn = edge % 2 != 0 ? -1.0 : 1.0;
+    subtract(rest, sums, turn);
+    write_entry<is_plain>(row, k, sums, turn, false);
+  }
+  write_entry<is_plain>(row, diagonal, rest, 1.0, true);
+  matrices.pressure_mass[at(p)] = -rest.mass;
+}
+
+/// What is not in the sums.
+void EdgeSums::add_boundary(const BoundaryCorner& corner, const StokesProblem& problem,
+                            const Matrices& matrices) const {
+  const NodeId a{node_[at(corner.pressure)]}, b{column_nodes_[at(corner.next)]},
+      c{column_nodes_[at(corner.previous)]};
+  const Field<NodeId, Vec3>& x = problem.positions.x;
+  const Vec3 area = 0.5 * (x[b] - x[a]).cross(x[c] - x[a]);
+  const auto add_to_B = [&](std::int32_t k, const Vec3& divergence) {
+    const NodeConstraint* const there = problem.constraints.find(NodeId{column_nodes_[at(k)]});
+    Eigen::Map<Vec3>(matrices.B.data() + 3 * at(k)) += free_divergence(divergence, there);
+  };
+  const auto add_to_A = [&](std::int32_t k, const Vec3& s) {
+    Mat3 block;  // [s]×
+    block << 0.0, -s.z(), s.y(), s.z(), 0.0, -s.x(), -s.y(), s.x(), 0.0;
+    eliminate(block, problem.constraints.find(a),
+              problem.constraints.find(NodeId{column_nodes_[at(k)]}), false);
+    BlockRows(matrices.A, matrices.velocity_graph, a.value).add(places_[at(k)], block);
+  };
+  // Half of μ/6 for the antisymmetric part; ends are seen from the middle of the edge, as they are
+  // from the other face there.
+  const double factor = problem.viscosity[corner.cell] / 12.0;
+  add_to_A(corner.next, factor * (x[c] - 0.5 * (x[a] + x[b])));
+  add_to_A(corner.previous, -factor * (x[b] - 0.5 * (x[a] + x[c])));
+  add_to_B(corner.next, -area / 24.0);
+  add_to_B(corner.previous, -area / 24.0);
+  add_to_B(corner.own, area / 12.0);  // rows sum to zero
 }
 
 }  // namespace meniscus::fem

@@ -4,9 +4,8 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Core>
-
-#include "meniscus/flow/fem/elements.hpp"
+#include "meniscus/flow/fem/edge_integrals.hpp"
+#include "meniscus/flow/fem/liquid_boundary.hpp"
 #include "meniscus/flow/fem/node_graph.hpp"
 #include "meniscus/flow/fem/stokes_problem.hpp"
 
@@ -19,16 +18,17 @@ namespace meniscus::fem {
 /// τV g_a·g_b. All follow from sums over edges: (b, a) from (a, b), and each diagonal block is
 /// minus the others of its row, as Σ_b g_b = 0. A cell so adds to six places of two cache lines
 /// each, where the matrices themselves would have it add to 96 (docs/benchmark-stokes.md).
+///
+/// As μ is constant in a liquid, two parts are not summed, but follow from the liquid's boundary Γ:
+///   Σ V (g_b g_aᵀ − g_a g_bᵀ) = ∫(∇φ_b ∇φ_aᵀ − ∇φ_a ∇φ_bᵀ) and
+///   −Σ V/4 (g_a + g_b) = −∫∇(φ_a φ_b) = −∫_Γ φ_a φ_b n.
+/// The first is [Σ V g_a×g_b]×, and V g_a×g_b a sixth of the cell's opposite edge: around an edge
+/// these cancel but for the first and the last, on Γ.
 class EdgeSums {
  public:
   /// Of the sparsities of A, B and C before their columns are renumbered.
   EdgeSums(const FlowSpace& space, const NodeGraph& velocity_graph, const NodeGraph& coupling_graph,
            const NodeGraph& pressure_graph);
-
-  void clear();
-  /// Adds ∫ψ/μ to the pressures as well.
-  void add(const StokesProblem& problem, std::span<const CellId> cells,
-           std::span<double> pressure_mass);
 
   struct Laplacian {
     const std::vector<bool>* is_fixed;  ///< by node
@@ -36,34 +36,57 @@ class EdgeSums {
   };
   /// Values of A and B by blocks as `ScalarPattern` has them.
   struct Matrices {
+    const NodeGraph &velocity_graph, &pressure_graph;
     std::span<double> A, B, C;
     std::vector<Laplacian> laplacians;
+    std::span<double> pressure_mass;  ///< ∫ψ/μ
   };
-  /// Sets the rows of the first so many pressures and of the nodes that they are at, with
-  /// constraints eliminated.
-  void write(const NodeGraph& velocity_graph, const NodeGraph& pressure_graph,
-             std::int32_t num_pressures, const Constraints& constraints,
-             const Matrices& matrices) const;
+  /// Sets the rows of the first so many pressures, and of the nodes that they are at, to what the
+  /// given cells make of them, with constraints eliminated. The cells are all those of some
+  /// regions, in their order; viscosity is constant in each region.
+  void assemble(const StokesProblem& problem, std::span<const CellId> cells,
+                std::int32_t num_pressures, const Matrices& matrices);
 
  private:
-  /// Of the pressures a < b at the ends of an edge in one liquid: Σ (μV g_a, −V/4)(g_b, −1/(4μ))ᵀ,
-  /// but for Σ τV g_a·g_b in the last corner.
-  struct alignas(128) Sums {
-    Eigen::Matrix4d products = Eigen::Matrix4d::Zero();
+  void add(const StokesProblem& problem, std::span<const CellId> cells);
+  void put(const StokesProblem& problem, CellId c, CellBatch& batch, std::size_t m) const;
+  void write(const StokesProblem& problem, std::int32_t num_pressures,
+             const Matrices& matrices) const;
+  [[nodiscard]] std::vector<bool> find_plain_nodes(const Constraints& constraints,
+                                                   const Matrices& matrices) const;
+  struct Row {
+    const Constraints& constraints;
+    const Matrices& matrices;
+    const NodeConstraint* constraint;
+    std::int32_t node;
+    std::size_t start, width;  ///< of the node's rows of A, by blocks and by numbers
   };
-  void add_cell(CellId c, const LinearTetrahedron& cell, double viscosity, double stabilisation);
-  template <class Put>
-  void write_row(std::int32_t p, const NodeGraph& velocity_graph, const NodeGraph& pressure_graph,
-                 const Constraints& constraints, const Matrices& matrices, const Put& put) const;
+  template <bool is_plain>
+  void write_entry(const Row& row, std::size_t k, const EdgeIntegrals<double>& sums, double turn,
+                   bool is_diagonal) const;
+  template <bool is_plain>
+  void write_row(std::int32_t p, const Constraints& constraints, const Matrices& matrices) const;
+  /// A corner of a face of a liquid's boundary. By entries of C: itself, and what joins it to the
+  /// next corner and to the one before, counter-clockwise seen from outside.
+  struct BoundaryCorner {
+    std::int32_t pressure;
+    CellId cell;
+    std::int32_t own, next, previous;
+  };
+  void add_boundary(const BoundaryCorner& corner, const StokesProblem& problem,
+                    const Matrices& matrices) const;
 
-  std::vector<Sums> sums_;
-  /// 2·edge + whether seen from b, per edge of each cell as in `kCellEdges`, and per entry of C,
-  /// −1 on its diagonal; that one is longer, for what is fetched ahead.
+  /// Of the pressures a < b at the ends of each edge in one liquid. Of the two behind these the
+  /// first stays zero, the edges of diagonal entries, and the second is of no use.
+  std::vector<EdgeIntegrals<double>> sums_;
+  /// 2·edge + whether seen from b, per edge of each cell as in `kCellEdges`, and per entry of C;
+  /// that one is longer, for what is fetched ahead.
   std::vector<std::int32_t> cell_edges_, entry_edges_;
   std::vector<std::uint16_t> places_;  ///< per entry of C: the entry of A's row that it adds to
   std::vector<std::int32_t> column_nodes_;  ///< per entry of C
   std::vector<std::int32_t> node_;          ///< of each pressure
   std::vector<bool> is_shared_;             ///< by node: has pressures in several liquids
+  std::vector<BoundaryCorner> corners_;     ///< by pressures
 };
 
 }  // namespace meniscus::fem

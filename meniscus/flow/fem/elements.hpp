@@ -7,6 +7,7 @@
 
 #include <Eigen/Dense>
 
+#include "meniscus/core/cube_root.hpp"
 #include "meniscus/flow/fem/node_positions.hpp"
 #include "meniscus/flow/fem/quadrature_table.hpp"
 
@@ -38,8 +39,7 @@ struct LinearTetrahedron {
 /// Stabilisation parameter τ = 0.25 h²/μ, h half the edge of the regular tetrahedron of equal
 /// volume, V = (2h)³/(6√2) (eq. 11 of hooper2001; the division by μ is not printed there).
 [[nodiscard]] inline double pspg_parameter(double volume, double viscosity) {
-  const double edge = std::cbrt(6.0 * std::numbers::sqrt2 * volume);
-  return 0.25 * (0.25 * edge * edge) / viscosity;
+  return cube_root(72.0 * volume * volume) / (16.0 * viscosity);
 }
 
 /// P1 velocity on straight tetrahedra: gradients are constant, and one point makes every form

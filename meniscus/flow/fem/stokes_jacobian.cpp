@@ -155,16 +155,13 @@ std::vector<CellId> StokesJacobian::assemble_plain_cells(const StokesProblem& pr
     return {all.begin(), all.end()};
   }
   const auto is_plain = [&](CellId c) { return about == nullptr || problem.law(c) == nullptr; };
-  std::vector<CellId> others;
-  edge_sums_->clear();
-  std::vector<CellId> plain;
+  std::vector<CellId> plain, others;
+  plain.reserve(at(problem.mesh.num_cells()));
   for (const CellId c : problem.mesh.cells.ids()) (is_plain(c) ? plain : others).push_back(c);
-  edge_sums_->add(problem, plain, pressure_mass_);
-  EdgeSums::Matrices matrices{A_, B_, C_, {}};
+  EdgeSums::Matrices matrices{velocity_graph_, pressure_graph_, A_, B_, C_, {}, pressure_mass_};
   for (Laplacian& laplacian : laplacians_)
     matrices.laplacians.push_back({&laplacian.is_fixed, laplacian.values});
-  edge_sums_->write(velocity_graph_, pressure_graph_, own_.num_pressures, problem.constraints,
-                    matrices);
+  edge_sums_->assemble(problem, plain, own_.num_pressures, matrices);
   return others;
 }
 

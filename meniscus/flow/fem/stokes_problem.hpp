@@ -29,7 +29,7 @@ struct StokesProblem {
   const TetMesh& mesh;
   const FlowSpace& space;
   NodePositions positions;
-  CellField<double> viscosity;  ///< [μ_out]
+  CellField<double> viscosity;  ///< [μ_out], of linear elements the same all over a region
   /// How it depends on the rate of shear, by region; empty where every liquid is Newtonian.
   Field<RegionId, ViscosityLaw> laws;
   CellField<Vec3> body_force;  ///< f [μ_out G / R0]

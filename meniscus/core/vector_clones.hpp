@@ -1,0 +1,11 @@
+#pragma once
+
+/// Before a function: one body, compiled for plain x86-64 and for vectors of four and eight
+/// doubles; the processor chooses when the program starts.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
+#define MENISCUS_VECTOR_CLONES \
+  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define MENISCUS_VECTOR_CLONES
+#endif
