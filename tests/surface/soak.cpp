@@ -49,16 +49,16 @@ double integral_of_density(const SurfaceMesh& mesh, const VertexField<double>& l
   return sum;
 }
 
-/// By how much gaps and gradation raise the number of vertices, by the engine's own rule.
-double raised_by_others(const Subject& subject) {
-  const SurfaceTopology topology(subject.mesh);
-  const SmoothSurface surface(subject.mesh, topology);
+/// By how much gaps and gradation raise the number of vertices, by the engine's own rule on the
+/// surface that it was given.
+double raised_by_others(const Subject& subject, const SurfaceMesh& given) {
+  const SurfaceTopology topology(given);
+  const SmoothSurface surface(given, topology);
   RemeshOptions without = subject.options;
   without.gap_layers = 0.0;
   without.gradation = std::numeric_limits<double>::infinity();
   const auto count = [&](const RemeshOptions& options) {
-    return integral_of_density(subject.mesh,
-                               rest_lengths(subject.mesh, topology, surface, options));
+    return integral_of_density(given, rest_lengths(given, topology, surface, options));
   };
   return count(subject.options) / count(without);
 }
@@ -66,13 +66,13 @@ double raised_by_others(const Subject& subject) {
 /// ∮ρ dS of eq. 2 with the exact curvature of the shape under the map, which nothing averages, on a
 /// mesh that has nothing to do with the remeshed one, times what is not in eq. 2: gaps and
 /// gradation, which bound neighbouring lengths of the mesh at hand.
-double law(const Subject& subject, const Mat3& map) {
+double law(const Subject& subject, const SurfaceMesh& given, const Mat3& map) {
   SurfaceMesh mesh = subject.fine.mesh;
   for (Vec3& x : mesh.x) x = map * x;
   auto length = subject.curvature.squared_rms(map);
   for (double& l : length)
     l = std::max(length_of_density(subject.options.C0 * l), subject.options.edge_floor);
-  return raised_by_others(subject) * integral_of_density(mesh, length);
+  return raised_by_others(subject, given) * integral_of_density(mesh, length);
 }
 
 SmoothShape random_shape(std::mt19937& random, bool is_chain) {
@@ -141,6 +141,7 @@ void record_angles(const SurfaceMesh& mesh, SoakResult& result) {
 }
 
 void remesh_and_judge(Subject& subject, const Mat3& map, int round, SoakResult& result) {
+  const SurfaceMesh given = subject.mesh;
   const std::clock_t start = std::clock();
   const RemeshReport report = remesh(subject.mesh, subject.options);
   result.remesh_seconds += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -158,7 +159,7 @@ void remesh_and_judge(Subject& subject, const Mat3& map, int round, SoakResult& 
   record_angles(subject.mesh, result);
   const double n = subject.mesh.num_vertices();
   const double count_error = std::abs(n / report.expected_vertices - 1.0);
-  const double asked = law(subject, map);
+  const double asked = law(subject, given, map);
   const double law_error = std::abs(n / asked - 1.0);
   result.law_sum += n / asked - 1.0;
   result.law_squares += (n / asked - 1.0) * (n / asked - 1.0);
