@@ -5,8 +5,8 @@
 
 METHOD: boundary-integral (unbounded), or the finite elements P1-P1 or P2-P1 (in a sphere). Ten to sixteen drops of
 radius 0.3 to 0.4, lambda = 1, so close that they meet, in a flow of Ca about 2 whose gradient is random and turns round
-every unit of time, so that they come back. A scene is run until it has had EVENTS events or its time is over; it must
-end by itself with volumes conserved to 1e-12 in each event and to 1e-6 in all.
+every unit of time, so that they come back. A scene is run until it has had EVENTS events, its time is over or it has
+taken LIMIT seconds; until then it must go on by itself, with volumes conserved to 1e-12 in each event and to 1e-6 in all.
 """
 import csv
 import math
@@ -18,6 +18,7 @@ import time
 from pathlib import Path
 
 END = 6.0
+LIMIT = 900.0
 
 SOLVERS = {
     "boundary-integral": 'method = "boundary-integral"\n[domain]\nshape = "unbounded"\n',
@@ -55,23 +56,26 @@ def rows(file):
 
 
 def run(program, folder, seed, method, wanted):
-    """Events, time reached, and what is wrong with the run."""
+    """Events, time reached, whether it was stopped for its cost, and what is wrong with the run."""
     case = folder / f"scene-{seed}.toml"
     case.write_text(scene(seed, method), encoding="utf-8")
     out = folder / f"scene-{seed}"
     with subprocess.Popen([program, "run", str(case), "-o", str(out), "-q"], stderr=subprocess.PIPE,
                           text=True) as process:
-        enough = False
+        enough, dear, began = False, False, time.time()
         while process.poll() is None:
             time.sleep(0.5)
             table = out / "events.csv"
-            if not enough and table.exists() and len(rows(table)) >= wanted:
+            if enough or dear:
+                continue
+            enough = table.exists() and len(rows(table)) >= wanted
+            dear = time.time() - began > LIMIT
+            if enough or dear:
                 process.terminate()  # it leaves a checkpoint and its tables whole
-                enough = True
         message = process.stderr.read().strip()
     events, drops = rows(out / "events.csv"), rows(out / "drops.csv")
     faults = []
-    if process.returncode != 0 and not enough:
+    if process.returncode != 0 and not (enough or dear):
         faults.append(f"status {process.returncode}: {message.splitlines()[-1] if message else ''}")
     for event in events:
         if abs(float(event["volume_after"]) / float(event["volume_before"]) - 1) > 1e-12:
@@ -82,7 +86,7 @@ def run(program, folder, seed, method, wanted):
     # A drop that was caught within another counts twice: of its own, and as a hole in the other.
     if abs(drift) > 1e-6 and not any(e["kind"] == "coalescence" for e in events):
         faults.append(f"volume drifts by {drift:.1e}")
-    return events, float(drops[-1]["t"]), faults
+    return events, float(drops[-1]["t"]), dear, faults
 
 
 def main():
@@ -93,12 +97,13 @@ def main():
     total, faulty = 0, 0
     for seed in range(first, first + count):
         began = time.time()
-        events, t, faults = run(program, work, seed, method, wanted)
+        events, t, dear, faults = run(program, work, seed, method, wanted)
         total += len(events)
         faulty += bool(faults)
         kinds = [e["kind"] for e in events]
         print(f"seed {seed}: t = {t:.3f}, {kinds.count('breakup')} breakups, "
               f"{kinds.count('coalescence')} coalescences, {time.time() - began:.0f} s "
+              f"{'stopped for its cost ' if dear else ''}"
               f"{'; '.join(faults)}", flush=True)
     print(f"{count} scenes, {total} events, {faulty} faulty")
     sys.exit(faulty > 0)
