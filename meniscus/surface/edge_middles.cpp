@@ -8,6 +8,7 @@
 
 #include "meniscus/surface/rings.hpp"
 #include "meniscus/surface/smooth_surface.hpp"
+#include "meniscus/surface/trust.hpp"
 
 namespace meniscus {
 namespace {
@@ -19,9 +20,6 @@ constexpr std::size_t kMostPoints = 32;
 // vertices is amplified more than the lower degree's truncation is worth. The spline fades out
 // until twice that, so that middles, and the volume under them, follow the vertices without jumps.
 constexpr double kMostAmplification = 4.0;
-// A middle stands no higher over its edge than on a circle over the sides of its regular triangle,
-// or a little more; where the spline says more, as on crumpled surfaces, it fades out likewise.
-constexpr double kHighestMiddle = 0.3;  // edges
 
 using Vec2 = Eigen::Vector2d;
 
@@ -48,9 +46,6 @@ struct LevelFrame {
     return d.dot(axes.n) + 0.5 * half_sum * d.squaredNorm();
   }
 };
-
-/// 1 up to a limit, 0 from twice that.
-double trust(double size, double limit) { return std::clamp(2.0 - size / limit, 0.0, 1.0); }
 
 /// The spline's value at the frame's origin, Σ w_i g_i, the weights w solving
 /// [Φ P; Pᵀ 0] (w, ·) = (φ(0 − x_i), p(0)), times how far it is to be trusted, 0 to 1.

@@ -4,14 +4,10 @@
 #include <cmath>
 
 #include "meniscus/surface/rings.hpp"
+#include "meniscus/surface/trust.hpp"
 
 namespace meniscus {
 namespace {
-
-/// Over the middle of an edge a patch is trusted to this many of its lengths, a little more than
-/// the height of a circle over the sides of its regular triangle, and fades out until twice that.
-/// Where vertices lie as on a crease, fits swing out by a hundred.
-constexpr double kHighestMiddle = 0.3;
 
 double height_above(const HeightPatch& patch, const Vec3& flat) {
   const Vec3 d = flat - patch.x;
@@ -19,12 +15,12 @@ double height_above(const HeightPatch& patch, const Vec3& flat) {
 }
 
 /// How far a patch is to be trusted over the edges to its neighbours, 0 to 1.
-double trust(const HeightPatch& patch, std::span<const Vec3> neighbours) {
+double trust_near_edges(const HeightPatch& patch, std::span<const Vec3> neighbours) {
   double highest = 0.0;
   for (const Vec3& end : neighbours)
     highest = std::max(
         highest, std::abs(height_above(patch, 0.5 * (patch.x + end))) / (end - patch.x).norm());
-  return std::clamp(2.0 - highest / kHighestMiddle, 0.0, 1.0);
+  return trust(highest, kHighestMiddle);
 }
 
 /// The patch of the highest degree that the rings determine, as far as it is to be trusted; for the
@@ -38,7 +34,7 @@ HeightPatch patch_at(const HeightPatch& frame, std::span<const Vec3> rings, std:
        {PatchDegree::cubic, PatchDegree::quadratic, PatchDegree::umbilic}) {
     const auto patch = fit_patch(frame, unrolled, degree);
     if (!patch) continue;
-    const double share = missing * trust(*patch, rings.first(valence));
+    const double share = missing * trust_near_edges(*patch, rings.first(valence));
     for (std::size_t k = 0; k < result.c.size(); ++k) result.c[k] += share * patch->c[k];
     missing -= share;
     if (missing == 0.0) break;
