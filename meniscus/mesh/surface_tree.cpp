@@ -173,14 +173,15 @@ void SurfaceTree::visit_box(const Vec3& low, const Vec3& high, const Visit& visi
 
 void SurfaceTree::visit_slice(const Vec3& low, const Vec3& high, const Vec3& origin,
                               const Vec3& normal, const Visit& visit) const {
+  const Vec3 reach = normal.cwiseAbs();
   visit_where(
       [&](const Vec3& other_low, const Vec3& other_high) {
         if (!boxes_touch(low, high, other_low, other_high)) return false;
         const Vec3 half = 0.5 * (other_high - other_low);
         const Vec3 from_origin = other_low + half - origin;
         // The slack keeps a box that touches the plane, whatever the rounding.
-        const double slack = 1e-9 * (half.norm() + from_origin.norm());
-        return std::abs(normal.dot(from_origin)) <= normal.cwiseAbs().dot(half) + slack;
+        const double slack = 1e-9 * (half.sum() + from_origin.cwiseAbs().sum());
+        return std::abs(normal.dot(from_origin)) <= reach.dot(half) + slack;
       },
       visit);
 }

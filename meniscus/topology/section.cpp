@@ -1,11 +1,12 @@
 #include "meniscus/topology/section.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -19,10 +20,18 @@ using EdgeKey = std::pair<VertexId, VertexId>;
 /// Where the plane crosses one face: from the edge it enters by to the edge it leaves by, in the
 /// order that keeps the side above the plane on the left. Faces share the points of their edges.
 struct Crossing {
-  EdgeKey to;
+  EdgeKey from, to;
   FaceId face;
+  bool is_followed = false;
 };
-using Crossings = std::map<EdgeKey, Crossing>;
+/// In rising order of the edges they come from.
+using Crossings = std::vector<Crossing>;
+
+/// The crossing that comes from an edge, or none if it was followed or not looked at.
+Crossing* crossing_from(Crossings& crossings, const EdgeKey& edge) {
+  const auto found = std::ranges::lower_bound(crossings, edge, {}, &Crossing::from);
+  return found != crossings.end() && found->from == edge && !found->is_followed ? &*found : nullptr;
+}
 
 EdgeKey key(VertexId a, VertexId b) { return a < b ? EdgeKey{a, b} : EdgeKey{b, a}; }
 
@@ -37,21 +46,20 @@ Crossings crossings_near(const SurfaceMesh& mesh, const SurfaceTree& tree, const
   Crossings result;
   const Vec3 half = Vec3::Constant(reach);
   const Vec3 low = plane.origin - half, high = plane.origin + half;
-  tree.visit_slice(low, high, plane.origin, plane.normal, [&](FaceId f, const Triangle&) {
+  tree.visit_slice(low, high, plane.origin, plane.normal, [&](FaceId f, const Triangle& x) {
+    const std::array<bool, 3> is_above{plane.height(x[0]) >= 0.0, plane.height(x[1]) >= 0.0,
+                                       plane.height(x[2]) >= 0.0};
+    if (is_above[0] == is_above[1] && is_above[1] == is_above[2]) return true;
     const FaceVertices& v = mesh.faces[f];
     EdgeKey up{}, down{};
-    int num_crossed = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const VertexId a = v[k], b = v[(k + 1) % 3];
-      const bool is_a_above = plane.height(mesh.x[a]) >= 0.0,
-                 is_b_above = plane.height(mesh.x[b]) >= 0.0;
-      if (is_a_above == is_b_above) continue;
-      (is_b_above ? up : down) = key(a, b);
-      ++num_crossed;
+      const std::size_t next = (k + 1) % 3;
+      if (is_above[k] != is_above[next]) (is_above[next] ? up : down) = key(v[k], v[next]);
     }
-    if (num_crossed == 2) result.emplace(up, Crossing{down, f});
+    result.push_back({up, down, f});
     return true;
   });
+  std::ranges::sort(result, {}, &Crossing::from);
   return result;
 }
 
@@ -68,11 +76,11 @@ Section followed(const SurfaceMesh& mesh, const Plane& plane, EdgeKey start, Cro
   section.axis = plane.normal;
   EdgeKey at = start;
   is_closed = false;
-  for (auto found = crossings.find(at); found != crossings.end(); found = crossings.find(at)) {
+  while (Crossing* crossing = crossing_from(crossings, at)) {
     section.points.push_back(crossing_point(mesh, plane, at));
-    section.faces.push_back(found->second.face);
-    at = found->second.to;
-    crossings.erase(found);
+    section.faces.push_back(crossing->face);
+    at = crossing->to;
+    crossing->is_followed = true;
     if (at == start) {
       is_closed = true;
       break;
@@ -121,9 +129,10 @@ SectionResult section_around(const SurfaceMesh& mesh, const SurfaceTree& tree, c
   Crossings crossings = crossings_near(mesh, tree, plane, reach);
   SectionResult best;
   std::pair<bool, double> best_rank{true, std::numeric_limits<double>::infinity()};
-  while (!crossings.empty()) {
+  for (const Crossing& crossing : crossings) {
+    if (crossing.is_followed) continue;
     bool is_closed = false;
-    Section section = followed(mesh, plane, crossings.begin()->first, crossings, is_closed);
+    Section section = followed(mesh, plane, crossing.from, crossings, is_closed);
     const bool goes_around = is_closed && std::abs(turns_around(section, center)) > 0.5;
     const std::pair<bool, double> rank{!goes_around, distance_to(section, center)};
     if (rank >= best_rank) continue;
