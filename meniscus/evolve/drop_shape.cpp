@@ -115,15 +115,6 @@ void measure_general(const FittedSurface& surface, DropShape& shape) {
   shape.W = half_extent(surface, e);
 }
 
-double inertial_deformation(const SurfaceMesh& mesh, double volume) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(enclosed_second_moments(mesh),
-                                                  Eigen::EigenvaluesOnly);
-  // An ellipsoid's second moment along an axis a is V a²/5.
-  const double smallest = std::sqrt(5.0 * std::max(0.0, eigen.eigenvalues()[0]) / volume);
-  const double largest = std::sqrt(5.0 * std::max(0.0, eigen.eigenvalues()[2]) / volume);
-  return (largest - smallest) / (largest + smallest);
-}
-
 }  // namespace
 
 DropShape drop_shape(const SurfaceMesh& mesh, FlowFamily family) {
@@ -148,8 +139,15 @@ DropShape drop_shape(const SurfaceMesh& mesh, FlowFamily family) {
   shape.extent_x = half_extent(surface, Vec3::UnitX());
   for (const VertexCurvature& fit : surface.fit)
     shape.H_max = std::max(shape.H_max, fit.half_sum());
-  shape.D_inertia = inertial_deformation(mesh, shape.volume);
+  shape.D_inertia = inertial_deformation(enclosed_second_moments(mesh), shape.volume);
   return shape;
+}
+
+double inertial_deformation(const Mat3& second_moments, double volume) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(second_moments, Eigen::EigenvaluesOnly);
+  const double smallest = std::sqrt(5.0 * std::max(0.0, eigen.eigenvalues()[0]) / volume);
+  const double largest = std::sqrt(5.0 * std::max(0.0, eigen.eigenvalues()[2]) / volume);
+  return (largest - smallest) / (largest + smallest);
 }
 
 }  // namespace meniscus

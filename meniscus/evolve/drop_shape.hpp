@@ -8,7 +8,8 @@
 namespace meniscus {
 
 /// The measures of one drop as drops.csv has them (definitions: docs/notation.md). Lengths are
-/// those of the smooth interface through the vertices, volume and area those of the triangulation.
+/// those of the smooth interface through the vertices, volume, area and D_inertia those of the
+/// triangulation.
 struct DropShape {
   double volume = 0.0, area = 0.0;
   Vec3 centroid = Vec3::Zero();
@@ -21,5 +22,9 @@ struct DropShape {
 };
 /// Planar flows lie in the x-y plane with x the flow direction, axial ones have x as their axis.
 [[nodiscard]] DropShape drop_shape(const SurfaceMesh& mesh, FlowFamily family);
+
+/// (a − c)/(a + c), a and c the largest and the smallest half-axis of the ellipsoid with these
+/// second moments ∫ (x − c)(x − c)ᵀ dV about its centroid: along an axis a it is V a²/5.
+[[nodiscard]] double inertial_deformation(const Mat3& second_moments, double volume);
 
 }  // namespace meniscus

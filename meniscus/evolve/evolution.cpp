@@ -327,6 +327,7 @@ std::vector<DropRow> Evolution::drop_rows() const {
       const CurvedMeasures curved = curved_measures(interface.mesh);
       row.shape.volume = curved.volume;
       row.shape.area = curved.area;
+      row.shape.D_inertia = inertial_deformation(curved.second_moments, curved.volume);
     }
     row.volume_drift = row.shape.volume / interface.initial_volume - 1.0;
     row.volume_correction = correction_[i];

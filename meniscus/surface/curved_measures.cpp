@@ -116,12 +116,18 @@ double scale_to_curved_volume(SurfaceMesh& mesh, double volume) {
 CurvedMeasures curved_measures(const SurfaceMesh& mesh) {
   const SurfaceTopology topology(mesh);
   CurvedMeasures measures;
+  Vec3 first = Vec3::Zero();
   for (const ParabolicFace& face : parabolic_faces(mesh, topology, edge_middles(mesh, topology)))
     for (const RulePoint& at : kRule) {
       const FacePoint point = face_point(face, at);
-      measures.volume += point.x.dot(point.area) / 3.0;
+      const double flux = point.x.dot(point.area);
+      // By the divergence theorem: div x = 3, div (x_i x) = 4 x_i, div (x_i x_j x) = 5 x_i x_j.
+      measures.volume += flux / 3.0;
       measures.area += point.area.norm();
+      first += flux / 4.0 * point.x;
+      measures.second_moments += flux / 5.0 * point.x * point.x.transpose();
     }
+  measures.second_moments -= first * first.transpose() / measures.volume;
   return measures;
 }
 

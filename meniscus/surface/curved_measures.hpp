@@ -9,8 +9,9 @@ namespace meniscus {
 /// `edge_middles`: what a triangulation stands for, to O(h⁴), where its flat faces enclose too
 /// little by O(h²).
 struct CurvedMeasures {
-  double volume = 0.0;  ///< [R0³]
-  double area = 0.0;    ///< [R0²]
+  double volume = 0.0;                 ///< [R0³]
+  double area = 0.0;                   ///< [R0²]
+  Mat3 second_moments = Mat3::Zero();  ///< ∫ (x − c)(x − c)ᵀ dV about the centroid c [R0⁵]
 };
 [[nodiscard]] CurvedMeasures curved_measures(const SurfaceMesh& mesh);
 

@@ -135,6 +135,21 @@ TEST(CurvedMeasures, AreThoseOfTheSmoothSurface) {
   EXPECT_GT(2.0 * std::log(errors.front() / errors.back()) / std::log(4.0), 3.5);
 }
 
+TEST(CurvedMeasures, SecondMomentsAreThoseOfTheSmoothSurface) {
+  // Along an axis a of an ellipsoid V a²/5, wherever it lies.
+  const Vec3 axes(1.3, 0.9, 0.8);
+  const double volume = 4.0 / 3.0 * std::numbers::pi * axes.prod();
+  const Mat3 exact = 0.2 * volume * Mat3(axes.cwiseProduct(axes).asDiagonal());
+  std::vector<double> errors;
+  for (const int num_vertices : {110, 220, 440}) {
+    SurfaceMesh mesh = stretched_sphere(num_vertices, axes);
+    for (Vec3& x : mesh.x) x += Vec3(0.5, -0.3, 0.2);
+    errors.push_back((curved_measures(mesh).second_moments - exact).norm() / exact.norm());
+  }
+  EXPECT_LT(errors.front(), 2e-3);  // flat faces: 8.1e-2
+  EXPECT_GT(2.0 * std::log(errors.front() / errors.back()) / std::log(4.0), 3.5);
+}
+
 TEST(CurvedMeasures, VolumeIsRestoredByAShift) {
   SurfaceMesh mesh = wavy_sphere(150);
   const double volume = 1.02 * curved_measures(mesh).volume;
