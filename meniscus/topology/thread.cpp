@@ -1,6 +1,7 @@
 #include "meniscus/topology/thread.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include <Eigen/Eigenvalues>
@@ -14,7 +15,9 @@ constexpr int kMaxSections = 2000;  // a thread of 500 radii; drops break long b
 constexpr int kAlignments = 4;      // each halves the tilt of the first section, or better
 constexpr double kCube = 3.0;       // half of the cube looked at, in the widest radius
 
-/// The direction that the normals of the faces around a point avoid most: a thread's axis.
+/// The direction that the normals of the faces around a point avoid most: a thread's axis. Faces
+/// count by the square of the cosine at which they face the point, else the flat sides of a plate
+/// would outdo the rim of its hole.
 std::optional<Vec3> axis_guess(const SurfaceTree& tree, const Vec3& center, Side side,
                                double radius) {
   Mat3 sum = Mat3::Zero();
@@ -23,8 +26,9 @@ std::optional<Vec3> axis_guess(const SurfaceTree& tree, const Vec3& center, Side
     const Vec3 area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]);
     const double size = area.norm();
     const Vec3 from_center = (x[0] + x[1] + x[2]) / 3.0 - center;
-    if (size > 0.0 && sign_of(side) * area.dot(from_center) < 0.0)
-      sum += area * area.transpose() / size;
+    const double facing = -sign_of(side) * area.dot(from_center);
+    if (size > 0.0 && facing > 0.0)
+      sum += std::pow(facing / (size * from_center.norm()), 2) * area * area.transpose() / size;
     return true;
   });
   if (!(sum.trace() > 0.0)) return std::nullopt;

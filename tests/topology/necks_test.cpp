@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "meniscus/mesh/shapes.hpp"
+#include "meniscus/mesh/surface_check.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/remesh.hpp"
+#include "tests/surface/shapes.hpp"
 #include "tests/topology/scenes.hpp"
 
 namespace meniscus {
@@ -70,6 +73,75 @@ TEST(Necks, AreNoPointedEndsNoSmallSpheresNoSheets) {
     for (int i = 0; i < 3; ++i) ASSERT_TRUE(remesh(mesh, {}).ok);
     EXPECT_TRUE(necks_of(mesh, 0.09).empty());
   }
+}
+
+// A unit sphere with a knob of the given height (a dent, where negative) beyond a neck of radius
+// 0.04, 0.03 off the sphere; it widens to 0.05 half-way.
+SurfaceMesh knobbed_sphere(double height) {
+  constexpr int kAround = 24, kAlong = 60, kDown = 40;
+  std::vector<Vec3> profile;  // (r, 0, z), from the pole opposite the dent to its bottom
+  const double rim = 0.07, top = std::sqrt(1.0 - rim * rim),
+               mouth = top + std::copysign(0.03, height);
+  for (int i = 0; i <= kAlong; ++i) {
+    const double angle =
+        std::numbers::pi * (1.0 - (1.0 - std::asin(rim) / std::numbers::pi) * i / kAlong);
+    profile.emplace_back(std::sin(angle), 0.0, std::cos(angle));
+  }
+  for (int i = 1; i <= 6; ++i) {
+    const double s = i / 6.0;
+    profile.emplace_back(rim - (rim - 0.04) * s * (2.0 - s), 0.0, top + (mouth - top) * s);
+  }
+  for (int i = 1; i <= kDown; ++i) {
+    const double s = static_cast<double>(i) / kDown, widening = 0.04 + 0.04 * s * (1.0 - s);
+    profile.emplace_back(widening * std::sqrt(1.0 - std::pow(s, 8)), 0.0, mouth + height * s);
+  }
+  SurfaceMesh mesh;
+  const VertexId first = mesh.x.add(profile.front());
+  std::vector<VertexId> ring(kAround, first);
+  for (std::size_t i = 1; i < profile.size(); ++i) {
+    const bool is_last = i + 1 == profile.size();
+    std::vector<VertexId> next;
+    for (int k = 0; k < kAround; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / kAround;
+      next.push_back(is_last && k > 0
+                         ? next.front()
+                         : mesh.x.add({profile[i].x() * std::cos(angle),
+                                       profile[i].x() * std::sin(angle), profile[i].z()}));
+    }
+    for (std::size_t k = 0; k < next.size(); ++k) {
+      const std::size_t l = (k + 1) % next.size();
+      if (i > 1) mesh.faces.add({ring[k], ring[l], next[k]});
+      if (!is_last) mesh.faces.add({ring[l], next[l], next[k]});
+    }
+    ring = std::move(next);
+  }
+  return mesh;
+}
+
+// A knob of height 0.065 reaches 1.6 radii from its neck, but holds less than 7π/3 radii cubed.
+TEST(Necks, AreNoneBelowKnobsAndDentsThatHoldLittle) {
+  for (const auto& [height, num_necks] : {std::pair(0.05, 0U), {0.065, 0U}, {0.12, 1U}})
+    for (const Side side : {Side::inside, Side::outside}) {
+      const SurfaceMesh mesh = knobbed_sphere(side == Side::inside ? height : -height);
+      ASSERT_EQ(find_defect(mesh), "");
+      ASSERT_NEAR(enclosed_volume(mesh), 4.0 / 3.0 * std::numbers::pi, 0.1);
+      const auto necks = find_necks(mesh, SurfaceTree(mesh), side, 0.045, {});
+      EXPECT_EQ(necks.size(), num_necks) << "knob of height " << height;
+    }
+}
+
+TEST(Necks, OfAThinPlatesHoleAreFound) {
+  // 0.08 thick, with round rims; its hole has the radius 0.04.
+  SurfaceMesh mesh = test::torus(48, 24, 0.6, 0.04);
+  for (Vec3& x : mesh.x) {
+    const double rho = std::hypot(x.x(), x.y()), from_middle = rho - 0.6;
+    const double moved =
+        rho + std::copysign(0.52 * std::min(1.0, std::abs(from_middle) / 0.02), from_middle);
+    x = Vec3(moved / rho * x.x(), moved / rho * x.y(), x.z());
+  }
+  const auto necks = find_necks(mesh, SurfaceTree(mesh), Side::outside, 0.045, {});
+  ASSERT_EQ(necks.size(), 1U);
+  EXPECT_NEAR(necks[0].radius, 0.04, 0.02 * 0.04);
 }
 
 TEST(Necks, OfAWavyThreadAreFoundOneAndAll) {
