@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/topology/cut_off.hpp"
 #include "meniscus/topology/face_patch.hpp"
 #include "meniscus/topology/thread.hpp"
 
@@ -67,89 +68,6 @@ bool is_around_vertex(const SurfaceMesh& mesh, const Section& section) {
       return std::ranges::find(mesh.faces[f], v) != mesh.faces[f].end();
     });
   });
-}
-
-/// What a section cuts off on one side of its plane; infinite where that comes round to the other
-/// side, as an arm of a torus does and what is around its hole.
-struct CutOff {
-  double reach = 0.0;   ///< how far it goes from the plane [R0]
-  double volume = 0.0;  ///< [R0³]
-};
-
-/// Whether the edge that a face which a section crosses shares with one beside it, and which is not
-/// crossed, lies above the section's plane: above the face's third vertex.
-bool is_joined_above(const SurfaceMesh& mesh, const Section& section, double side, FaceId crossed,
-                     FaceId beside) {
-  double shared = 0.0, third = 0.0;
-  for (const VertexId v : mesh.faces[crossed]) {
-    const double height = side * section.axis.dot(mesh.x[v] - section.center);
-    const bool is_shared = std::ranges::find(mesh.faces[beside], v) != mesh.faces[beside].end();
-    (is_shared ? shared : third) += height;
-  }
-  return 0.5 * shared > third;
-}
-
-double cone(const Vec3& apex, const Vec3& a, const Vec3& b, const Vec3& c) {
-  return (a - apex).dot((b - apex).cross(c - apex)) / 6.0;
-}
-
-double cone(const SurfaceMesh& mesh, const Vec3& apex, FaceId f) {
-  const FaceVertices& v = mesh.faces[f];
-  return cone(apex, mesh.x[v[0]], mesh.x[v[1]], mesh.x[v[2]]);
-}
-
-/// The volume of the cone from a section's centre to what lies above its plane of the k-th face
-/// that it crosses: the corner that the crossing cuts off, or the face without it.
-double cone_above(const SurfaceMesh& mesh, const Section& section, double side, std::size_t k) {
-  const FaceVertices& v = mesh.faces[section.faces[k]];
-  const Vec3 &p = section.points[k], &q = section.points[(k + 1) % section.points.size()];
-  std::array<bool, 3> is_above{};
-  for (std::size_t i = 0; i < 3; ++i)
-    is_above[i] = side * section.axis.dot(mesh.x[v[i]] - section.center) >= 0.0;
-  const auto num_above = std::ranges::count(is_above, true);
-  if (num_above == 0) return 0.0;
-  const double whole = cone(mesh, section.center, section.faces[k]);
-  if (num_above == 3) return whole;
-  const auto lone =
-      static_cast<std::size_t>(std::ranges::find(is_above, num_above == 1) - is_above.begin());
-  // The crossing goes from p to q or from q to p, seen from the corner: that with the face's sign.
-  const double corner = std::copysign(cone(section.center, mesh.x[v[lone]], p, q), whole);
-  return num_above == 1 ? corner : whole - corner;
-}
-
-CutOff cut_off(const SurfaceMesh& mesh, const FaceNeighbours& neighbours, const Section& section,
-               double side) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  CutOff result;
-  const auto visit = [&](FaceId f) {
-    for (const VertexId v : mesh.faces[f])
-      result.reach = std::max(result.reach, std::abs(section.axis.dot(mesh.x[v] - section.center)));
-  };
-  enum class Mark : char { unseen, seen, beyond };
-  FaceField<Mark> marks(mesh.num_faces(), Mark::unseen);
-  for (const FaceId f : section.faces) marks[f] = Mark::seen;
-  std::vector<FaceId> part;
-  for (std::size_t k = 0; k < section.faces.size(); ++k) {
-    const FaceId f = section.faces[k];
-    visit(f);
-    result.volume += cone_above(mesh, section, side, k);
-    for (const FaceId g : neighbours[f]) {
-      if (marks[g] != Mark::unseen) continue;
-      const bool is_above = is_joined_above(mesh, section, side, f, g);
-      marks[g] = is_above ? Mark::seen : Mark::beyond;
-      if (is_above) part.push_back(g);
-    }
-  }
-  for (std::size_t k = 0; k < part.size(); ++k) {
-    visit(part[k]);
-    result.volume += cone(mesh, section.center, part[k]);
-    for (const FaceId f : neighbours[part[k]]) {
-      if (marks[f] == Mark::beyond) return {kInfinity, kInfinity};
-      if (std::exchange(marks[f], Mark::seen) == Mark::unseen) part.push_back(f);
-    }
-  }
-  result.volume = std::abs(result.volume);
-  return result;
 }
 
 /// Whether a section cuts no more off than the end of a point or the rim of a lens, or, of the

@@ -9,6 +9,7 @@
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/remesh.hpp"
+#include "meniscus/topology/cut_off.hpp"
 #include "tests/surface/shapes.hpp"
 #include "tests/topology/scenes.hpp"
 
@@ -47,6 +48,35 @@ TEST(Section, EnclosesTheSmoothSurfacesAreaWithFewVertices) {
     EXPECT_LT(cut.section.area, 0.96 * circle);
     EXPECT_NEAR(smooth_area(cut.section, mesh, smooth), circle, 2e-3 * circle);
   }
+}
+
+TEST(CutOff, IsTheCapOfASphere) {
+  const SurfaceMesh mesh = sphere(4000);
+  const SurfaceTree tree(mesh);
+  const FaceNeighbours neighbours = face_neighbours(mesh, SurfaceTopology(mesh));
+  const double whole = enclosed_volume(mesh);
+  for (const double h : {-0.6, -0.1, 0.0, 0.5, 0.9}) {
+    const Vec3 axis = Vec3(1, 2, -2) / 3.0;
+    const SectionResult cut = section_around(mesh, tree, h * axis, axis, 3.0);
+    ASSERT_EQ(cut.kind, SectionKind::closed);
+    const CutOff above = cut_off(mesh, neighbours, cut.section, 1.0),
+                 below = cut_off(mesh, neighbours, cut.section, -1.0);
+    const double cap = std::numbers::pi * std::pow(1.0 - h, 2) * (2.0 + h) / 3.0;
+    EXPECT_NEAR(above.volume, cap, 3e-3 * std::sqrt(cap));
+    EXPECT_NEAR(above.volume + below.volume, whole, 1e-13);
+    EXPECT_NEAR(above.reach, 1.0 - h, 2e-3);
+    EXPECT_NEAR(below.reach, 1.0 + h, 2e-3);
+  }
+}
+
+TEST(CutOff, OfATorusComesRound) {
+  const SurfaceMesh mesh = test::torus(60, 24, 1.0, 0.3);
+  const SectionResult cut =
+      section_around(mesh, SurfaceTree(mesh), Vec3(1, 0, 0), Vec3(0, 1, 0), 0.6);
+  ASSERT_EQ(cut.kind, SectionKind::closed);
+  const FaceNeighbours neighbours = face_neighbours(mesh, SurfaceTopology(mesh));
+  for (const double side : {1.0, -1.0})
+    EXPECT_TRUE(std::isinf(cut_off(mesh, neighbours, cut.section, side).volume));
 }
 
 TEST(Necks, AreLeftAloneAboveTheLimit) { EXPECT_TRUE(necks_of(dumbbell(), 0.045).empty()); }
