@@ -1,6 +1,7 @@
 #include "meniscus/mesh/surface_check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <random>
 #include <vector>
@@ -177,15 +178,24 @@ bool encloses(const SurfaceMesh& mesh, const Vec3& point) {
 bool encloses(const SurfaceTree& tree, const Vec3& point) {
   if ((point.array() < tree.low().array()).any() || (point.array() > tree.high().array()).any())
     return false;
-  // Nearly along an axis, so that the ray's box touches few faces. A ray that grazes an edge or a
-  // vertex does not count: another direction is drawn.
-  const double reach = 2.0 * (tree.high() - tree.low()).norm();
+  // Rays nearly along an axis and no longer than out of the tree's box, the shortest first, so that
+  // their own boxes touch few faces. One that grazes an edge or a vertex does not count: another is
+  // drawn.
+  const double margin = 1e-3 * (tree.high() - tree.low()).norm();
+  std::array<double, 6> to_leave{};
+  for (int k = 0; k < 3; ++k) {
+    to_leave[k] = point[k] - tree.low()[k] + margin;
+    to_leave[k + 3] = tree.high()[k] - point[k] + margin;
+  }
+  std::array<std::size_t, 6> order{0, 1, 2, 3, 4, 5};
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return to_leave[k]; });
   std::minstd_rand random(1);
   std::uniform_real_distribution<double> tilt(-0.02, 0.02);
-  for (int attempt = 0; attempt < 16; ++attempt) {
+  for (std::size_t attempt = 0; attempt < 18; ++attempt) {
+    const std::size_t way = order[attempt % order.size()];
     Vec3 direction(tilt(random), tilt(random), tilt(random));
-    direction[attempt % 3] = 1.0;
-    const Vec3 end = point + reach * direction;
+    direction[static_cast<int>(way % 3)] = way < 3 ? -1.0 : 1.0;
+    const Vec3 end = point + to_leave[way] * direction;
     int crossings = 0;
     bool is_clear = true, is_on_surface = false;
     tree.visit_box(point.cwiseMin(end), point.cwiseMax(end), [&](FaceId, const Triangle& x) {
