@@ -35,16 +35,21 @@ TopologyOptions read_topology(Settings& settings, double edge_floor) {
   return options;
 }
 
+/// The surface whose integrals the flow solver takes.
+SurfaceShape surface_shape(FlowMethod method, fem::Elements elements) {
+  if (method == FlowMethod::boundary_integral) return SurfaceShape::patched;
+  return elements == fem::Elements::p2_p1 ? SurfaceShape::splined : SurfaceShape::faceted;
+}
+
 }  // namespace
 
 EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elements elements) {
   EvolutionOptions options;
-  const bool is_curved =
-      method == FlowMethod::boundary_integral || elements == fem::Elements::p2_p1;
-  options.surface = is_curved ? SurfaceShape::curved : SurfaceShape::faceted;
+  options.surface = surface_shape(method, elements);
   options.scheme = settings.choice<TimeScheme>(
       "time.scheme", {{"rk2", TimeScheme::rk2}, {"euler", TimeScheme::euler}});
-  if (is_curved) settings.prefer("interface.motion-normal", "smooth");
+  if (options.surface != SurfaceShape::faceted)
+    settings.prefer("interface.motion-normal", "smooth");
   options.motion_normal = settings.choice<MotionNormal>("interface.motion-normal",
                                                         {{"area-vector", MotionNormal::area_vector},
                                                          {"fit", MotionNormal::fit},

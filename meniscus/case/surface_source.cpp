@@ -121,7 +121,7 @@ void resolve(SurfaceMesh& mesh, const DropCase& drop, SurfaceShape faces, int in
   if (!report.ok)
     log::warning("drop {}: its surface stays as given, remeshing failed: {}", index,
                  report.failure);
-  if (faces == SurfaceShape::curved) restore_volume(mesh, volume, faces);
+  if (faces != SurfaceShape::faceted) restore_volume(mesh, volume, faces);
 }
 
 /// An ellipsoid starts from this many times N0 points, so that neither its volume nor its tips

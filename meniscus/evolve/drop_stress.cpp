@@ -27,7 +27,7 @@ Mat3 velocity_moment(const SurfaceMesh& mesh, const VertexField<Vec3>& u) {
 
 SurfaceMoments moments_of(const SurfaceMesh& mesh, const VertexField<Vec3>& u,
                           SurfaceShape surface) {
-  if (surface == SurfaceShape::curved) return curved_moments(mesh, u);
+  if (surface != SurfaceShape::faceted) return curved_moments(mesh, u, surface);
   return {enclosed_volume(mesh), normal_moment(mesh), velocity_moment(mesh, u)};
 }
 

@@ -77,7 +77,7 @@ std::optional<double> thinnest_neck(const Interface& interface, SurfaceShape fac
   if (necks.empty()) return std::nullopt;
   const Neck& neck = necks.front();
   double area = neck.area;
-  if (faces == SurfaceShape::curved) {
+  if (faces != SurfaceShape::faceted) {
     const SectionResult there =
         section_around(mesh, tree, neck.center, neck.axis, 4.0 * neck.radius);
     if (there.kind == SectionKind::closed)
@@ -206,10 +206,12 @@ double Evolution::step_length() const {
   return std::min(options_.max_step, options_.step_factor * capillary * shortest);
 }
 
-/// Of every interface and the outer boundary; none where no gap is asked about.
+/// Of every interface and the outer boundary; none where no gap is asked about or there is only one
+/// of them.
 std::vector<SurfaceTree> Evolution::trees_for_gaps() const {
   std::vector<SurfaceTree> trees;
-  if (options_.gap_layers == 0.0) return trees;
+  const std::size_t num_surfaces = scene_.interfaces.size() + (scene_.is_unbounded ? 0 : 1);
+  if (options_.gap_layers == 0.0 || num_surfaces < 2) return trees;
   for (const Interface& interface : scene_.interfaces) trees.emplace_back(interface.mesh);
   if (!scene_.is_unbounded) trees.emplace_back(scene_.boundary.mesh);
   return trees;
@@ -245,7 +247,7 @@ void Evolution::remesh_interfaces() {
       log::warning("{}", warnings_.back());
     }
     correction_[i] = report.volume_shift;
-    if (report.ok && options_.surface == SurfaceShape::curved)
+    if (report.ok && options_.surface != SurfaceShape::faceted)
       correction_[i] = std::abs(restore_volume(interface.mesh, interface.volume, options_.surface));
     if (report.ok && i < trees.size()) trees[i] = SurfaceTree(interface.mesh);
     if (report.ok) continue;
@@ -323,8 +325,8 @@ std::vector<DropRow> Evolution::drop_rows() const {
     row.drop = interface.drop;
     row.parent = interface.parent;
     row.shape = drop_shape(interface.mesh, scene_.flow.family());
-    if (options_.surface == SurfaceShape::curved) {
-      const CurvedMeasures curved = curved_measures(interface.mesh);
+    if (options_.surface != SurfaceShape::faceted) {
+      const CurvedMeasures curved = curved_measures(interface.mesh, options_.surface);
       row.shape.volume = curved.volume;
       row.shape.area = curved.area;
       row.shape.D_inertia = inertial_deformation(curved.second_moments, curved.volume);

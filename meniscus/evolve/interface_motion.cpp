@@ -25,7 +25,8 @@ VertexField<Vec3> motion_normals(const SurfaceMesh& mesh, MotionNormal normal) {
 
 /// dS/dt of the parabolic faces by a central difference over displacements of a ten-thousandth of
 /// an edge: its error, some 1e-8 of the rate, is that of the square and of round-off alike.
-double curved_area_rate(const SurfaceMesh& mesh, const VertexField<Vec3>& motion) {
+double curved_area_rate(const SurfaceMesh& mesh, const VertexField<Vec3>& motion,
+                        SurfaceShape surface) {
   double fastest = 0.0;
   for (const Vec3& w : motion) fastest = std::max(fastest, w.norm());
   if (fastest == 0.0) return 0.0;
@@ -33,7 +34,7 @@ double curved_area_rate(const SurfaceMesh& mesh, const VertexField<Vec3>& motion
   const auto area_after = [&](double time) {
     SurfaceMesh moved = mesh;
     for (const VertexId v : motion.ids()) moved.x[v] += time * motion[v];
-    return curved_measures(moved).area;
+    return curved_measures(moved, surface).area;
   };
   return (area_after(dt) - area_after(-dt)) / (2.0 * dt);
 }
@@ -77,12 +78,13 @@ void translate_interfaces(Scene& scene, const Vec3& shift) {
 }
 
 double restore_volume(SurfaceMesh& mesh, double volume, SurfaceShape surface) {
-  return surface == SurfaceShape::curved ? restore_curved_volume(mesh, volume)
-                                         : restore_volume(mesh, volume);
+  return surface == SurfaceShape::faceted ? restore_volume(mesh, volume)
+                                          : restore_curved_volume(mesh, volume, surface);
 }
 
 double volume_of(const SurfaceMesh& mesh, SurfaceShape surface) {
-  return surface == SurfaceShape::curved ? curved_measures(mesh).volume : enclosed_volume(mesh);
+  return surface == SurfaceShape::faceted ? enclosed_volume(mesh)
+                                          : curved_measures(mesh, surface).volume;
 }
 
 double surface_energy_rate(const Scene& scene, const InterfaceMotion& motion,
@@ -91,8 +93,8 @@ double surface_energy_rate(const Scene& scene, const InterfaceMotion& motion,
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
     const Interface& interface = scene.interfaces[i];
     if (interface.tension == 0.0) continue;
-    if (surface == SurfaceShape::curved) {
-      rate += interface.tension * curved_area_rate(interface.mesh, motion[i]);
+    if (surface != SurfaceShape::faceted) {
+      rate += interface.tension * curved_area_rate(interface.mesh, motion[i], surface);
       continue;
     }
     const VertexField<Vec3> gradient = area_gradient(interface.mesh);

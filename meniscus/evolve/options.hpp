@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meniscus/surface/edge_middles.hpp"
 #include "meniscus/topology/apply_topology.hpp"
 
 namespace meniscus {
@@ -9,9 +10,6 @@ enum class TimeScheme { rk2, euler };  ///< eqs 22 and 21 of hooper2001
 /// the faceted volume's rate of change at round-off), of the paraboloid fit (the paper's), or of
 /// the smooth surface (O(h³), where that of an area vector on an irregular mesh is O(h)).
 enum class MotionNormal { area_vector, fit, smooth };
-/// The surface that an interface's vertices stand for, whose volume is kept and whose area stores
-/// energy: the flat faces, or the parabolic ones of curved elements.
-enum class SurfaceShape { faceted, curved };
 enum class StepEdges { interface, mesh };  ///< where l_min of the step rule is looked for
 
 struct EvolutionOptions {

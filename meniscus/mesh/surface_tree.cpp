@@ -17,58 +17,59 @@ double squared_distance_to_box(const Vec3& p, const Vec3& low, const Vec3& high)
   return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
 }
 
-/// Where a ray enters a box, or infinity. A direction component of zero divides to ±infinity, as
-/// the slab test wants; 0/0 (a ray within a face of the box) is read as "inside the slab".
-double ray_entry(const Vec3& origin, const Vec3& direction, const Vec3& low, const Vec3& high) {
-  double enter = 0.0, leave = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < 3; ++k) {
-    const double a = (low[k] - origin[k]) / direction[k], b = (high[k] - origin[k]) / direction[k];
-    if (std::isnan(a) || std::isnan(b)) continue;
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b));
-  }
-  return enter <= leave ? enter : std::numeric_limits<double>::infinity();
-}
-
 bool boxes_touch(const Vec3& low, const Vec3& high, const Vec3& other_low, const Vec3& other_high) {
   return (low.array() <= other_high.array()).all() && (other_low.array() <= high.array()).all();
 }
 
+Vec3 low_corner(const Triangle& x) { return x[0].cwiseMin(x[1]).cwiseMin(x[2]); }
+Vec3 high_corner(const Triangle& x) { return x[0].cwiseMax(x[1]).cwiseMax(x[2]); }
+
 }  // namespace
+
+/// A face while the tree is built.
+struct SurfaceTree::Sorted {
+  Vec3 low, high;
+  FaceId face;
+
+  [[nodiscard]] double twice_middle(Eigen::Index axis) const { return low[axis] + high[axis]; }
+};
 
 SurfaceTree::SurfaceTree(const SurfaceMesh& mesh) {
   MENISCUS_ASSERT(mesh.num_faces() > 0, "a tree needs faces");
-  leaves_.reserve(static_cast<std::size_t>(mesh.num_faces()));
-  for (const FaceId f : mesh.faces.ids()) {
+  const auto corners = [&](FaceId f) -> Triangle {
     const FaceVertices& v = mesh.faces[f];
-    leaves_.push_back({{mesh.x[v[0]], mesh.x[v[1]], mesh.x[v[2]]}, f});
+    return {mesh.x[v[0]], mesh.x[v[1]], mesh.x[v[2]]};
+  };
+  std::vector<Sorted> faces;
+  faces.reserve(static_cast<std::size_t>(mesh.num_faces()));
+  for (const FaceId f : mesh.faces.ids()) {
+    const Triangle x = corners(f);
+    faces.push_back({low_corner(x), high_corner(x), f});
   }
-  nodes_.reserve(leaves_.size());
-  build(0, mesh.num_faces());
+  nodes_.reserve(faces.size());
+  build(faces, 0);
+  leaves_.reserve(faces.size());
+  for (const Sorted& sorted : faces) leaves_.push_back({corners(sorted.face), sorted.face});
 }
 
-void SurfaceTree::build(std::int32_t begin, std::int32_t end) {
+void SurfaceTree::build(std::span<Sorted> faces, std::int32_t begin) {
   const auto node = nodes_.size();
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Vec3 low = Vec3::Constant(kInfinity), high = -low;
-  for (std::int32_t i = begin; i < end; ++i)
-    for (const Vec3& x : leaves_[static_cast<std::size_t>(i)].corners) {
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
-    }
-  nodes_.push_back({low, high, begin, end, 0});
-  if (end - begin <= kLeafSize) return;
+  const auto count = static_cast<std::int32_t>(faces.size());
+  Vec3 low = faces.front().low, high = faces.front().high;
+  for (const Sorted& face : faces) {
+    low = low.cwiseMin(face.low);
+    high = high.cwiseMax(face.high);
+  }
+  nodes_.push_back({low, high, begin, begin + count, 0});
+  if (count <= kLeafSize) return;
   Eigen::Index axis = 0;
   (high - low).maxCoeff(&axis);
-  const auto along = [axis](const Leaf& leaf) {
-    return leaf.corners[0][axis] + leaf.corners[1][axis] + leaf.corners[2][axis];
-  };
-  const std::int32_t middle = begin + (end - begin) / 2;
-  std::nth_element(leaves_.begin() + begin, leaves_.begin() + middle, leaves_.begin() + end,
-                   [&](const Leaf& a, const Leaf& b) { return along(a) < along(b); });
-  build(begin, middle);
+  const std::int32_t half = count / 2;
+  std::ranges::nth_element(faces, faces.begin() + half, {},
+                           [axis](const Sorted& face) { return face.twice_middle(axis); });
+  build(faces.first(static_cast<std::size_t>(half)), begin);
   nodes_[node].right = static_cast<std::int32_t>(nodes_.size());
-  build(middle, end);
+  build(faces.subspan(static_cast<std::size_t>(half)), begin + half);
 }
 
 struct SurfaceTree::ClosestSearch {
@@ -112,34 +113,58 @@ void SurfaceTree::search_closest(std::int32_t node, ClosestSearch& search) const
   if (far_reach < search.shrink * search.squared) search_closest(far, search);
 }
 
+struct SurfaceTree::RaySearch {
+  const Vec3& origin;
+  const Vec3& direction;
+  Vec3 inverse;   // 1/direction, infinite where the ray runs along a face of the boxes
+  double margin;  // keeps a hit on the very edge of a flat box, which rounding could cut off
+  Hit best;
+
+  /// Where the ray enters a box, or infinity. 0 · ∞ (a ray within a face of the box) is read as
+  /// "inside the slab".
+  [[nodiscard]] double entry(const Node& node) const {
+    double enter = 0.0, leave = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+      const double a = (node.low[k] - margin - origin[k]) * inverse[k],
+                   b = (node.high[k] + margin - origin[k]) * inverse[k];
+      if (std::isnan(a) || std::isnan(b)) continue;
+      enter = std::max(enter, std::min(a, b));
+      leave = std::min(leave, std::max(a, b));
+    }
+    return enter <= leave ? enter : std::numeric_limits<double>::infinity();
+  }
+};
+
 std::optional<SurfaceTree::Hit> SurfaceTree::first_hit(const Vec3& origin, const Vec3& direction,
                                                        double within) const {
-  Hit best;
-  best.distance = within;
-  search_ray(0, origin, direction, best);
-  if (!best.face.is_valid()) return std::nullopt;
-  return best;
+  RaySearch search{origin, direction, direction.cwiseInverse(), 1e-9 * (high() - low()).norm(), {}};
+  search.best.distance = within;
+  if (search.entry(nodes_.front()) < within) search_ray(0, search);
+  if (!search.best.face.is_valid()) return std::nullopt;
+  return search.best;
 }
 
-void SurfaceTree::search_ray(std::int32_t node, const Vec3& origin, const Vec3& direction,
-                             Hit& best) const {
+void SurfaceTree::search_ray(std::int32_t node, RaySearch& search) const {
   const Node& here = nodes_[static_cast<std::size_t>(node)];
-  // The slack keeps a hit on the very edge of a flat box, which rounding could cut off.
-  const double slack = 1e-9 * (here.high - here.low).norm();
-  const Vec3 margin = Vec3::Constant(slack);
-  if (!(ray_entry(origin, direction, here.low - margin, here.high + margin) < best.distance))
-    return;
-  if (here.right != 0) {
-    search_ray(node + 1, origin, direction, best);
-    search_ray(here.right, origin, direction, best);
+  if (here.right == 0) {
+    for (std::int32_t i = here.begin; i < here.end; ++i) {
+      const Leaf& leaf = leaves_[static_cast<std::size_t>(i)];
+      const std::optional<RayHit> hit =
+          intersect_ray(leaf.corners, search.origin, search.direction);
+      if (hit && hit->t < search.best.distance)
+        search.best = {leaf.face, search.origin + hit->t * search.direction, hit->weights, hit->t};
+    }
     return;
   }
-  for (std::int32_t i = here.begin; i < here.end; ++i) {
-    const Leaf& leaf = leaves_[static_cast<std::size_t>(i)];
-    const std::optional<RayHit> hit = intersect_ray(leaf.corners, origin, direction);
-    if (hit && hit->t < best.distance)
-      best = {leaf.face, origin + hit->t * direction, hit->weights, hit->t};
+  std::int32_t near = node + 1, far = here.right;
+  double near_entry = search.entry(nodes_[static_cast<std::size_t>(near)]),
+         far_entry = search.entry(nodes_[static_cast<std::size_t>(far)]);
+  if (far_entry < near_entry) {
+    std::swap(near, far);
+    std::swap(near_entry, far_entry);
   }
+  if (near_entry < search.best.distance) search_ray(near, search);
+  if (far_entry < search.best.distance) search_ray(far, search);
 }
 
 template <class IsOpen>
@@ -158,9 +183,7 @@ void SurfaceTree::visit_where(const IsOpen& is_open, const Visit& visit) const {
     for (std::int32_t i = here.begin; i < here.end; ++i) {
       const Leaf& leaf = leaves_[static_cast<std::size_t>(i)];
       const auto& x = leaf.corners;
-      if (is_open(x[0].cwiseMin(x[1]).cwiseMin(x[2]), x[0].cwiseMax(x[1]).cwiseMax(x[2])) &&
-          !visit(leaf.face, x))
-        return;
+      if (is_open(low_corner(x), high_corner(x)) && !visit(leaf.face, x)) return;
     }
   }
 }
@@ -169,6 +192,50 @@ void SurfaceTree::visit_box(const Vec3& low, const Vec3& high, const Visit& visi
   visit_where([&](const Vec3& other_low,
                   const Vec3& other_high) { return boxes_touch(low, high, other_low, other_high); },
               visit);
+}
+
+void SurfaceTree::visit_touching_pairs(const VisitPair& visit) const {
+  static_cast<void>(visit_pairs_within(0, visit));
+}
+
+bool SurfaceTree::visit_pairs_within(std::int32_t node, const VisitPair& visit) const {
+  const Node& here = nodes_[static_cast<std::size_t>(node)];
+  if (here.right != 0)
+    return visit_pairs_within(node + 1, visit) &&
+           visit_pairs_between(node + 1, here.right, visit) &&
+           visit_pairs_within(here.right, visit);
+  for (std::int32_t i = here.begin; i < here.end; ++i)
+    for (std::int32_t j = i + 1; j < here.end; ++j) {
+      const Leaf &a = leaves_[static_cast<std::size_t>(i)],
+                 &b = leaves_[static_cast<std::size_t>(j)];
+      if (boxes_touch(low_corner(a.corners), high_corner(a.corners), low_corner(b.corners),
+                      high_corner(b.corners)) &&
+          !visit(a.face, a.corners, b.face, b.corners))
+        return false;
+    }
+  return true;
+}
+
+bool SurfaceTree::visit_pairs_between(std::int32_t a, std::int32_t b,
+                                      const VisitPair& visit) const {
+  const Node &first = nodes_[static_cast<std::size_t>(a)],
+             &second = nodes_[static_cast<std::size_t>(b)];
+  if (!boxes_touch(first.low, first.high, second.low, second.high)) return true;
+  if (first.end - first.begin < second.end - second.begin) return visit_pairs_between(b, a, visit);
+  if (first.right != 0)
+    return visit_pairs_between(a + 1, b, visit) && visit_pairs_between(first.right, b, visit);
+  for (std::int32_t i = first.begin; i < first.end; ++i) {
+    const Leaf& one = leaves_[static_cast<std::size_t>(i)];
+    const Vec3 low = low_corner(one.corners), high = high_corner(one.corners);
+    if (!boxes_touch(low, high, second.low, second.high)) continue;
+    for (std::int32_t j = second.begin; j < second.end; ++j) {
+      const Leaf& other = leaves_[static_cast<std::size_t>(j)];
+      if (boxes_touch(low, high, low_corner(other.corners), high_corner(other.corners)) &&
+          !visit(one.face, one.corners, other.face, other.corners))
+        return false;
+    }
+  }
+  return true;
 }
 
 void SurfaceTree::visit_slice(const Vec3& low, const Vec3& high, const Vec3& origin,

@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "meniscus/geometry/triangle.hpp"
@@ -37,7 +38,11 @@ class SurfaceTree {
   /// Calls `visit` for every face whose box the box [low, high] touches, until it returns false.
   using Visit = std::function<bool(FaceId, const Triangle&)>;
   void visit_box(const Vec3& low, const Vec3& high, const Visit& visit) const;
-  /// The same, but only faces whose box the plane through `origin` normal to `normal` meets too.
+  /// Calls `visit` for every two faces whose boxes touch, once, until it returns false.
+  using VisitPair = std::function<bool(FaceId, const Triangle&, FaceId, const Triangle&)>;
+  void visit_touching_pairs(const VisitPair& visit) const;
+  /// As visit_box, but only faces whose box the plane through `origin` normal to `normal` meets
+  /// too.
   void visit_slice(const Vec3& low, const Vec3& high, const Vec3& origin, const Vec3& normal,
                    const Visit& visit) const;
 
@@ -54,12 +59,17 @@ class SurfaceTree {
     Vec3 low, high;
     std::int32_t begin, end, right;
   };
-  void build(std::int32_t begin, std::int32_t end);
+  struct Sorted;
+  void build(std::span<Sorted> faces, std::int32_t begin);
   struct ClosestSearch;
+  [[nodiscard]] bool visit_pairs_within(std::int32_t node, const VisitPair& visit) const;
+  [[nodiscard]] bool visit_pairs_between(std::int32_t a, std::int32_t b,
+                                         const VisitPair& visit) const;
   void search_closest(std::int32_t node, ClosestSearch& search) const;
   template <class IsOpen>
   void visit_where(const IsOpen& is_open, const Visit& visit) const;
-  void search_ray(std::int32_t node, const Vec3& origin, const Vec3& direction, Hit& best) const;
+  struct RaySearch;
+  void search_ray(std::int32_t node, RaySearch& search) const;
 
   std::vector<Leaf> leaves_;
   std::vector<Node> nodes_;

@@ -11,8 +11,8 @@ namespace meniscus {
 namespace {
 
 constexpr int kLeastValence = 5;       // a paraboloid with its normal free has five unknowns
-constexpr int kMaxTurns = 30;          // four or five are usual
-constexpr double kSlopeAtRest = 1e-8;  // radians; curvatures are exact to its square
+constexpr int kMaxTurns = 30;          // two are usual
+constexpr double kSlopeAtRest = 1e-8;  // radians
 
 /// What is fitted: heights above the tangent plane, or heights of circles.
 enum class Form { paraboloid, osculating };
@@ -20,9 +20,9 @@ enum class Form { paraboloid, osculating };
 /// Fits and turns the frame until the linear terms vanish, by the secant method: a turn changes the
 /// slope by itself times 1 + O(h), nearly the same each time.
 std::optional<HeightPatch> turned_fit(const Vec3& x, const Vec3& normal_guess,
-                                      std::span<const Vec3> points, PatchDegree degree, Form form) {
+                                      std::span<const Vec3> points, PatchDegree degree, Form form,
+                                      std::vector<Vec3>& unrolled) {
   HeightPatch frame = flat_patch(x, normal_guess);
-  std::vector<Vec3> unrolled;
   std::optional<HeightPatch> patch;
   Vec3 slope_before = Vec3::Zero(), turn_before = Vec3::Zero();
   for (int turn = 0; turn < kMaxTurns; ++turn) {
@@ -46,9 +46,10 @@ std::optional<HeightPatch> turned_fit(const Vec3& x, const Vec3& normal_guess,
 }
 
 VertexCurvature curvature_at(VertexId v, const SurfaceMesh& mesh, const SurfaceTopology& topology,
-                             RingGatherer& rings, Form form) {
+                             RingGatherer& rings, Form form, std::vector<Vec3>& unrolled) {
   const auto fit = [&](bool with_second_ring, PatchDegree degree) {
-    return turned_fit(mesh.x[v], rings.normal(v), rings.gather(v, with_second_ring), degree, form);
+    return turned_fit(mesh.x[v], rings.normal(v), rings.gather(v, with_second_ring), degree, form,
+                      unrolled);
   };
   std::optional<HeightPatch> patch;
   if (topology.valence(v) >= kLeastValence) patch = fit(false, PatchDegree::quadratic);
@@ -59,10 +60,11 @@ VertexCurvature curvature_at(VertexId v, const SurfaceMesh& mesh, const SurfaceT
 }
 
 VertexField<VertexCurvature> curvatures(const SurfaceMesh& mesh, const SurfaceTopology& topology,
-                                        Form form) {
-  RingGatherer rings(mesh, topology);
+                                        RingGatherer& rings, Form form) {
+  std::vector<Vec3> unrolled;
   VertexField<VertexCurvature> result(mesh.num_vertices());
-  for (const VertexId v : mesh.x.ids()) result[v] = curvature_at(v, mesh, topology, rings, form);
+  for (const VertexId v : mesh.x.ids())
+    result[v] = curvature_at(v, mesh, topology, rings, form, unrolled);
   return result;
 }
 
@@ -72,12 +74,20 @@ double VertexCurvature::rms() const { return std::sqrt(0.5 * (k1 * k1 + k2 * k2)
 
 VertexField<VertexCurvature> fitted_curvature(const SurfaceMesh& mesh,
                                               const SurfaceTopology& topology) {
-  return curvatures(mesh, topology, Form::paraboloid);
+  RingGatherer rings(mesh, topology);
+  return curvatures(mesh, topology, rings, Form::paraboloid);
 }
 
 VertexField<VertexCurvature> osculating_curvature(const SurfaceMesh& mesh,
                                                   const SurfaceTopology& topology) {
-  return curvatures(mesh, topology, Form::osculating);
+  RingGatherer rings(mesh, topology);
+  return osculating_curvature(mesh, topology, rings);
+}
+
+VertexField<VertexCurvature> osculating_curvature(const SurfaceMesh& mesh,
+                                                  const SurfaceTopology& topology,
+                                                  RingGatherer& rings) {
+  return curvatures(mesh, topology, rings, Form::osculating);
 }
 
 }  // namespace meniscus

@@ -4,6 +4,8 @@
 
 namespace meniscus {
 
+class RingGatherer;
+
 /// Second-order geometry at a vertex. k1 ≥ k2, positive where the surface bends away from n, so
 /// that κ = k1 + k2 = 2 on the unit sphere.
 struct VertexCurvature {
@@ -29,5 +31,9 @@ struct VertexCurvature {
 /// O(h²).
 [[nodiscard]] VertexField<VertexCurvature> osculating_curvature(const SurfaceMesh& mesh,
                                                                 const SurfaceTopology& topology);
+/// The same, with the mesh's rings at hand.
+[[nodiscard]] VertexField<VertexCurvature> osculating_curvature(const SurfaceMesh& mesh,
+                                                                const SurfaceTopology& topology,
+                                                                RingGatherer& rings);
 
 }  // namespace meniscus

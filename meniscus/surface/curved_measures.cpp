@@ -9,7 +9,6 @@
 
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/edge_interpolation.hpp"
-#include "meniscus/surface/edge_middles.hpp"
 #include "meniscus/surface/remesh.hpp"
 #include "meniscus/surface/smooth_surface.hpp"
 
@@ -17,15 +16,37 @@ namespace meniscus {
 namespace {
 
 constexpr double kVolumeTolerance = 1e-12;  // relative
-// The first step leaves the O(h²) part by which curved and flat volumes answer a shift differently;
-// from then on the secant knows it, and three or four steps are enough.
-constexpr int kMaxSteps = 30;
+// The first shift leaves the O(h²) part by which curved and flat volumes answer it differently, a
+// hundredth or so; from then on the secant knows it.
+constexpr int kMostShifts = 30;
+// What is left of the missing volume after the shifts is made up for by a change of scale, which is
+// exact and costs no more middles.
+constexpr double kLeftToScale = 0.1;
+
+/// A point of a rule on a parabolic triangle: the quadratic functions, corners first, and their
+/// derivatives by the second and the third barycentric coordinate.
+struct RulePoint {
+  std::array<double, 6> shape{}, by_1{}, by_2{};
+  double share = 0.0;  ///< of the face's area
+};
+
+RulePoint rule_point(const std::array<double, 3>& b, double share) {
+  RulePoint point;
+  point.share = share;
+  constexpr std::array<double, 3> by_1 = {-1, 1, 0}, by_2 = {-1, 0, 1};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    point.shape[i] = b[i] * (2.0 * b[i] - 1.0);
+    point.by_1[i] = (4.0 * b[i] - 1.0) * by_1[i];
+    point.by_2[i] = (4.0 * b[i] - 1.0) * by_2[i];
+    point.shape[3 + i] = 4.0 * b[i] * b[j];
+    point.by_1[3 + i] = 4.0 * (b[i] * by_1[j] + b[j] * by_1[i]);
+    point.by_2[3 + i] = 4.0 * (b[i] * by_2[j] + b[j] * by_2[i]);
+  }
+  return point;
+}
 
 /// Degree 4 on triangles, 6 points (dunavant1985): exact for the volume under a parabolic face.
-struct RulePoint {
-  Vec3 barycentric;
-  double share;
-};
 const std::array<RulePoint, 6> kRule = [] {
   std::array<RulePoint, 6> rule;
   constexpr std::array<std::array<double, 2>, 2> orbits = {
@@ -33,9 +54,10 @@ const std::array<RulePoint, 6> kRule = [] {
        {0.0915762135097707435, 0.109951743655321868}}};
   std::size_t q = 0;
   for (const auto& [a, share] : orbits)
-    for (int k = 0; k < 3; ++k, ++q) {
-      rule[q] = {Vec3::Constant(a), share};
-      rule[q].barycentric[k] = 1.0 - 2.0 * a;
+    for (std::size_t k = 0; k < 3; ++k, ++q) {
+      std::array<double, 3> barycentric = {a, a, a};
+      barycentric[k] = 1.0 - 2.0 * a;
+      rule[q] = rule_point(barycentric, share);
     }
   return rule;
 }();
@@ -68,56 +90,52 @@ FaceField<ParabolicFace> parabolic_faces(const SurfaceMesh& mesh, const SurfaceT
   return faces;
 }
 
+Vec3 combined(const std::array<double, 6>& weights, const ParabolicFace& nodes) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < nodes.size(); ++k) sum += weights[k] * nodes[k];
+  return sum;
+}
+
 /// The face at a point of the rule.
 struct FacePoint {
-  std::array<double, 6> shape;  ///< the quadratic functions
-  Vec3 x, area;                 ///< area: n dS
-
-  [[nodiscard]] Vec3 value(const ParabolicFace& nodes) const {
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t k = 0; k < nodes.size(); ++k) sum += shape[k] * nodes[k];
-    return sum;
-  }
+  Vec3 x, area;  ///< area: n dS
 };
 
 FacePoint face_point(const ParabolicFace& x, const RulePoint& at) {
-  FacePoint point;
-  Vec3 t1 = Vec3::Zero(), t2 = Vec3::Zero();
-  const std::array<double, 3> by_1 = {-1, 1, 0}, by_2 = {-1, 0, 1};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const auto bi = at.barycentric[static_cast<Eigen::Index>(i)],
-               bj = at.barycentric[static_cast<Eigen::Index>(j)];
-    point.shape[i] = bi * (2.0 * bi - 1.0);
-    point.shape[3 + i] = 4.0 * bi * bj;
-    t1 += (4.0 * bi - 1.0) * by_1[i] * x[i] + 4.0 * (bi * by_1[j] + bj * by_1[i]) * x[3 + i];
-    t2 += (4.0 * bi - 1.0) * by_2[i] * x[i] + 4.0 * (bi * by_2[j] + bj * by_2[i]) * x[3 + i];
-  }
-  point.x = point.value(x);
-  point.area = 0.5 * at.share * t1.cross(t2);
-  return point;
+  return {combined(at.shape, x), 0.5 * at.share * combined(at.by_1, x).cross(combined(at.by_2, x))};
 }
 
-/// The volume may jump past what is asked as vertices shift: which vertices a fit takes hangs on
-/// where they are. A similarity changes none of that, so V ∝ scale³. Returns how far the surface
-/// moves on average, (scale − 1) 3V/A.
-double scale_to_curved_volume(SurfaceMesh& mesh, double volume) {
-  const CurvedMeasures measures = curved_measures(mesh);
+double curved_volume(const SurfaceMesh& mesh, const SurfaceTopology& topology, SurfaceShape shape) {
+  double volume = 0.0;
+  for (const ParabolicFace& face :
+       parabolic_faces(mesh, topology, edge_middles(mesh, topology, shape)))
+    for (const RulePoint& at : kRule) {
+      const FacePoint point = face_point(face, at);
+      volume += point.x.dot(point.area) / 3.0;
+    }
+  return volume;
+}
+
+/// From the volume that the curved surface has, by a change of scale about the centroid, which
+/// moves the middles as it moves the vertices, so that V ∝ scale³ exactly. Returns how far the
+/// surface moves on average, (scale − 1) 3V/A.
+double scale_to_volume(SurfaceMesh& mesh, double from, double to) {
   // A surface far off is crumpled; its curved volume says nothing.
-  if (!(measures.volume > 0.5 * volume && measures.volume < 2.0 * volume)) return 0.0;
+  if (!(from > 0.5 * to && from < 2.0 * to)) return 0.0;
   const Vec3 center = enclosed_centroid(mesh);
-  const double scale = std::cbrt(volume / measures.volume);
+  const double scale = std::cbrt(to / from);
   for (Vec3& x : mesh.x) x = center + scale * (x - center);
-  return (scale - 1.0) * 3.0 * measures.volume / measures.area;
+  return (scale - 1.0) * 3.0 * from / surface_area(mesh);
 }
 
 }  // namespace
 
-CurvedMeasures curved_measures(const SurfaceMesh& mesh) {
+CurvedMeasures curved_measures(const SurfaceMesh& mesh, SurfaceShape shape) {
   const SurfaceTopology topology(mesh);
   CurvedMeasures measures;
   Vec3 first = Vec3::Zero();
-  for (const ParabolicFace& face : parabolic_faces(mesh, topology, edge_middles(mesh, topology)))
+  const std::vector<Vec3> middles = edge_middles(mesh, topology, shape);
+  for (const ParabolicFace& face : parabolic_faces(mesh, topology, middles))
     for (const RulePoint& at : kRule) {
       const FacePoint point = face_point(face, at);
       const double flux = point.x.dot(point.area);
@@ -131,9 +149,10 @@ CurvedMeasures curved_measures(const SurfaceMesh& mesh) {
   return measures;
 }
 
-SurfaceMoments curved_moments(const SurfaceMesh& mesh, const VertexField<Vec3>& u) {
+SurfaceMoments curved_moments(const SurfaceMesh& mesh, const VertexField<Vec3>& u,
+                              SurfaceShape shape) {
   const SurfaceTopology topology(mesh);
-  const std::vector<Vec3> middles = edge_middles(mesh, topology);
+  const std::vector<Vec3> middles = edge_middles(mesh, topology, shape);
   std::vector<Vec3> u_middles;
   for (const Stencil& stencil : edge_stencils(mesh, topology, smooth_normals(mesh), middles)) {
     Vec3& sum = u_middles.emplace_back(Vec3::Zero());
@@ -146,7 +165,7 @@ SurfaceMoments curved_moments(const SurfaceMesh& mesh, const VertexField<Vec3>& 
     for (const RulePoint& at : kRule) {
       const FacePoint point = face_point(faces[f], at);
       moments.volume += point.x.dot(point.area) / 3.0;
-      moments.velocity += point.value(velocity[f]) * point.area.transpose();
+      moments.velocity += combined(at.shape, velocity[f]) * point.area.transpose();
       if (const double size = point.area.norm(); size > 0.0)
         moments.normals += point.area * point.area.transpose() / size;
     }
@@ -160,25 +179,28 @@ VertexField<Vec3> smooth_normals(const SurfaceMesh& mesh) {
   return normals;
 }
 
-double restore_curved_volume(SurfaceMesh& mesh, double volume) {
-  double shift = 0.0, moved = 0.0, last = std::numeric_limits<double>::infinity();
+double restore_curved_volume(SurfaceMesh& mesh, double volume, SurfaceShape shape) {
+  const SurfaceTopology topology(mesh);
+  double enclosed = curved_volume(mesh, topology, shape);
+  const double first = std::abs(volume - enclosed);
+  double shift = 0.0;
   double gain = 1.0;  // what flat faces must gain for the curved ones to gain one
-  VertexField<Vec3> before;
-  for (int step = 0; step < kMaxSteps; ++step) {
-    const double missing = volume - curved_measures(mesh).volume;
+  for (int step = 0; step < kMostShifts; ++step) {
+    const double missing = volume - enclosed;
     if (std::abs(missing) <= kVolumeTolerance * volume) return shift;
-    if (std::abs(missing) >= std::abs(last)) {
+    if (step > 0 && std::abs(missing) <= kLeftToScale * first) break;
+    const VertexField<Vec3> before = mesh.x;
+    const double moved = restore_volume(mesh, enclosed_volume(mesh) + gain * missing);
+    const double shifted = curved_volume(mesh, topology, shape), left = volume - shifted;
+    if (!(std::abs(left) < std::abs(missing))) {
       mesh.x = before;
-      shift -= moved;
       break;
     }
-    if (step > 0) gain *= last / (last - missing);
-    last = missing;
-    before = mesh.x;
-    moved = restore_volume(mesh, enclosed_volume(mesh) + gain * missing);
+    gain *= missing / (missing - left);
     shift += moved;
+    enclosed = shifted;
   }
-  return shift + scale_to_curved_volume(mesh, volume);
+  return shift + scale_to_volume(mesh, enclosed, volume);
 }
 
 }  // namespace meniscus

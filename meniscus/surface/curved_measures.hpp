@@ -1,7 +1,6 @@
 #pragma once
 
-#include "meniscus/core/vec.hpp"
-#include "meniscus/mesh/surface_mesh.hpp"
+#include "meniscus/surface/edge_middles.hpp"
 
 namespace meniscus {
 
@@ -13,7 +12,7 @@ struct CurvedMeasures {
   double area = 0.0;                   ///< [R0²]
   Mat3 second_moments = Mat3::Zero();  ///< ∫ (x − c)(x − c)ᵀ dV about the centroid c [R0⁵]
 };
-[[nodiscard]] CurvedMeasures curved_measures(const SurfaceMesh& mesh);
+[[nodiscard]] CurvedMeasures curved_measures(const SurfaceMesh& mesh, SurfaceShape shape);
 
 /// The integrals over that surface of which a drop's stress is made.
 struct SurfaceMoments {
@@ -22,16 +21,18 @@ struct SurfaceMoments {
   Mat3 velocity = Mat3::Zero();  ///< ∫ un dS [G R0³], u quadratic on the faces
 };
 /// The middles of edges get `u` from the quadratics that fit it around both ends: O(h³).
-[[nodiscard]] SurfaceMoments curved_moments(const SurfaceMesh& mesh, const VertexField<Vec3>& u);
+[[nodiscard]] SurfaceMoments curved_moments(const SurfaceMesh& mesh, const VertexField<Vec3>& u,
+                                            SurfaceShape shape);
 
 /// Unit normals of the smooth surface at the vertices, O(h³).
 [[nodiscard]] VertexField<Vec3> smooth_normals(const SurfaceMesh& mesh);
 
-/// Shifts every vertex by the same multiple of its unit area vector so that the parabolic triangles
-/// enclose `volume` to 1e-12 relative; returns the size of the shift [R0], signed outward. Where no
-/// such shift is found, as coarse surfaces' volumes jump while vertices shift, what is left is made
-/// up for by a change of scale about the centroid; not where the curved volume is off by more than
-/// a factor of two, as on crumpled surfaces: it then stays off.
-double restore_curved_volume(SurfaceMesh& mesh, double volume);
+/// Shifts every vertex by the same multiple of its unit area vector until the parabolic triangles
+/// lack at most a tenth of what they lacked of `volume`, commonly a hundredth after one shift; a
+/// change of scale about the centroid makes up for that exactly, to round-off. So it does for all
+/// where no shift brings the volume nearer, as coarse surfaces' volumes jump while vertices shift;
+/// not where the curved volume is off by more than a factor of two, as on crumpled surfaces: it
+/// then stays off. Returns how far the surface moves on average [R0], signed outward.
+double restore_curved_volume(SurfaceMesh& mesh, double volume, SurfaceShape shape);
 
 }  // namespace meniscus

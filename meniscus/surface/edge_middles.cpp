@@ -7,7 +7,6 @@
 #include <Eigen/LU>
 
 #include "meniscus/surface/rings.hpp"
-#include "meniscus/surface/smooth_surface.hpp"
 #include "meniscus/surface/trust.hpp"
 
 namespace meniscus {
@@ -98,9 +97,38 @@ void gather(RingGatherer& rings, const SurfaceEdge& edge, const Vec3& center,
   if (points.size() > kMostPoints) points.resize(kMostPoints);
 }
 
+std::vector<Vec3> straight_middles(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
+  std::vector<Vec3> middles;
+  middles.reserve(topology.edges().size());
+  for (const SurfaceEdge& edge : topology.edges())
+    middles.push_back(0.5 * (mesh.x[edge.a] + mesh.x[edge.b]));
+  return middles;
+}
+
 }  // namespace
 
-std::vector<Vec3> edge_middles(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
+std::vector<Vec3> edge_middles(const SurfaceMesh& mesh, const SurfaceTopology& topology,
+                               SurfaceShape shape) {
+  switch (shape) {
+    case SurfaceShape::faceted:
+      break;
+    case SurfaceShape::patched:
+      return patched_middles(SmoothSurface(mesh, topology), topology);
+    case SurfaceShape::splined:
+      return splined_middles(mesh, topology);
+  }
+  return straight_middles(mesh, topology);
+}
+
+std::vector<Vec3> patched_middles(const SmoothSurface& smooth, const SurfaceTopology& topology) {
+  std::vector<Vec3> middles;
+  middles.reserve(topology.edges().size());
+  for (const SurfaceEdge& edge : topology.edges())
+    middles.push_back(smooth.edge_point(edge.a, edge.b, 0.5));
+  return middles;
+}
+
+std::vector<Vec3> splined_middles(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
   const SmoothSurface smooth(mesh, topology);
   const VertexField<VertexCurvature>& curvature = smooth.vertex_curvature();
   RingGatherer rings(mesh, topology);

@@ -57,11 +57,9 @@ Lift lift(const HeightPatch& patch, const Vec3& flat) {
 }  // namespace
 
 SmoothSurface::SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& topology)
-    : curvature_(osculating_curvature(mesh, topology)),
-      patches_(mesh.num_vertices()),
-      normals_(mesh.num_vertices()),
-      faces_(mesh.faces) {
+    : patches_(mesh.num_vertices()), normals_(mesh.num_vertices()), faces_(mesh.faces) {
   RingGatherer rings(mesh, topology);
+  curvature_ = osculating_curvature(mesh, topology, rings);
   std::vector<Vec3> unrolled;
   for (const VertexId v : mesh.x.ids()) {
     HeightPatch& patch = patches_[v];
@@ -112,7 +110,8 @@ Vec3 SmoothSurface::edge_point(VertexId a, VertexId b, double s) const {
   const HeightPatch &pa = patches_[a], &pb = patches_[b];
   const Vec3 flat = (1.0 - s) * pa.x + s * pb.x;
   const double wa = (1.0 - s) * (1.0 - s), wb = s * s;
-  return flat + (wa * lift(pa, flat).height * pa.n + wb * lift(pb, flat).height * pb.n) / (wa + wb);
+  return flat +
+         (wa * height_above(pa, flat) * pa.n + wb * height_above(pb, flat) * pb.n) / (wa + wb);
 }
 
 VertexCurvature SmoothSurface::curvature(const SurfaceLocation& location) const {

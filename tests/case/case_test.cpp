@@ -66,7 +66,7 @@ TEST(Case, BoundaryIntegralsTakeTheirOptionsAndAnUnboundedScene) {
   EXPECT_EQ(plain.boundary_integral.max_iterations, options.max_iterations);
   EXPECT_EQ(plain.boundary_integral.threads, options.threads);
   EXPECT_FALSE(plain.output.volume);
-  EXPECT_EQ(plain.evolution.surface, SurfaceShape::curved);
+  EXPECT_EQ(plain.evolution.surface, SurfaceShape::patched);
   EXPECT_EQ(plain.evolution.motion_normal, MotionNormal::smooth);
   const Case c = shear_case(solver + "rtol = 1e-9\nmax-iterations = 50\nthreads = 3\n");
   EXPECT_EQ(c.boundary_integral.rtol, 1e-9);
@@ -92,6 +92,12 @@ TEST(Case, WordsBecomeOptions) {
   EXPECT_EQ(c.evolution.scheme, TimeScheme::euler);
   EXPECT_EQ(c.evolution.step_edges, StepEdges::mesh);
   EXPECT_EQ(c.flow_solver.volume_mesh.grading, Grading::gaussian);
+}
+
+TEST(Case, InterfacesAreTheSurfacesThatTheSolverIntegratesOver) {
+  const auto shape = [](const std::string& solver) { return shear_case(solver).evolution.surface; };
+  EXPECT_EQ(shape(""), SurfaceShape::faceted);
+  EXPECT_EQ(shape("[solver]\nelements = \"P2-P1\"\n"), SurfaceShape::splined);
 }
 
 TEST(Case, QuadraticElementsGetSmallCellsAroundTheDrops) {

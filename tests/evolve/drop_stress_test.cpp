@@ -81,7 +81,7 @@ TEST(DropStress, SlightlyDeformedDropGivesTaylorsViscosity) {
 
 /// Relative error of Σ = ∫_V (G + Gᵀ) dV (λ − 1)/V of an ellipsoid of half-axes 1.3, 0.8, 1 in
 /// u = (x y², z/2, −z y²), where ∫ y² dV = 0.8²/5 V.
-double viscous_error(int num_vertices) {
+double viscous_error(int num_vertices, SurfaceShape faces) {
   const SurfaceMesh mesh = stretched_sphere(num_vertices, Vec3(1.3, 0.8, 1.0));
   VertexField<Vec3> u(mesh.num_vertices());
   for (const VertexId v : u.ids()) {
@@ -91,32 +91,37 @@ double viscous_error(int num_vertices) {
   const std::vector<VertexField<Vec3>> velocity{std::move(u)};
   Mat3 exact = 3.0 * Vec3(0.256, 0.0, -0.256).asDiagonal().toDenseMatrix();
   exact(1, 2) = exact(2, 1) = 1.5;
-  return (drop_stress(one_drop(mesh, 4.0, 1e300), velocity, SurfaceShape::curved) - exact).norm() /
-         exact.norm();
+  return (drop_stress(one_drop(mesh, 4.0, 1e300), velocity, faces) - exact).norm() / exact.norm();
 }
 
 // Velocities between the vertices are good to O(h³).
 TEST(DropStress, OfCurvedFacesConvergesToThirdOrder) {
-  std::vector<double> error;
-  for (const int num_vertices : {200, 400, 800}) error.push_back(viscous_error(num_vertices));
-  EXPECT_LT(error[1], 3e-4);                       // h³/16 with edges of 0.17
-  EXPECT_GT(std::log2(error[0] / error[2]), 2.7);  // h halves from 200 to 800
+  for (const SurfaceShape faces : {SurfaceShape::patched, SurfaceShape::splined}) {
+    std::vector<double> error;
+    for (const int num_vertices : {200, 400, 800})
+      error.push_back(viscous_error(num_vertices, faces));
+    EXPECT_LT(error[1], 3e-4);                       // h³/16 with edges of 0.17
+    EXPECT_GT(std::log2(error[0] / error[2]), 2.7);  // h halves from 200 to 800
+  }
 }
 
 // As with flat faces above, on a quarter of the vertices and with no bias of the sphere to be taken
 // out: that of flat faces is up to 1.
 TEST(DropStress, OfCurvedFacesGivesTaylorsViscosity) {
   const double Ca = 0.01;
-  SurfaceMesh mesh = sphere(400);
   const VertexField<Vec3> rest(400, Vec3::Zero());
-  EXPECT_LT(drop_stress(one_drop(mesh, 1.0, Ca), std::vector{rest}, SurfaceShape::curved).norm(),
-            0.01);
-  for (Vec3& x : mesh.x) {
+  const auto stress = [&](const SurfaceMesh& mesh, SurfaceShape faces) {
+    return drop_stress(one_drop(mesh, 1.0, Ca), std::vector{rest}, faces);
+  };
+  SurfaceMesh deformed = sphere(400);
+  for (Vec3& x : deformed.x) {
     const Vec3 n = x.normalized();
     x = n * (1.0 + Ca * 35.0 / 16.0 * n.x() * n.y());
   }
-  const Mat3 stress = drop_stress(one_drop(mesh, 1.0, Ca), std::vector{rest}, SurfaceShape::curved);
-  EXPECT_NEAR(stress(0, 1), 7.0 / 4.0, 0.02);
+  for (const SurfaceShape faces : {SurfaceShape::patched, SurfaceShape::splined}) {
+    EXPECT_LT(stress(sphere(400), faces).norm(), 0.01);
+    EXPECT_NEAR(stress(deformed, faces)(0, 1), 7.0 / 4.0, 0.02);
+  }
 }
 
 }  // namespace

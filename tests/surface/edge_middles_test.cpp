@@ -35,7 +35,7 @@ double largest_error(const std::vector<Vec3>& points) {
 TEST(EdgeMiddles, AreExactOnSpheres) {
   for (const int num_vertices : {42, 110, 400}) {
     const SurfaceMesh mesh = sphere(num_vertices, 2.0, Vec3(3.0, -1.0, 0.5));
-    for (const Vec3& x : edge_middles(mesh, SurfaceTopology(mesh)))
+    for (const Vec3& x : splined_middles(mesh, SurfaceTopology(mesh)))
       // What the smooth surface's own point leaves, O(h⁶), where the rings are too poor; else
       // roundoff of the splines' weights.
       EXPECT_NEAR((x - Vec3(3.0, -1.0, 0.5)).norm(), 2.0, num_vertices == 42 ? 2e-3 : 1e-4);
@@ -49,7 +49,7 @@ TEST(EdgeMiddles, AreOfHigherOrderThanTheCubicPatches) {
   for (const int num_vertices : {200, 400, 800}) {
     const SurfaceMesh mesh = wavy_sphere(num_vertices);
     const SurfaceTopology topology(mesh);
-    errors.push_back(largest_error(edge_middles(mesh, topology)));
+    errors.push_back(largest_error(splined_middles(mesh, topology)));
     const SmoothSurface smooth(mesh, topology);
     std::vector<Vec3> cubic;
     for (const SurfaceEdge& edge : topology.edges())
@@ -63,7 +63,7 @@ TEST(EdgeMiddles, AreOfHigherOrderThanTheCubicPatches) {
 /// Largest distance between the middles of two meshes of one topology.
 double largest_move(const SurfaceMesh& a, const SurfaceMesh& b) {
   const SurfaceTopology topology(a);
-  const std::vector<Vec3> from = edge_middles(a, topology), to = edge_middles(b, topology);
+  const std::vector<Vec3> from = splined_middles(a, topology), to = splined_middles(b, topology);
   double largest = 0.0;
   for (std::size_t e = 0; e < from.size(); ++e)
     largest = std::max(largest, (to[e] - from[e]).norm());
@@ -111,7 +111,7 @@ TEST(EdgeMiddles, StayNearTheirEdgesOnCrumpledSurfaces) {
     for (Vec3& x : mesh.x) x += Vec3(noise(random), noise(random), noise(random));
     const SurfaceTopology topology(mesh);
     const SmoothSurface smooth(mesh, topology);
-    const std::vector<Vec3> middles = edge_middles(mesh, topology);
+    const std::vector<Vec3> middles = splined_middles(mesh, topology);
     for (std::size_t e = 0; e < middles.size(); ++e) {
       const auto& [a, b] = std::pair(topology.edges()[e].a, topology.edges()[e].b);
       const Vec3 straight = 0.5 * (mesh.x[a] + mesh.x[b]);
@@ -122,10 +122,22 @@ TEST(EdgeMiddles, StayNearTheirEdgesOnCrumpledSurfaces) {
   }
 }
 
-TEST(CurvedMeasures, AreThoseOfTheSmoothSurface) {
+class CurvedSurface : public testing::TestWithParam<SurfaceShape> {
+ protected:
+  static CurvedMeasures measures(const SurfaceMesh& mesh) {
+    return curved_measures(mesh, GetParam());
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Middles, CurvedSurface,
+                         testing::Values(SurfaceShape::patched, SurfaceShape::splined),
+                         [](const auto& shape) {
+                           return shape.param == SurfaceShape::patched ? "patched" : "splined";
+                         });
+
+TEST_P(CurvedSurface, HasTheMeasuresOfTheSmoothOne) {
   std::vector<double> errors;
   for (const int num_vertices : {110, 220, 440}) {
-    const CurvedMeasures ball = curved_measures(sphere(num_vertices, 1.5, Vec3(10.0, 0.0, 0.0)));
+    const CurvedMeasures ball = measures(sphere(num_vertices, 1.5, Vec3(10.0, 0.0, 0.0)));
     const double exact = 4.0 / 3.0 * std::numbers::pi * std::pow(1.5, 3);
     errors.push_back(std::abs(ball.volume / exact - 1.0));
     EXPECT_NEAR(ball.area, 4.0 * std::numbers::pi * 2.25, 3.0 * errors.back() * ball.area + 1e-3);
@@ -135,7 +147,7 @@ TEST(CurvedMeasures, AreThoseOfTheSmoothSurface) {
   EXPECT_GT(2.0 * std::log(errors.front() / errors.back()) / std::log(4.0), 3.5);
 }
 
-TEST(CurvedMeasures, SecondMomentsAreThoseOfTheSmoothSurface) {
+TEST_P(CurvedSurface, HasTheSecondMomentsOfTheSmoothOne) {
   // Along an axis a of an ellipsoid V a²/5, wherever it lies.
   const Vec3 axes(1.3, 0.9, 0.8);
   const double volume = 4.0 / 3.0 * std::numbers::pi * axes.prod();
@@ -144,23 +156,23 @@ TEST(CurvedMeasures, SecondMomentsAreThoseOfTheSmoothSurface) {
   for (const int num_vertices : {110, 220, 440}) {
     SurfaceMesh mesh = stretched_sphere(num_vertices, axes);
     for (Vec3& x : mesh.x) x += Vec3(0.5, -0.3, 0.2);
-    errors.push_back((curved_measures(mesh).second_moments - exact).norm() / exact.norm());
+    errors.push_back((measures(mesh).second_moments - exact).norm() / exact.norm());
   }
   EXPECT_LT(errors.front(), 2e-3);  // flat faces: 8.1e-2
   EXPECT_GT(2.0 * std::log(errors.front() / errors.back()) / std::log(4.0), 3.5);
 }
 
-TEST(CurvedMeasures, VolumeIsRestoredByAShift) {
+TEST_P(CurvedSurface, HasItsVolumeRestoredByAShift) {
   SurfaceMesh mesh = wavy_sphere(150);
-  const double volume = 1.02 * curved_measures(mesh).volume;
-  const double shift = restore_curved_volume(mesh, volume);
-  EXPECT_NEAR(curved_measures(mesh).volume, volume, 2e-12 * volume);
+  const double volume = 1.02 * measures(mesh).volume;
+  const double shift = restore_curved_volume(mesh, volume, GetParam());
+  EXPECT_NEAR(measures(mesh).volume, volume, 2e-12 * volume);
   EXPECT_NEAR(shift, 0.02 / 3.0, 1e-3);
 }
 
 // On coarse and rough surfaces the volume jumps as vertices shift, on some of these past what is
 // asked.
-TEST(CurvedMeasures, VolumeIsRestoredWhereItJumps) {
+TEST_P(CurvedSurface, HasItsVolumeRestoredWhereItJumps) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> draw(-1.0, 1.0);
@@ -172,13 +184,13 @@ TEST(CurvedMeasures, VolumeIsRestoredWhereItJumps) {
     Mat3 stretch = Mat3::Identity();
     for (int i = 0; i < 3; ++i) stretch.row(i) += 0.45 * vector();
     for (Vec3& x : mesh.x) x = stretch * x + 0.02 * vector();
-    const double volume = curved_measures(mesh).volume * (1.0 + 0.005 * draw(random));
-    restore_curved_volume(mesh, volume);
-    EXPECT_NEAR(curved_measures(mesh).volume, volume, 2e-12 * volume) << "seed " << seed;
+    const double volume = measures(mesh).volume * (1.0 + 0.005 * draw(random));
+    restore_curved_volume(mesh, volume, GetParam());
+    EXPECT_NEAR(measures(mesh).volume, volume, 2e-12 * volume) << "seed " << seed;
   }
 }
 
-TEST(CurvedMeasures, NormalsAreThoseOfTheSurface) {
+TEST(SmoothNormals, AreThoseOfTheSurface) {
   const SurfaceMesh mesh = stretched_sphere(400, Vec3(1.3, 0.9, 0.8));
   const VertexField<Vec3> n = smooth_normals(mesh);
   for (const VertexId v : mesh.x.ids()) {

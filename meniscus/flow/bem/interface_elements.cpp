@@ -6,6 +6,7 @@
 #include "meniscus/flow/bem/face_rules.hpp"
 #include "meniscus/flow/bem/quartic_curvature.hpp"
 #include "meniscus/surface/edge_interpolation.hpp"
+#include "meniscus/surface/edge_middles.hpp"
 
 namespace meniscus::bem {
 namespace {
@@ -22,10 +23,10 @@ struct Edges {
 Edges make_edges(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                  const SmoothSurface& smooth, const VertexField<Vec3>& normals) {
   Edges edges;
+  edges.middle = patched_middles(smooth, topology);
   edges.of_face.resize(mesh.num_faces());
   for (std::size_t e = 0; e < topology.edges().size(); ++e) {
     const SurfaceEdge& edge = topology.edges()[e];
-    edges.middle.push_back(smooth.edge_point(edge.a, edge.b, 0.5));
     const auto note = [&](FaceId f, VertexId opposite) {
       for (std::size_t k = 0; k < 3; ++k)
         if (mesh.faces[f][k] == opposite) edges.of_face[f][k] = e;
