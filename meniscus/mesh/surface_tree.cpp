@@ -24,6 +24,13 @@ bool boxes_touch(const Vec3& low, const Vec3& high, const Vec3& other_low, const
 Vec3 low_corner(const Triangle& x) { return x[0].cwiseMin(x[1]).cwiseMin(x[2]); }
 Vec3 high_corner(const Triangle& x) { return x[0].cwiseMax(x[1]).cwiseMax(x[2]); }
 
+/// A ray along the sides of the boxes is within a slab or far from it: no infinity, which a
+/// distance of zero would make no number.
+Vec3 finite_inverse(const Vec3& direction) {
+  return direction.unaryExpr(
+      [](double d) { return d == 0.0 ? std::numeric_limits<double>::max() : 1.0 / d; });
+}
+
 }  // namespace
 
 /// A face while the tree is built.
@@ -116,28 +123,24 @@ void SurfaceTree::search_closest(std::int32_t node, ClosestSearch& search) const
 struct SurfaceTree::RaySearch {
   const Vec3& origin;
   const Vec3& direction;
-  Vec3 inverse;   // 1/direction, infinite where the ray runs along a face of the boxes
+  Vec3 inverse;   // 1/direction, finite
   double margin;  // keeps a hit on the very edge of a flat box, which rounding could cut off
   Hit best;
 
-  /// Where the ray enters a box, or infinity. 0 · ∞ (a ray within a face of the box) is read as
-  /// "inside the slab".
+  /// Where the ray enters a box, or infinity.
   [[nodiscard]] double entry(const Node& node) const {
-    double enter = 0.0, leave = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 3; ++k) {
-      const double a = (node.low[k] - margin - origin[k]) * inverse[k],
-                   b = (node.high[k] + margin - origin[k]) * inverse[k];
-      if (std::isnan(a) || std::isnan(b)) continue;
-      enter = std::max(enter, std::min(a, b));
-      leave = std::min(leave, std::max(a, b));
-    }
+    const Vec3 margins = Vec3::Constant(margin);
+    const Vec3 a = (node.low - margins - origin).cwiseProduct(inverse),
+               b = (node.high + margins - origin).cwiseProduct(inverse);
+    const double enter = std::max(0.0, a.cwiseMin(b).maxCoeff()), leave = a.cwiseMax(b).minCoeff();
     return enter <= leave ? enter : std::numeric_limits<double>::infinity();
   }
 };
 
 std::optional<SurfaceTree::Hit> SurfaceTree::first_hit(const Vec3& origin, const Vec3& direction,
                                                        double within) const {
-  RaySearch search{origin, direction, direction.cwiseInverse(), 1e-9 * (high() - low()).norm(), {}};
+  RaySearch search{
+      origin, direction, finite_inverse(direction), 1e-9 * (high() - low()).norm(), {}};
   search.best.distance = within;
   if (search.entry(nodes_.front()) < within) search_ray(0, search);
   if (!search.best.face.is_valid()) return std::nullopt;

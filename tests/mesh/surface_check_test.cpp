@@ -4,9 +4,11 @@
 #include <limits>
 #include <random>
 
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "meniscus/mesh/cgal_surface.hpp"
 #include "meniscus/mesh/shapes.hpp"
 
 namespace meniscus {
@@ -133,6 +135,24 @@ TEST(SelfIntersection, IsFoundWithItsPlace) {
   EXPECT_EQ(find_self_intersection(folded), "");
   folded.x[middle] = 0.5 * (a + b) + 0.2 * (0.5 * (a + b) - c);
   EXPECT_NE(find_self_intersection(folded), "");
+}
+
+// From surfaces as good as even to crumpled ones, every second of which meets itself, most of them
+// in faces that share a vertex or an edge.
+TEST(SelfIntersection, IsFoundWhereCgalFindsIt) {
+  int num_meeting = 0;
+  for (unsigned seed = 1; seed <= 300; ++seed) {
+    std::mt19937 random(seed);
+    const double size = 0.002 * (seed % 150);
+    std::uniform_real_distribution<double> noise(-size, size);
+    SurfaceMesh mesh = stretched_sphere(120, Vec3(1.5, 1.0, 0.6));
+    for (Vec3& x : mesh.x) x += Vec3(noise(random), noise(random), noise(random));
+    const bool meets = CGAL::Polygon_mesh_processing::does_self_intersect(to_cgal(mesh));
+    EXPECT_EQ(!find_self_intersection(mesh).empty(), meets) << "seed " << seed;
+    num_meeting += static_cast<int>(meets);
+  }
+  EXPECT_GT(num_meeting, 60);
+  EXPECT_LT(num_meeting, 240);
 }
 
 TEST(SelfIntersection, SeesSheetsThatJustTouch) {

@@ -1,6 +1,8 @@
 #include "meniscus/mesh/surface_tree.hpp"
 
+#include <algorithm>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -46,6 +48,35 @@ TEST(SurfaceTree, FindsWhatBruteForceFinds) {
         EXPECT_DOUBLE_EQ(hit->distance, first);
       }
     }
+  }
+}
+
+TEST(SurfaceTree, VisitsEveryTwoFacesWhoseBoxesTouchOnce) {
+  for (const SurfaceMesh& mesh :
+       {stretched_sphere(150, Vec3(2.0, 0.5, 1.0)), box(100, Vec3(1.0, 1.0, 0.2)).mesh}) {
+    const auto boxes_touch = [&](FaceId f, FaceId g) {
+      const Triangle s = corners(mesh, f), t = corners(mesh, g);
+      const auto low = [](const Triangle& x) { return Vec3(x[0].cwiseMin(x[1]).cwiseMin(x[2])); };
+      const auto high = [](const Triangle& x) { return Vec3(x[0].cwiseMax(x[1]).cwiseMax(x[2])); };
+      return (low(s).array() <= high(t).array()).all() && (low(t).array() <= high(s).array()).all();
+    };
+    std::vector<std::pair<FaceId, FaceId>> expected, visited;
+    for (const FaceId f : mesh.faces.ids())
+      for (const FaceId g : mesh.faces.ids())
+        if (f < g && boxes_touch(f, g)) expected.emplace_back(f, g);
+    const SurfaceTree tree(mesh);
+    tree.visit_touching_pairs([&](FaceId f, const Triangle& s, FaceId g, const Triangle& t) {
+      EXPECT_EQ(s, corners(mesh, f));
+      EXPECT_EQ(t, corners(mesh, g));
+      visited.emplace_back(std::min(f, g), std::max(f, g));
+      return true;
+    });
+    std::ranges::sort(visited);
+    EXPECT_EQ(visited, expected);
+    int num_visited = 0;
+    tree.visit_touching_pairs(
+        [&](FaceId, const Triangle&, FaceId, const Triangle&) { return ++num_visited < 5; });
+    EXPECT_EQ(num_visited, 5);
   }
 }
 
