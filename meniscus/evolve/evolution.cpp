@@ -185,12 +185,13 @@ EvolutionReport Evolution::finish_step(const Scene& start, const InterfaceMotion
   if (options_.follows_drops) translate_interfaces(scene_, centroid_ - centroid_of_drops(scene_));
   if (is_remesh_due()) {
     const Scene moved = scene_;
-    remesh_interfaces();
+    if (EvolutionReport apart = refuse_touching(remesh_interfaces()); !apart.ok) return apart;
     if (EvolutionReport changed = change_topology(moved, motion); !changed.ok) return changed;
     const FlowReport made = flow_->rebuild(scene_);
     return {made.ok, made.failure};
   }
   restore_volumes();
+  if (EvolutionReport apart = refuse_touching(false); !apart.ok) return apart;
   const FlowReport moved = flow_->move_from_mark(start, mean_motion(start, scene_, dt), dt);
   return {moved.ok, moved.failure};
 }
@@ -217,8 +218,10 @@ std::vector<SurfaceTree> Evolution::trees_for_gaps() const {
   return trees;
 }
 
-void Evolution::remesh_interfaces() {
+/// Whether all could be.
+bool Evolution::remesh_interfaces() {
   const PhaseTimer timer(times_, "remesh surface");
+  bool are_remeshed = true;
   std::vector<SurfaceTree> trees = trees_for_gaps();
   for (std::size_t i = 0; i < scene_.interfaces.size(); ++i) {
     Interface& interface = scene_.interfaces[i];
@@ -251,21 +254,30 @@ void Evolution::remesh_interfaces() {
       correction_[i] = std::abs(restore_volume(interface.mesh, interface.volume, options_.surface));
     if (report.ok && i < trees.size()) trees[i] = SurfaceTree(interface.mesh);
     if (report.ok) continue;
+    are_remeshed = false;
     warnings_.push_back(fmt::format("drop {} was not remeshed at t = {:.6g}: {}", interface.drop,
                                     t_, report.failure));
     log::warning("{}", warnings_.back());
     correction_[i] = std::abs(restore_volume(interface.mesh, interface.volume, options_.surface));
   }
+  return are_remeshed;
+}
+
+/// A step that makes drops touch, or one itself, is refused: with coalescence a shorter one lets
+/// them come close first, without it drops stay apart. A surface that could be remeshed is known not
+/// to touch itself.
+EvolutionReport Evolution::refuse_touching(bool are_remeshed) const {
+  std::string touching = find_touching_drops(scene_);
+  if (touching.empty() && !are_remeshed) touching = find_folded_drop(scene_);
+  if (touching.empty()) return {};
+  if (!options_.topology.coalescence)
+    touching += "; topology.coalescence = \"off\" keeps them apart";
+  return {false, std::move(touching)};
 }
 
 /// Cuts and bridges what is due in the interfaces as remeshed; `moved` with `motion` says how they
-/// came there. A step that makes drops touch is refused: with coalescence a shorter one lets them
-/// come close first, without it drops stay apart.
+/// came there.
 EvolutionReport Evolution::change_topology(const Scene& moved, const InterfaceMotion& motion) {
-  if (std::string touching = find_touching_drops(scene_); !touching.empty())
-    return {false, options_.topology.coalescence
-                       ? std::move(touching)
-                       : touching + "; topology.coalescence = \"off\" keeps them apart"};
   TopologyReport changed = apply_topology(scene_, options_.topology, surface_motion(moved, motion));
   for (std::string& warning : changed.warnings)
     warnings_.push_back(fmt::format("t = {:.6g}: {}", t_, warning));
@@ -273,8 +285,7 @@ EvolutionReport Evolution::change_topology(const Scene& moved, const InterfaceMo
   if (changed.events.empty()) return {};
   events_ = std::move(changed.events);
   correction_.assign(scene_.interfaces.size(), 0.0);
-  remesh_interfaces();
-  return {};
+  return refuse_touching(remesh_interfaces());
 }
 
 void Evolution::restore_volumes() {

@@ -63,7 +63,8 @@ class Evolution {
   EvolutionReport finish_step(const Scene& start, const InterfaceMotion& motion, double dt);
   [[nodiscard]] bool is_remesh_due() const { return (step_ + 1) % options_.remesh_every == 0; }
   [[nodiscard]] std::vector<SurfaceTree> trees_for_gaps() const;
-  void remesh_interfaces();
+  bool remesh_interfaces();
+  [[nodiscard]] EvolutionReport refuse_touching(bool are_remeshed) const;
   EvolutionReport change_topology(const Scene& moved, const InterfaceMotion& motion);
   void restore_volumes();
   FlowReport solve_flow(double t);

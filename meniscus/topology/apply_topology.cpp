@@ -279,4 +279,11 @@ std::string find_touching_drops(const Scene& scene) {
   return {};
 }
 
+std::string find_folded_drop(const Scene& scene) {
+  for (const Interface& interface : scene.interfaces)
+    if (const std::string meeting = find_self_intersection(interface.mesh); !meeting.empty())
+      return fmt::format("drop {} touches itself: {}", interface.drop, meeting);
+  return {};
+}
+
 }  // namespace meniscus

@@ -43,5 +43,7 @@ TopologyReport apply_topology(Scene& scene, const TopologyOptions& options,
 
 /// The first two drops whose surfaces touch, with the place; empty when none do.
 [[nodiscard]] std::string find_touching_drops(const Scene& scene);
+/// The first drop whose surface meets itself, with the place; empty when none does.
+[[nodiscard]] std::string find_folded_drop(const Scene& scene);
 
 }  // namespace meniscus

@@ -1,9 +1,13 @@
+#include <algorithm>
+#include <cmath>
 #include <memory>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
 #include "meniscus/evolve/evolution.hpp"
 #include "meniscus/mesh/shapes.hpp"
+#include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "tests/evolve/prescribed_flow.hpp"
 
@@ -97,6 +101,59 @@ TEST(EvolutionEvents, RefusesToLetDropsTouchWithoutCoalescence) {
   EXPECT_NE(report.failure.find("drops 0 and 1 touch"), std::string::npos) << report.failure;
   EXPECT_NE(report.failure.find("topology.coalescence = \"off\""), std::string::npos);
   EXPECT_EQ(evolution.scene().interfaces.size(), 2U);
+}
+
+/// A thread bent round so far that its ends look at each other across a mouth at x < 0.
+Scene bent_drop() {
+  constexpr double kRadius = 1.0;
+  Interface drop;
+  drop.C0 = 40 / 12.566;
+  drop.mesh = stretched_sphere(300, Vec3(3.0, 0.4, 0.4));
+  for (Vec3& x : drop.mesh.x) {
+    const double angle = x.x() / kRadius, r = kRadius - x.y();
+    x = Vec3(r * std::cos(angle), r * std::sin(angle), x.z());
+  }
+  drop.volume = drop.initial_volume = enclosed_volume(drop.mesh);
+  Scene scene;
+  scene.is_unbounded = true;
+  scene.liquids.add({});
+  scene.interfaces.push_back(std::move(drop));
+  scene.liquids.add({});
+  assign_regions(scene);
+  return scene;
+}
+
+/// The mouth closed by force, remeshed every so many steps: the surface never touches itself. Without
+/// any change of topology the last report says that it would.
+EvolutionReport closed_mouth(int remesh_every, double breakup_radius) {
+  EvolutionOptions options;
+  options.max_step = 0.02;
+  options.min_step = 1e-3;
+  options.remesh_every = remesh_every;
+  options.topology = {.breakup_radius = breakup_radius, .coalescence = false};
+  Evolution evolution(bent_drop(), options,
+                      std::make_unique<PrescribedFlow>([](const Vec3& x, double) {
+                        const double share = std::clamp(-x.x(), 0.0, 0.5);
+                        return Vec3(0.0, x.y() < 0.0 ? share : -share, 0.0);
+                      }));
+  EvolutionReport report = evolution.prepare();
+  for (int i = 0; report.ok && i < 60; ++i) {
+    report = evolution.solve();
+    if (report.ok) report = evolution.advance();
+    EXPECT_EQ(find_self_intersection(evolution.scene().interfaces[0].mesh), "");
+  }
+  return report;
+}
+
+TEST(EvolutionEvents, RefuseToLetADropTouchItselfWithoutCoalescence) {
+  std::ignore = closed_mouth(1, 0.01);
+  std::ignore = closed_mouth(1000, 0.01);
+  for (const int remesh_every : {1, 1000}) {
+    const EvolutionReport report = closed_mouth(remesh_every, 0.0);
+    ASSERT_FALSE(report.ok) << remesh_every;
+    EXPECT_NE(report.failure.find("drop 0 touches itself"), std::string::npos) << report.failure;
+    EXPECT_NE(report.failure.find("topology.coalescence = \"off\""), std::string::npos);
+  }
 }
 
 TEST(EvolutionEvents, StopAtOnceWhereUnlikeDropsWouldMerge) {
