@@ -6,6 +6,7 @@ find_package(Threads REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 pkg_check_modules(FMT_SPDLOG REQUIRED IMPORTED_TARGET spdlog fmt)
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
+find_package(Boost REQUIRED)  # headers
 find_package(CGAL REQUIRED)
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
 find_package(MPI REQUIRED COMPONENTS C)

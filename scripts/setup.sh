@@ -5,7 +5,7 @@
 set -euo pipefail
 
 build=(make g++ cmake ninja-build pkgconf git ca-certificates python3 libpetsc-real-dev openmpi-bin
-       libopenblas-dev libeigen3-dev libcgal-dev libtet1.5-dev libhdf5-openmpi-dev libvtk9-dev
+       libopenblas-dev libeigen3-dev libboost-dev libcgal-dev libtet1.5-dev libhdf5-openmpi-dev libvtk9-dev
        libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libspdlog-dev zlib1g-dev
        librsvg2-dev fonts-dejavu-core libmicrohttpd-dev)
 # The page that moves. Where node came from elsewhere, Debian's npm conflicts with it.

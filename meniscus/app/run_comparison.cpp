@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
+#include <boost/math/interpolators/barycentric_rational.hpp>
 #include <fmt/format.h>
 
 #include "meniscus/core/error.hpp"
@@ -249,6 +251,21 @@ class Comparison {
   std::vector<CheckRow> rows_;
 };
 
+/// Between rows i − 1 and i, the abscissa rising times `sign`: through the two rows on either side
+/// where it rises through all four, else along the line.
+double between_rows(const Series& series, std::size_t i, double sign, double x) {
+  const auto begin = static_cast<std::ptrdiff_t>(i) - 2, end = begin + 4;
+  if (begin >= 0 && end <= std::ssize(series.x)) {
+    std::vector<double> xs(series.x.begin() + begin, series.x.begin() + end);
+    for (double& place : xs) place *= sign;
+    if (std::ranges::adjacent_find(xs, std::greater_equal()) == xs.end())
+      return boost::math::barycentric_rational<double>(xs.data(), series.y.data() + begin, 4, 3)(
+          sign * x);
+  }
+  const double part = (x - series.x[i - 1]) / (series.x[i] - series.x[i - 1]);
+  return series.y[i - 1] + part * (series.y[i] - series.y[i - 1]);
+}
+
 }  // namespace
 
 bool CheckRow::passes() const {
@@ -279,7 +296,7 @@ std::optional<double> value_at(const Series& series, double x) {
     if (i == 0) continue;
     const double a = series.x[i - 1], b = series.x[i];
     if ((a < x && x < b) || (b < x && x < a))
-      return series.y[i - 1] + (x - a) / (b - a) * (series.y[i] - series.y[i - 1]);
+      return between_rows(series, i, a < b ? 1.0 : -1.0, x);
   }
   return std::nullopt;
 }

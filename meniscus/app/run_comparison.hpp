@@ -24,8 +24,9 @@ struct Series {
 /// `column` of a drop's rows (or of the history) against the column `over`; rows where either is
 /// empty are left out. Throws InvalidInput when neither table has the column.
 [[nodiscard]] Series series_of(const RunTables& run, const CheckedQuantity& quantity);
-/// Linear between the two rows around the first place where the series passes x; none where it
-/// never does.
+/// Where the series first passes x, by the cubic through two rows on either side; along the line
+/// between the two at an end, or where the abscissa turns. None where it never passes x. Records keep
+/// some hundred rows: a line between two would miss up to 0.1 % of a quantity that bends.
 [[nodiscard]] std::optional<double> value_at(const Series& series, double x);
 
 /// A measured value beside its reference.

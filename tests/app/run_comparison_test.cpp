@@ -153,6 +153,22 @@ TEST(RunComparison, InterpolatesAFallingAbscissaToo) {
   EXPECT_FALSE(value_at(series, 0.5));
 }
 
+TEST(RunComparison, InterpolatesCubicallyWhereTheAbscissaGoesOneWay) {
+  const auto cubic = [](double x) { return 1.0 + x * (2.0 + x * (-3.0 + x)); };
+  Series series;
+  for (const double x : {0.0, 0.5, 1.5, 2.0, 4.0}) {
+    series.x.push_back(x);
+    series.y.push_back(cubic(x));
+  }
+  EXPECT_NEAR(value_at(series, 0.9).value(), cubic(0.9), 1e-14);
+  EXPECT_NEAR(value_at(series, 1.7).value(), cubic(1.7), 1e-14);
+  EXPECT_DOUBLE_EQ(value_at(series, 0.1).value(), 1.0 + 0.2 * (cubic(0.5) - 1.0));  // an end
+  for (double& x : series.x) x = -x;
+  EXPECT_NEAR(value_at(series, -1.7).value(), cubic(1.7), 1e-14);
+  const Series turning{{0.0, 1.0, 2.0, 1.5}, {0.0, 1.0, 4.0, 9.0}};
+  EXPECT_DOUBLE_EQ(value_at(turning, 1.5).value(), 2.5);
+}
+
 TEST(RunComparison, NamesAColumnThatNoTableHas) {
   EXPECT_THROW((void)only_row(quantity("Q"), reference_of(1.0)), InvalidInput);
 }
