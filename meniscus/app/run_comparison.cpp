@@ -259,8 +259,8 @@ double between_rows(const Series& series, std::size_t i, double sign, double x) 
     std::vector<double> xs(series.x.begin() + begin, series.x.begin() + end);
     for (double& place : xs) place *= sign;
     if (std::ranges::adjacent_find(xs, std::greater_equal()) == xs.end())
-      return boost::math::barycentric_rational<double>(xs.data(), series.y.data() + begin, 4, 3)(
-          sign * x);
+      return boost::math::barycentric_rational<double>(xs.data(), series.y.data() + begin, 4,
+                                                       3)(sign * x);
   }
   const double part = (x - series.x[i - 1]) / (series.x[i] - series.x[i - 1]);
   return series.y[i - 1] + part * (series.y[i] - series.y[i - 1]);
@@ -295,8 +295,7 @@ std::optional<double> value_at(const Series& series, double x) {
     if (series.x[i] == x) return series.y[i];
     if (i == 0) continue;
     const double a = series.x[i - 1], b = series.x[i];
-    if ((a < x && x < b) || (b < x && x < a))
-      return between_rows(series, i, a < b ? 1.0 : -1.0, x);
+    if ((a < x && x < b) || (b < x && x < a)) return between_rows(series, i, a < b ? 1.0 : -1.0, x);
   }
   return std::nullopt;
 }

@@ -25,8 +25,8 @@ struct Series {
 /// empty are left out. Throws InvalidInput when neither table has the column.
 [[nodiscard]] Series series_of(const RunTables& run, const CheckedQuantity& quantity);
 /// Where the series first passes x, by the cubic through two rows on either side; along the line
-/// between the two at an end, or where the abscissa turns. None where it never passes x. Records keep
-/// some hundred rows: a line between two would miss up to 0.1 % of a quantity that bends.
+/// between the two at an end, or where the abscissa turns. None where it never passes x. Records
+/// keep some hundred rows: a line between two would miss up to 0.1 % of a quantity that bends.
 [[nodiscard]] std::optional<double> value_at(const Series& series, double x);
 
 /// A measured value beside its reference.

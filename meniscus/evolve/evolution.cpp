@@ -264,8 +264,8 @@ bool Evolution::remesh_interfaces() {
 }
 
 /// A step that makes drops touch, or one itself, is refused: with coalescence a shorter one lets
-/// them come close first, without it drops stay apart. A surface that could be remeshed is known not
-/// to touch itself.
+/// them come close first, without it drops stay apart. A surface that could be remeshed is known
+/// not to touch itself.
 EvolutionReport Evolution::refuse_touching(bool are_remeshed) const {
   std::string touching = find_touching_drops(scene_);
   if (touching.empty() && !are_remeshed) touching = find_folded_drop(scene_);

@@ -123,8 +123,8 @@ Scene bent_drop() {
   return scene;
 }
 
-/// The mouth closed by force, remeshed every so many steps: the surface never touches itself. Without
-/// any change of topology the last report says that it would.
+/// The mouth closed by force, remeshed every so many steps: the surface never touches itself.
+/// Without any change of topology the last report says that it would.
 EvolutionReport closed_mouth(int remesh_every, double breakup_radius) {
   EvolutionOptions options;
   options.max_step = 0.02;
