@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Draws one column of tables against another as SVG.
 
-    curves.py OUTPUT.svg X Y [--log] [--window X0 X1 Y0 Y1] [--labels TEXT TEXT] [--line SLOPE]
+    curves.py OUTPUT.svg X Y [--log] [--low] [--window X0 X1 Y0 Y1] [--labels TEXT TEXT] [--line SLOPE]
               TABLE,LABEL[,END]...
 
 With END the curve is drawn against END - X, the time that is left. Rows of other drops than the first are left out.
 --line draws the straight line of that slope through the origin, dashed. A table whose label begins with "reference" is
-dotted. Lines of a table that begin with # are passed over.
+dotted. Lines of a table that begin with # are passed over. With --low the labels stand in the lower corner.
 """
 import argparse
 import csv
@@ -74,6 +74,7 @@ def main():
     parser.add_argument("y")
     parser.add_argument("tables", nargs="+")
     parser.add_argument("--log", action="store_true")
+    parser.add_argument("--low", action="store_true")
     parser.add_argument("--window", type=float, nargs=4)
     parser.add_argument("--labels", nargs=2)
     parser.add_argument("--line", type=float)
@@ -91,11 +92,12 @@ def main():
         points = [(window[0] + k / 200 * (window[1] - window[0]),) for k in range(201)]
         out.append(axes.line([(a, options.line * a) for a, in points if a > 0.0],
                              'stroke="#6b7480" stroke-dasharray="7 4"'))
+    first = HEIGHT - BOTTOM - 16 * len(curves) if options.low else TOP + 20
     for k, (label, points) in enumerate(curves):
         dash = ' stroke-dasharray="2 3"' if label.startswith("reference") else ""
         colour = COLOURS[k % len(COLOURS)]
         out.append(axes.line(points, f'stroke="{colour}" stroke-width="2"{dash}'))
-        out.append(f'<text x="{WIDTH - RIGHT - 12}" y="{TOP + 20 + 16 * k}" text-anchor="end" style="fill:{colour}">{label}</text>')
+        out.append(f'<text x="{WIDTH - RIGHT - 12}" y="{first + 16 * k}" text-anchor="end" style="fill:{colour}">{label}</text>')
     with open(options.output, "w", encoding="utf-8") as file:
         file.write("\n".join(out + ["</svg>", ""]))
 
