@@ -102,12 +102,12 @@ Scene stretched_drop(int num_vertices) {
 /// Everything that a new geometry costs before the first iteration.
 void make_equation(benchmark::State& state) {
   const Scene scene = stretched_drop(static_cast<int>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(IntegralEquation(scene, 0.0, 1));
+  for (auto _ : state) benchmark::DoNotOptimize(IntegralEquation(scene, 0.0, {}));
 }
 BENCHMARK(make_equation)->Arg(500)->Arg(2000)->Unit(benchmark::kMillisecond);
 
 void apply_equation(benchmark::State& state) {
-  const IntegralEquation equation(stretched_drop(static_cast<int>(state.range(0))), 0.0, 1);
+  const IntegralEquation equation(stretched_drop(static_cast<int>(state.range(0))), 0.0, {});
   const std::vector<double>& w = equation.right_hand_side();
   std::vector<double> result(w.size());
   for (auto _ : state) equation.apply(w, result);

@@ -67,7 +67,7 @@ int main(int count, char** arguments) {
   const Scene scene =
       stretched_drop(DropShape::sphere, static_cast<int>(number(1, 1430)), number(2, 0.1));
   Options options;
-  options.processes = Processes::all;
+  options.processes = linear::Processes::all;
   if (count > 3 && std::string_view(arguments[3]) == "P2-P1") options.elements = Elements::p2_p1;
   if (count > 5) options.petsc_options = arguments[5];
   TetMesh mesh;

@@ -29,12 +29,10 @@ Evolution make_evolution(const Case& c, Scene scene) {
   return {std::move(scene), c.evolution, make_flow_solver(c)};
 }
 
-/// Finite elements are shared out to all ranks.
+/// Either solver's work is shared out to all ranks.
 Case shared_case(Case c) {
-  if (num_ranks() > 1 && c.method == FlowMethod::boundary_integral)
-    reject_input("{}: \"boundary-integral\" runs on one rank, with threads: not on {}",
-                 c.settings.place("solver.method"), num_ranks());
-  c.flow_solver.processes = fem::Processes::all;
+  c.flow_solver.processes = linear::Processes::all;
+  c.boundary_integral.processes = linear::Processes::all;
   return c;
 }
 

@@ -130,6 +130,7 @@ EvolutionReport Evolution::solve() {
 EvolutionReport Evolution::advance() {
   const Scene start = scene_;
   const std::vector<double> correction = correction_;
+  const std::vector<TopologyEvent> events = events_;
   flow_->mark(scene_);
   iterations_ = 0;
   EvolutionReport report;
@@ -144,6 +145,7 @@ EvolutionReport Evolution::advance() {
     }
     scene_ = start;
     correction_ = correction;
+    events_ = events;
     if (report.is_final) return report;
     warnings_.push_back(
         fmt::format("step {} of length {:.3g} failed: {}", step_ + 1, dt, report.failure));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <thread>
@@ -14,6 +15,18 @@ namespace {
 
 // PETSc sends on copies of its communicators: no message of its own has this tag here.
 constexpr int kArrivalTag = 4711;
+
+/// FNV-1a of the numbers' bits, taken in four strands: one alone waits for each of its products.
+template <typename Number, typename Bits>
+std::uint64_t fingerprint(std::span<const Number> numbers) {
+  constexpr std::uint64_t basis = 14695981039346656037u, prime = 1099511628211u;
+  std::array<std::uint64_t, 4> strand = {basis, basis, basis, basis};
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    strand[i % 4] = (strand[i % 4] ^ std::uint64_t{std::bit_cast<Bits>(numbers[i])}) * prime;
+  std::uint64_t hash = (basis ^ numbers.size()) * prime;
+  for (const std::uint64_t value : strand) hash = (hash ^ value) * prime;
+  return hash;
+}
 
 MPI_Comm handle_of(Communicator communicator) { return mpi_communicator(communicator); }
 
@@ -46,6 +59,15 @@ bool agree(Communicator communicator, std::uint64_t own) {
   std::array<std::uint64_t, 2> largest{};
   MPI_Allreduce(mine.data(), largest.data(), 2, MPI_UINT64_T, MPI_MAX, handle_of(communicator));
   return largest[0] == ~largest[1];
+}
+
+bool agree(Communicator communicator, std::span<const std::int32_t> own) {
+  return communicator.size() == 1 ||
+         agree(communicator, fingerprint<std::int32_t, std::uint32_t>(own));
+}
+
+bool agree(Communicator communicator, std::span<const double> own) {
+  return communicator.size() == 1 || agree(communicator, fingerprint<double, std::uint64_t>(own));
 }
 
 void barrier(Communicator communicator) {

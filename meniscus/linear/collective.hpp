@@ -20,6 +20,9 @@ namespace meniscus::linear {
 [[nodiscard]] bool any(Communicator communicator, bool own);
 /// Whether all ranks give the same number.
 [[nodiscard]] bool agree(Communicator communicator, std::uint64_t own);
+/// Whether all ranks give as many numbers and the same, bit for bit, as far as 64 bits can tell.
+[[nodiscard]] bool agree(Communicator communicator, std::span<const std::int32_t> own);
+[[nodiscard]] bool agree(Communicator communicator, std::span<const double> own);
 void barrier(Communicator communicator);
 /// Everyone's becomes what rank 0 has; a text's length goes with it, a span's must be the same.
 void broadcast(Communicator communicator, std::string& text);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "meniscus/core/log.hpp"
 #include "meniscus/evolve/evolution.hpp"
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_check.hpp"
@@ -32,7 +33,7 @@ Scene two_drops() {
   return scene;
 }
 
-Evolution evolution_of(const Scene& scene, bool coalescence) {
+Evolution evolution_of(const Scene& scene, bool coalescence, std::size_t fewest_drops = 0) {
   EvolutionOptions options;
   options.end = 10.0;
   options.max_step = 0.02;
@@ -42,9 +43,11 @@ Evolution evolution_of(const Scene& scene, bool coalescence) {
                       .coalescence = coalescence,
                       .coalescence_gap = coalescence ? 0.05 : 0.0,
                       .edge_floor = 0.02};
-  return {scene, options, std::make_unique<PrescribedFlow>([](const Vec3& x, double) {
-            return Vec3(x.x() < 0.0 ? 1.0 : -1.0, 0.0, 0.0);  // toward each other, as they are
-          })};
+  auto flow = std::make_unique<PrescribedFlow>([](const Vec3& x, double) {
+    return Vec3(x.x() < 0.0 ? 1.0 : -1.0, 0.0, 0.0);  // toward each other, as they are
+  });
+  flow->fewest_drops = fewest_drops;
+  return {scene, options, std::move(flow)};
 }
 
 /// Steps until something has happened, at most `count`; the last report.
@@ -92,6 +95,26 @@ TEST(EvolutionEvents, ArePartOfTheCheckpointAfterThem) {
   EXPECT_EQ(a.energy_after, b.energy_after);
   EXPECT_EQ(again.scene().liquids.size(), 2);
   EXPECT_EQ(again.scene().interfaces[0].mesh, evolution.scene().interfaces[0].mesh);
+}
+
+// The liquids around the merged drop have no mesh: no step can be taken. Neither the drops nor the
+// list of events, which the last checkpoint holds, may show the merger that was tried.
+TEST(EvolutionEvents, AreTakenBackWithTheStepTheyFail) {
+  log::set_level(log::Level::off);
+  Evolution evolution = evolution_of(two_drops(), true, 2);
+  const EvolutionReport report = run(evolution, 100);
+  log::set_level(log::Level::warning);
+  ASSERT_FALSE(report.ok);
+  EXPECT_NE(report.failure.find("too few drops"), std::string::npos) << report.failure;
+  EXPECT_GT(evolution.step(), 0);
+  EXPECT_EQ(evolution.scene().interfaces.size(), 2U);
+  EXPECT_EQ(evolution.drop_rows().size(), 2U);
+  EXPECT_TRUE(evolution.events().empty());
+  Archive archive;
+  evolution.save(archive);
+  Evolution again = evolution_of(two_drops(), true);
+  again.load(archive);
+  EXPECT_TRUE(again.events().empty());
 }
 
 TEST(EvolutionEvents, RefusesToLetDropsTouchWithoutCoalescence) {

@@ -12,9 +12,10 @@ class PrescribedFlow final : public FlowSolver {
   using Velocity = std::function<Vec3(const Vec3& x, double t)>;
   explicit PrescribedFlow(Velocity velocity) : prescribed_(std::move(velocity)) {}
 
-  FlowReport rebuild(const Scene&) override {
+  FlowReport rebuild(const Scene& scene) override {
     ++rebuilds;
-    return answer();
+    return scene.interfaces.size() < fewest_drops ? FlowReport{false, "too few drops", 0}
+                                                  : answer();
   }
   FlowReport solve(const Scene& scene, double t) override {
     ++solves;
@@ -39,6 +40,7 @@ class PrescribedFlow final : public FlowSolver {
 
   int rebuilds = 0, solves = 0;
   double longest_move = std::numeric_limits<double>::infinity();
+  std::size_t fewest_drops = 0;  ///< that it makes a mesh of
   bool is_broken = false;
 
  private:

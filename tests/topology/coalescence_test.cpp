@@ -7,6 +7,7 @@
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/mesh/surface_tree.hpp"
 #include "meniscus/topology/bridge_gap.hpp"
 #include "meniscus/topology/cut_neck.hpp"
 #include "meniscus/topology/gaps.hpp"
@@ -267,30 +268,66 @@ TEST(Coalescence, DoesNotDependOnTheNumberingOfVertices) {
   }
 }
 
-TEST(Coalescence, TakesOutAFilmThatItWouldTrap) {
-  // Two spheres, dimpled where they face each other: closest on a ring of radius 0.1, 0.7 limits
-  // apart there and 1.2 in the middle. The film within has a volume of about 2e-4, that of a sphere
-  // of radius 0.037, less than two limits.
-  Scene scene = two_spheres(0.5 * kGap);
+/// Two spheres, dimpled where they face each other: `ring` apart on a ring of that radius, where
+/// they are closest, and `middle` in its middle.
+Scene two_dimpled_spheres(double radius, double ring, double middle) {
+  const double sagitta = 1.0 - std::sqrt(1.0 - radius * radius);
+  Scene scene = two_spheres(ring - 2.0 * sagitta);
   for (Interface& drop : scene.interfaces) {
     const double side = enclosed_centroid(drop.mesh).x() < 0.0 ? -1.0 : 1.0;
     RemeshOptions options{.C0 = drop.C0};
-    options.size_bound = [](const Vec3& x) { return 0.02 + 0.5 * x.norm(); };
-    for (int i = 0; i < 6; ++i) ASSERT_TRUE(remesh(drop.mesh, options).ok);
+    options.size_bound = [&](const Vec3& x) {
+      return 0.02 + 0.5 * std::max(0.0, std::hypot(x.x(), x.y(), x.z()) - 1.2 * radius);
+    };
+    for (int i = 0; i < 6; ++i) EXPECT_TRUE(remesh(drop.mesh, options).ok);
     for (Vec3& x : drop.mesh.x) {
-      const double rho2 = x.y() * x.y() + x.z() * x.z();
-      if (rho2 < 0.15 * 0.15 && side * x.x() < 0.5)
-        x.x() = side * (0.35 * kGap + 0.25 * kGap * std::pow(rho2 / 0.01 - 1.0, 2));
+      const double share = (x.y() * x.y() + x.z() * x.z()) / (radius * radius);
+      if (share < 1.0 && side * x.x() < 0.5)
+        x.x() = 0.5 * side * (ring + (middle - ring) * std::pow(1.0 - share, 2));
     }
     drop.volume = enclosed_volume(drop.mesh);
   }
-  ASSERT_EQ(find_conflict(scene), "");
+  EXPECT_EQ(find_conflict(scene), "");
+  return scene;
+}
+
+bool is_enclosed(const Scene& scene, const Vec3& x) {
+  return std::ranges::any_of(
+      scene.interfaces, [&](const Interface& drop) { return encloses(SurfaceTree(drop.mesh), x); });
+}
+
+TEST(Coalescence, TakesOutAFilmThatItWouldTrap) {
+  // The film within the ring has a volume of about 2e-4, that of a sphere of radius 0.037, less
+  // than two limits.
+  Scene scene = two_dimpled_spheres(0.1, 0.7 * kGap, 1.2 * kGap);
+  ASSERT_FALSE(is_enclosed(scene, Vec3::Zero()));
   const Scene before = scene;
   const TopologyReport report = apply_topology(scene, kMerge, {});
   ASSERT_EQ(report.events.size(), 1U) << (report.warnings.empty() ? "" : report.warnings[0]);
   EXPECT_EQ(fault_after(before, scene, report), "");
   ASSERT_EQ(scene.interfaces.size(), 1U);
   EXPECT_EQ(test::euler_characteristic(scene.interfaces[0].mesh), 2);
+  EXPECT_TRUE(is_enclosed(scene, Vec3::Zero()));
+}
+
+TEST(Coalescence, LeavesAFilmThatCanBeResolvedWithinARing) {
+  // That of a sphere of radius 0.09, more than four limits: bridges are built along the ring, and
+  // the film drains between them.
+  constexpr double kRing = 0.15;
+  Scene scene = two_dimpled_spheres(kRing, 0.7 * kGap, 6.0 * kGap);
+  const Scene before = scene;
+  const TopologyReport report = apply_topology(scene, kMerge, {});
+  ASSERT_GE(report.events.size(), 2U);
+  EXPECT_TRUE(report.warnings.empty());
+  EXPECT_EQ(fault_after(before, scene, report), "");
+  for (const TopologyEvent& event : report.events)
+    EXPECT_NEAR(std::hypot(event.place.y(), event.place.z()), kRing, 0.01);
+  ASSERT_EQ(scene.interfaces.size(), 1U);
+  const auto num_bridges = static_cast<int>(report.events.size());
+  EXPECT_EQ(test::euler_characteristic(scene.interfaces[0].mesh), 4 - 2 * num_bridges);
+  EXPECT_FALSE(is_enclosed(scene, Vec3::Zero()));
+  const SurfaceTree tree(scene.interfaces[0].mesh);
+  EXPECT_GT(tree.closest(Vec3::Zero()).distance, 2.5 * kGap);  // three limits: half the film
 }
 
 }  // namespace

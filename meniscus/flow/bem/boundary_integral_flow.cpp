@@ -64,7 +64,7 @@ FlowReport BoundaryIntegralFlow::solve(const Scene& scene, double t) {
   std::optional<IntegralEquation> equation;
   {
     const PhaseTimer timer(times_, "assemble");
-    equation.emplace(scene, t, options_.threads);
+    equation.emplace(scene, t, options_);
   }
   const PhaseTimer timer(times_, "solve");
   std::vector<double> w =

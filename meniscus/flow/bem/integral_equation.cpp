@@ -4,7 +4,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "meniscus/flow/bem/parallel_blocks.hpp"
+#include "meniscus/core/error.hpp"
+#include "meniscus/linear/collective.hpp"
 
 namespace meniscus::bem {
 namespace {
@@ -41,8 +42,13 @@ std::vector<bool> nonzero(const std::vector<double>& values) {
 
 }  // namespace
 
-IntegralEquation::IntegralEquation(const Scene& scene, double t, int threads)
-    : threads_(threads), geometry_(make_geometry(scene)) {
+IntegralEquation::IntegralEquation(const Scene& scene, double t, const Options& options)
+    : geometry_(make_geometry(scene)),
+      shared_(geometry_.size(), linear::Communicator::of(options.processes), options.threads) {
+  for (const std::vector<double>* x :
+       {&geometry_.points.x, &geometry_.points.y, &geometry_.points.z})
+    if (!linear::agree(shared_.communicator(), std::span<const double>(*x)))
+      throw RunFailure("the ranks have made different interfaces: do their machines differ?");
   std::vector<double> differences;
   for (const Interface& interface : scene.interfaces) {
     const double inner = scene.liquids[interface.inside].viscosity,
@@ -52,7 +58,7 @@ IntegralEquation::IntegralEquation(const Scene& scene, double t, int threads)
     rigid_.emplace_back(interface.mesh);
   }
   const std::vector<double> q = traction_jump(scene, geometry_);
-  rows_ = near_rows(geometry_, q, nonzero(differences), threads_);
+  rows_ = near_rows(geometry_, q, nonzero(differences), shared_);
   set_right_hand_side(scene, t, q);
 }
 
@@ -65,7 +71,7 @@ void IntegralEquation::set_right_hand_side(const Scene& scene, double t,
   const double matrix_viscosity = scene.liquids[RegionId{0}].viscosity;
   const Mat3 gradient = scene.flow.gradient(t);
   right_hand_side_.resize(num_unknowns());
-  for_blocks(geometry_.size(), threads_, [&](std::int32_t begin, std::int32_t end) {
+  shared_.for_own([&](std::int32_t begin, std::int32_t end) {
     for (std::int32_t i = begin; i < end; ++i) {
       const Vec3 x = geometry_.points.point(i);
       const Vec3 layer =
@@ -75,6 +81,7 @@ void IntegralEquation::set_right_hand_side(const Scene& scene, double t,
               contrast_[surface_of(i)].mean);
     }
   });
+  shared_.gather(right_hand_side_);
 }
 
 std::size_t IntegralEquation::surface_of(std::int32_t i) const {
@@ -133,7 +140,7 @@ void IntegralEquation::apply(std::span<const double> w, std::span<double> result
     mean_normal.push_back(mean_normal_component(m, density));
   for (std::int32_t j = 0; j < geometry_.size(); ++j)
     density.set(j, contrast_[surface_of(j)].difference * density.at(j));
-  for_blocks(geometry_.size(), threads_, [&](std::int32_t begin, std::int32_t end) {
+  shared_.for_own([&](std::int32_t begin, std::int32_t end) {
     for (std::int32_t i = begin; i < end; ++i) {
       const std::size_t m = surface_of(i);
       const Contrast& contrast = contrast_[m];
@@ -144,6 +151,7 @@ void IntegralEquation::apply(std::span<const double> w, std::span<double> result
                          contrast.mean);
     }
   });
+  shared_.gather(result);
 }
 
 std::vector<std::size_t> IntegralEquation::outermost_first() const {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "meniscus/flow/bem/near_field.hpp"
+#include "meniscus/flow/bem/options.hpp"
 #include "meniscus/flow/bem/rigid_motion.hpp"
 
 namespace meniscus::bem {
@@ -34,7 +35,8 @@ namespace meniscus::bem {
 /// Unknowns are values at the vertices of all interfaces, x components first, then y, then z.
 class IntegralEquation {
  public:
-  IntegralEquation(const Scene& scene, double t, int threads);
+  /// Throws RunFailure where processes that share the work have been given different scenes.
+  IntegralEquation(const Scene& scene, double t, const Options& options);
 
   [[nodiscard]] std::size_t num_unknowns() const { return 3 * rows_.size(); }
   /// Whether any interface divides liquids of unlike viscosity; else w is the right-hand side.
@@ -63,11 +65,11 @@ class IntegralEquation {
   [[nodiscard]] std::vector<RigidMotion> rigid_parts(std::span<const double> w) const;
   [[nodiscard]] std::vector<std::size_t> outermost_first() const;
 
-  int threads_;
   BoundaryGeometry geometry_;
+  SharedPoints shared_;
   std::vector<Contrast> contrast_;
   std::vector<RigidProjection> rigid_;
-  std::vector<NearRow> rows_;
+  std::vector<NearRow> rows_;  // of this process's own points
   std::vector<double> right_hand_side_;
 };
 

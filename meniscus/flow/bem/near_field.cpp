@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "meniscus/flow/bem/face_moments.hpp"
-#include "meniscus/flow/bem/parallel_blocks.hpp"
 
 namespace meniscus::bem {
 namespace {
@@ -144,9 +143,9 @@ class RowBuilder {
 }  // namespace
 
 std::vector<NearRow> near_rows(const BoundaryGeometry& geometry, const std::vector<double>& q,
-                               const std::vector<bool>& has_dual, int threads) {
+                               const std::vector<bool>& has_dual, const SharedPoints& shared) {
   std::vector<NearRow> rows(static_cast<std::size_t>(geometry.size()));
-  for_blocks(geometry.size(), threads, [&](std::int32_t begin, std::int32_t end) {
+  shared.for_own([&](std::int32_t begin, std::int32_t end) {
     RowBuilder builder(geometry, q, has_dual);
     for (std::int32_t i = begin; i < end; ++i) rows[static_cast<std::size_t>(i)] = builder.row(i);
   });

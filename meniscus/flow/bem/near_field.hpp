@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "meniscus/flow/bem/boundary_geometry.hpp"
+#include "meniscus/flow/bem/shared_points.hpp"
 
 namespace meniscus::bem {
 
@@ -16,10 +17,11 @@ struct NearRow {
   Vec3 single = Vec3::Zero();         ///< to be added to single_layer_sum
 };
 
-/// Rows of all points. `q` is the density of the single layer by point; the double layer is left
-/// out of surfaces where `has_dual` is false.
+/// Rows of this process's own points, the others' being empty. `q` is the density of the single
+/// layer by point; the double layer is left out of surfaces where `has_dual` is false.
 [[nodiscard]] std::vector<NearRow> near_rows(const BoundaryGeometry& geometry,
                                              const std::vector<double>& q,
-                                             const std::vector<bool>& has_dual, int threads);
+                                             const std::vector<bool>& has_dual,
+                                             const SharedPoints& shared);
 
 }  // namespace meniscus::bem

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "meniscus/linear/communicator.hpp"
 #include "meniscus/volume/motion.hpp"
 #include "meniscus/volume/tetrahedralize.hpp"
 
@@ -33,12 +34,6 @@ enum class CapillaryForm {
              ///< constant κ
 };
 
-/// Which processes share the work.
-enum class Processes {
-  alone,  ///< none: each that calls does all
-  all     ///< those that mpirun started, which must all make the same calls
-};
-
 enum class LinearSolver { block, paper_gmres, minres, mumps };
 
 struct Options {
@@ -49,7 +44,7 @@ struct Options {
   int max_iterations = 2000;
   VolumeMeshOptions volume_mesh;
   VolumeMotion volume_motion = VolumeMotion::spines;
-  Processes processes = Processes::alone;
+  linear::Processes processes = linear::Processes::alone;
   std::string petsc_options;  ///< further PETSc options, as on its command line
 };
 

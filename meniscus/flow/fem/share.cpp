@@ -13,18 +13,6 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-/// FNV-1a of the cells' nodes, taken in four strands: one alone waits for each of its products.
-std::uint64_t fingerprint(const FlowSpace& space) {
-  constexpr std::uint64_t basis = 14695981039346656037u, prime = 1099511628211u;
-  std::array<std::uint64_t, 4> strand = {basis, basis, basis, basis};
-  const std::vector<std::int32_t>& nodes = space.velocity.cell_nodes;
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    strand[i % 4] = (strand[i % 4] ^ static_cast<std::uint64_t>(nodes[i])) * prime;
-  std::uint64_t hash = basis;
-  for (const std::uint64_t value : strand) hash = (hash ^ value) * prime;
-  return hash;
-}
-
 /// Mid-edge nodes go with the lower of their ends.
 std::vector<std::int32_t> ranks_of_nodes(const FlowSpace& space,
                                          std::vector<std::int32_t> rank_of_vertex) {
@@ -168,7 +156,7 @@ Numbering numbering(const std::vector<std::int32_t>& rank_of, int num_ranks) {
 std::unique_ptr<const Share> make_share(const FlowSpace& space, linear::Communicator communicator) {
   const int size = communicator.size(), rank = communicator.rank();
   if (size == 1) return nullptr;
-  if (!linear::agree(communicator, fingerprint(space)))
+  if (!linear::agree(communicator, std::span<const std::int32_t>(space.velocity.cell_nodes)))
     throw RunFailure("the ranks have made different meshes: do their machines differ?");
   const std::vector<std::int32_t> rank_of_vertex = vertex_ranks(space, communicator);
   auto share = std::make_unique<Share>(communicator);

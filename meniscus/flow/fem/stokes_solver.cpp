@@ -114,12 +114,8 @@ double reference_residual(const StokesProblem& problem) {
   return std::clamp(kMostOfDisturbance * undisturbed, kLeastOfRest * at_rest, at_rest);
 }
 
-linear::Communicator communicator(Processes processes) {
-  return processes == Processes::all ? linear::Communicator::world() : linear::Communicator::self();
-}
-
 linear::SaddleSolver make_linear_solver(LinearSolver which, const Options& options) {
-  return {communicator(options.processes),
+  return {linear::Communicator::of(options.processes),
           {.method = method(which),
            .max_iterations = options.max_iterations,
            .multigrid_by_degree = options.elements == Elements::p2_p1,
@@ -135,7 +131,7 @@ void check_linear_options(const Options& options) {
 StokesSolver::StokesSolver(const FlowSpace& space, const Options& options)
     : options_(options),
       space_(space),
-      share_(make_share(space, communicator(options.processes))),
+      share_(make_share(space, linear::Communicator::of(options.processes))),
       jacobian_(share_ ? share_->space : space, share_.get()) {}
 
 StokesState StokesSolver::state_at_rest() const { return fem::state_at_rest(space_); }

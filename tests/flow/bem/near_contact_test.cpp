@@ -85,7 +85,8 @@ LayerErrors layer_errors(int num_vertices, double gap) {
     u.y[at] = value.y();
     u.z[at] = value.z();
   }
-  const std::vector<NearRow> rows = near_rows(geometry, q, {true, true}, 1);
+  const std::vector<NearRow> rows =
+      near_rows(geometry, q, {true, true}, SharedPoints(geometry.size()));
   LayerErrors error, size;
   for (std::int32_t i = geometry.surfaces[1].range.begin; i < geometry.size(); ++i) {
     const Vec3 x = geometry.points.point(i);
