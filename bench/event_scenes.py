@@ -6,8 +6,8 @@
 METHOD: boundary-integral (unbounded), or the finite elements P1-P1 or P2-P1 (in a sphere). Ten to sixteen drops of
 radius 0.3 to 0.4, lambda = 1, so close that they meet, in a flow of Ca about 2 whose gradient is random and turns round
 every unit of time, so that they come back. A scene is run until it has had EVENTS events, its time is over or it has
-taken LIMIT seconds; until then it must go on by itself, with volumes conserved to 1e-12 in each event and to 1e-6 in all. Volumes are those
-that the meshes before and after a step with events enclose.
+taken LIMIT seconds; until then it must go on by itself, with volumes conserved to 1e-12 in each event and to 1e-6 in
+all. Volumes are those that the meshes before and after a step with events enclose.
 """
 import csv
 import math

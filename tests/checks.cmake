@@ -49,6 +49,11 @@ foreach(solver boundary-integral P1-P1 P2-P1)
   set_tests_properties(events_${solver} PROPERTIES TIMEOUT 900)
 endforeach()
 
+add_test(NAME two_solvers COMMAND Python3::Interpreter
+  ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/two_solvers.py
+  $<TARGET_FILE:meniscus_program> ${CMAKE_CURRENT_BINARY_DIR}/two_solvers)
+set_tests_properties(two_solvers PROPERTIES TIMEOUT 900)
+
 # The validation cases, those of their runs that take seconds.
 add_test(NAME short_cases COMMAND meniscus_program check --all --short -q
   --cases ${PROJECT_SOURCE_DIR}/cases -o ${CMAKE_CURRENT_BINARY_DIR}/short_cases)

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -33,10 +34,11 @@ void require_free(const fs::path& file, bool is_overwrite) {
 }
 
 RemeshTarget target_of(const RemeshArguments& arguments, int num_vertices) {
-  RemeshTarget target{.by = RemeshTarget::By::nodes,
-                      .value = static_cast<double>(num_vertices),
-                      .edge_floor = arguments.edge_floor,
-                      .gradation = arguments.gradation};
+  RemeshTarget target{
+      .by = RemeshTarget::By::nodes,
+      .value = static_cast<double>(std::max(num_vertices, RemeshTarget::kFewestNodes)),
+      .edge_floor = arguments.edge_floor,
+      .gradation = arguments.gradation};
   if (arguments.nodes) target.value = *arguments.nodes;
   if (arguments.edge_length) {
     target.by = RemeshTarget::By::edge_length;

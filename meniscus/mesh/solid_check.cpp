@@ -1,6 +1,7 @@
 #include "meniscus/mesh/solid_check.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "meniscus/core/error.hpp"
@@ -57,6 +58,8 @@ std::string find_inverted_piece(const SurfaceMesh& mesh) {
 std::string find_solid_defect(const SurfaceMesh& mesh) {
   if (mesh.num_faces() == 0) return "surface has no faces";
   if (!is_finite(mesh)) return "surface is not finite";
+  if (!std::isfinite(enclosed_volume(mesh)))
+    return "coordinates are too large: the volume overflows";
   for (const auto find : {find_degenerate_face, find_open_edge})
     if (std::string fault = find(mesh); !fault.empty()) return fault;
   if (std::string fault = find_self_intersection(mesh); !fault.empty()) return fault;

@@ -17,7 +17,10 @@ namespace {
 namespace pmp = CGAL::Polygon_mesh_processing;
 
 constexpr double kLowAngleDeg = 15.0;  // of the 5 % quantile; relaxed meshes have 40° and more
-constexpr int kIterations = 5;         // CGAL's examples take 1 to 10; the angles settle by 5
+/// Of the wanted edge: longer ones are halved, the longest first, before creases are cut to pieces:
+/// those of long slivers would make fans, and these take triangles without end.
+constexpr double kLongEdge = 10.0;
+constexpr int kIterations = 5;  // CGAL's examples take 1 to 10; the angles settle by 5
 
 }  // namespace
 
@@ -35,6 +38,8 @@ SurfaceMesh evened_out(const SurfaceMesh& mesh, double edge, double crease_deg) 
   CgalMesh cgal = to_cgal(mesh);
   auto [is_crease, added] = cgal.add_property_map<CgalMesh::Edge_index, bool>("e:crease", false);
   if (crease_deg < 180.0) pmp::detect_sharp_edges(cgal, crease_deg, is_crease);
+  pmp::split_long_edges(cgal.edges(), kLongEdge * edge, cgal,
+                        CGAL::parameters::edge_is_constrained_map(is_crease));
   // Constrained edges are kept as they are, so that they have to be short before.
   std::vector<CgalMesh::Edge_index> creases;
   for (const auto e : cgal.edges())

@@ -1,10 +1,13 @@
 #include "meniscus/surface/remesh_target.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "meniscus/core/error.hpp"
@@ -12,6 +15,7 @@
 #include "meniscus/mesh/surface_distance.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
+#include "meniscus/surface/diffused.hpp"
 #include "meniscus/surface/even_out.hpp"
 #include "meniscus/surface/remesh.hpp"
 #include "meniscus/surface/sizing.hpp"
@@ -26,17 +30,20 @@ using By = RemeshTarget::By;
 constexpr int kMaxPasses = 10;  // one to three are usual; more where a floor bends the law
 /// A surface that does not flow needs its springs no nearer to rest: angles gain nothing by it.
 constexpr double kEquilibrium = 0.01;
-constexpr int kMaxSweeps = 60;    // a sweep collapses about a fifth of the vertices: 1e6 → 10
-constexpr int kFewestNodes = 12;  // of a piece: the icosahedron's
+constexpr int kMaxSweeps = 60;  // a sweep collapses about a fifth of the vertices: 1e6 → 10
 /// Of each target: where the search ends. Counts scatter by a percent (the remesher's own band).
 constexpr double kNodesBand = 0.02, kEdgeBand = 0.01, kChordalBand = 0.1, kChordalAim = 0.9;
-constexpr int kMaxFailures = 4;
+constexpr int kMaxFailures = 5;
 constexpr double kOtherKnob = 0.9;  // of the one that failed; the next passes correct for it
 constexpr double kGain = 0.8;       // a pass that leaves more of the miss than that gained little
 constexpr double kOwnShare = 0.02;  // of the tessellated smooth surface's own chordal error
 constexpr double kRoughEdge = 0.5;  // of the target's mean edge
 constexpr double kRoughChord =
     2.0;  // of the chordal error: creases are rounded by about half of it
+/// Lengths that rough pieces are smoothed over, in edges of the rough surface, the least first:
+/// from none to where the sharpest edges have become round enough to be fitted.
+constexpr std::array<double, 6> kRoundings{0.0, 0.5, 0.7, 1.0, 1.4, 2.0};
+constexpr double kMostLost = 0.05;  // of a piece's volume, with what is thinner than the rounding
 constexpr double kMostVertices = 2e6;  // a few gigabytes while they are made
 constexpr double kFlat = 1e-9;         // 1/R: less curvature than this is none
 
@@ -95,18 +102,29 @@ double rough_edge_length(const RemeshTarget& target, double area) {
   return edge;
 }
 
+/// The best result of a search: no pieces, and the failure reported, if no pass succeeded.
+struct Found {
+  std::vector<SurfaceMesh> pieces;
+  double miss = std::numeric_limits<double>::infinity();  ///< |ln(measure/target)|
+  TargetReport report;
+};
+
 /// Remeshes pieces to a target, in the units of the frame.
 class TargetSearch {
  public:
-  TargetSearch(std::vector<Piece> pieces, const RemeshTarget& target, double rough_edge)
-      : pieces_(std::move(pieces)), target_(target), rough_edge_(rough_edge) {
+  /// Ends at the `most_failures`-th pass that fails.
+  TargetSearch(std::vector<Piece> pieces, const RemeshTarget& target, double rough_edge,
+               int most_failures)
+      : pieces_(std::move(pieces)),
+        target_(target),
+        rough_edge_(rough_edge),
+        most_failures_(most_failures) {
     if (target.by == By::chordal_error) build_references();
   }
 
-  /// The pieces of the best result; none, and the failure reported, if the first pass failed.
-  std::vector<SurfaceMesh> run(TargetReport& report) {
-    std::vector<SurfaceMesh> best;
-    double best_miss = std::numeric_limits<double>::infinity();
+  [[nodiscard]] Found run() const {
+    Found best;
+    TargetReport& report = best.report;
     int passes_since_best = 0, failures = 0;
     double knob = first_knob(), last_knob = 0.0, last_measure = 0.0;
     const double aim =
@@ -116,7 +134,7 @@ class TargetSearch {
       std::vector<SurfaceMesh> remeshed;
       std::string failure = pass(knob, remeshed);
       if (!failure.empty()) {  // rough surfaces fail at one size and not at another near it
-        if (++failures > kMaxFailures) {
+        if (++failures == most_failures_) {
           report.failure = std::move(failure);
           break;
         }
@@ -126,10 +144,10 @@ class TargetSearch {
       const double measure = measured(remeshed);
       const double miss = std::abs(std::log(measure / aim));
       ++passes_since_best;
-      if (miss < kGain * best_miss) passes_since_best = 0;
-      if (miss < best_miss) {
-        best_miss = miss;
-        best = std::move(remeshed);
+      if (miss < kGain * best.miss) passes_since_best = 0;
+      if (miss < best.miss) {
+        best.miss = miss;
+        best.pieces = std::move(remeshed);
         report.reached = measure;
         report.is_met = miss <= band();
       }
@@ -192,7 +210,7 @@ class TargetSearch {
     RemeshOptions options;
     options.volume = pieces_[i].volume;
     options.gradation = target_.gradation;
-    options.min_vertices = kFewestNodes;
+    options.min_vertices = RemeshTarget::kFewestNodes;
     options.max_sweeps = kMaxSweeps;
     options.equilibrium = kEquilibrium;
     options.find_fault = [](const SurfaceMesh& m) { return find_self_intersection(m); };
@@ -260,6 +278,7 @@ class TargetSearch {
   std::vector<Piece> pieces_;
   RemeshTarget target_;
   double rough_edge_;
+  int most_failures_;
   std::vector<Reference> references_;
 };
 
@@ -289,6 +308,62 @@ double even_out(std::vector<Piece>& pieces, const RemeshTarget& target) {
   return edge;
 }
 
+int euler_characteristic(const SurfaceMesh& mesh) {
+  return mesh.num_vertices() - mesh.num_faces() / 2;  // every edge is shared by two faces
+}
+
+/// Pieces whose rough ones can be smoothed over lengths, each not less than the last.
+class RoughPieces {
+ public:
+  RoughPieces(const std::vector<Piece>& pieces, double edge) : pieces_(pieces), edge_(edge) {}
+
+  /// None where that loses what is thinner than the length, or a hole.
+  std::optional<std::vector<Piece>> smoothed(double length) {
+    if (length == 0.0) return pieces_;
+    std::vector<Piece> smooth = pieces_;
+    for (std::size_t i = 0; i < smooth.size(); ++i) {
+      if (!smooth[i].is_rough) continue;
+      SurfaceMesh& mesh = smooth[i].mesh;
+      const auto found = diffused_.try_emplace(i, mesh, edge_).first;
+      std::optional<SurfaceMesh> round = found->second.smoothed(length, kMostLost);
+      if (!round || !find_defect(*round).empty() ||
+          euler_characteristic(*round) != euler_characteristic(mesh))
+        return std::nullopt;
+      mesh = std::move(*round);
+    }
+    return smooth;
+  }
+
+ private:
+  const std::vector<Piece>& pieces_;
+  double edge_;
+  std::map<std::size_t, DiffusedSurface> diffused_;
+};
+
+/// The first of the roundings that meets the target; the one that comes nearest to it, else.
+Found search_rounded(const std::vector<Piece>& pieces, const RemeshTarget& target,
+                     double rough_edge) {
+  RoughPieces rough(pieces, rough_edge);
+  Found best;
+  int passes = 0;
+  for (const double rounding : kRoundings) {
+    std::optional<std::vector<Piece>> smooth = rough.smoothed(rounding * rough_edge);
+    if (!smooth) break;
+    const int failures = rounding == kRoundings.back() ? kMaxFailures : 1;
+    Found found = TargetSearch(std::move(*smooth), target, rough_edge, failures).run();
+    passes += found.report.passes;
+    if (found.miss < best.miss || (best.pieces.empty() && best.report.failure.empty()))
+      best = std::move(found);
+    if (best.report.is_met) break;
+  }
+  best.report.passes = passes;
+  best.report.is_evened_out = true;
+  if (best.pieces.empty())
+    best.report.failure +=
+        "; parts are too thin, or edges too sharp, for triangles as large as asked for";
+  return best;
+}
+
 /// The target in units of the frame.
 RemeshTarget scaled(RemeshTarget target, double radius) {
   if (target.by != By::nodes) target.value /= radius;
@@ -315,7 +390,6 @@ void RemeshTarget::validate() const {
 
 TargetReport remesh_to(SurfaceMesh& mesh, const RemeshTarget& target) {
   target.validate();
-  TargetReport report;
   SurfaceMesh working = mesh;
   const Frame frame(mesh);
   frame.enter(working);
@@ -325,12 +399,13 @@ TargetReport remesh_to(SurfaceMesh& mesh, const RemeshTarget& target) {
   if (inner.by == By::edge_length)
     require_affordable(inner, surface_area(working) * density_of_length(inner.value));
   const double rough_edge = even_out(pieces, inner);
-  report.is_evened_out = rough_edge > 0.0;
   std::vector<bool> is_cavity;
   for (const Piece& piece : pieces) is_cavity.push_back(piece.is_cavity);
 
-  TargetSearch search(std::move(pieces), inner, rough_edge);
-  std::vector<SurfaceMesh> result = search.run(report);
+  Found found = rough_edge > 0.0 ? search_rounded(pieces, inner, rough_edge)
+                                 : TargetSearch(std::move(pieces), inner, 0.0, kMaxFailures).run();
+  TargetReport report = std::move(found.report);
+  std::vector<SurfaceMesh> result = std::move(found.pieces);
   if (result.empty()) {
     report.ok = false;
     return report;

@@ -13,6 +13,7 @@ struct RemeshTarget {
     edge_length,   ///< mean edge of an even mesh
     chordal_error  ///< largest distance of a face from the smooth surface
   };
+  static constexpr int kFewestNodes = 12;  ///< of a piece: the icosahedron's
   By by = By::nodes;
   double value = 1000.0;
   double edge_floor = 0.0;  ///< no edge is asked to be shorter; not with edge_length

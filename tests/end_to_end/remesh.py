@@ -183,10 +183,47 @@ def targets(program, work):
     expect(abs(table["volume_change"]) < 1e-9, "volume changed", table)
 
 
+def solid(points, *polygons):
+    """A convex solid of plane polygons, each cut into triangles from its first corner."""
+    return points, [(p[0], p[i], p[i + 1]) for p in polygons for i in range(1, len(p) - 1)]
+
+
+def sharp_solids():
+    """Of few faces and sharp edges: name, surface, arguments."""
+    yield "tetrahedron", solid([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], (0, 2, 1), (0, 1, 3),
+                               (0, 3, 2), (1, 2, 3)), ["--nodes", 200]
+    base = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    yield "pyramid", solid([*base, (0.5, 0.5, 1)], (0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4),
+                           (3, 0, 4)), ["--edge-length", 0.14]
+    rim = [(math.cos(math.pi * k / 16), math.sin(math.pi * k / 16), 0) for k in range(32)]
+    yield "cone", solid([*rim, (0, 0, 2)], tuple(range(31, -1, -1)),
+                        *((k, (k + 1) % 32, 32) for k in range(32))), ["--nodes", 200]
+    yield "wedge", solid([(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0), (0, 0, 0.3), (0, 1, 0.3)],
+                         (0, 3, 2, 1), (0, 4, 5, 3), (1, 2, 5, 4), (0, 1, 4), (2, 3, 5)), [
+                             "--nodes", 200]
+    sides = (0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)
+    for name, (a, b, c), nodes in (("plate", (10, 10, 1), 200), ("bar", (30, 1, 1), 400)):
+        yield name, solid([(a * x, b * y, c * z) for z in (0, 1) for x, y, _ in base], *sides), [
+            "--nodes", nodes]
+
+
 def creases(program, work):
-    """Solids with edges: sound meshes, the edges rounded over less than an edge of the mesh."""
+    """Solids with edges: sound meshes, the edges rounded over less than an edge of the mesh; those
+    of tetrahedra and the like over some edges."""
+    for name, surface, arguments in sharp_solids():
+        (work / f"{name}.off").write_bytes(off(surface))
+        table = remesh(program, work, f"{name}.off", *arguments)
+        check_sound(table)
+        expect(table["creases_rounded"] and table["is_met"], "target", table)
+        expect(abs(table["volume_change"]) < 1e-12, "volume changed", table)
+        # A tip of 17 degrees is cut back by five edges.
+        expect(table["hausdorff_distance"] < 6 * table["after"]["mean_edge"], "far off", table)
+        expect(table["after"]["low_angle_deg"] > 35, "poor triangles", table)
     (work / "cube.stl").write_bytes(stl(cube(10)))
     (work / "rod.stl").write_bytes(stl(rod(10, 60, 64)))
+    table = remesh(program, work, "cube.stl")  # as many as there are, but no fewer than twelve
+    check_sound(table)
+    expect(table["after"]["vertices"] <= 20, "vertices", table)
     for name, arguments in (("cube", ["--nodes", 800]), ("cube", ["--edge-length", 1]),
                             ("rod", ["--edge-length", 3])):
         table = remesh(program, work, f"{name}.stl", *arguments, "--overwrite")
@@ -229,6 +266,8 @@ def garbage():
     yield "not-manifold.stl", stl(together(cube(1), cube(1, (1, 1, 0)))), ["not manifold"]
     yield "two-fans.stl", stl(together(cube(1), cube(1, (1, 1, 1)))), ["not manifold at vertex"]
     yield "one-face-turned.off", off((points, [faces[0][::-1], *faces[1:]])), ["oriented"]
+    many, tiles = torus(3, 1, 1000, 500)
+    yield "a-million.stl", stl((many, tiles[1:])), ["not closed"]
     yield "inside-out.off", off(inverted(ball)), ["inside out"]
     yield "inside-out-beside.off", off(together(ball, inverted(sphere(2, 1, (5, 0, 0))))), ["inside"]
     yield "flat.off", off(([(x, y, 0) for x, y, z in points], faces)), ["meets itself"]
@@ -236,6 +275,7 @@ def garbage():
     yield "itself.off", off((pushed, faces)), ["meets itself"]
     yield "crossing.off", off(together(ball, sphere(2, 1, (0.5, 0.1, 0)))), ["meets itself"]
     yield "nan.off", text.replace(repr(points[0][0]), "nan", 1).encode(), ["nan.off"]
+    yield "huge.off", off(([tuple(1e200 * c for c in p) for p in points], faces)), ["too large"]
     yield "inf.stl", stl(([(math.inf, 0, 0), *points[1:]], faces)), ["not finite"]
     yield "nan.stl", stl(([(math.nan, 0, 0), *points[1:]], faces)), ["not finite"]
     for kind in ("stl", "ply", "obj", "off", "vtp"):
