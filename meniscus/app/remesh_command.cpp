@@ -138,8 +138,12 @@ void print_table(const Outcome& outcome) {
   fmt::print("volume changed by {:.2g} %, area by {:.2g} %\n",
              100.0 * (outcome.after.volume / outcome.before.volume - 1.0),
              100.0 * (outcome.after.area / outcome.before.area - 1.0));
-  if (outcome.report.is_evened_out)
+  if (outcome.report.are_creases_rounded)
     fmt::print("creases or slivers were found: edges and corners are rounded\n");
+  if (outcome.report.are_creases_kept)
+    fmt::print(
+        "no smooth surface fits triangles of that size: faces are cut evenly, edges and corners "
+        "kept\n");
   fmt::print("wrote {}\n", outcome.file.string());
 }
 
@@ -166,7 +170,8 @@ void print_json(const Outcome& outcome) {
                      {"reached", outcome.report.reached},
                      {"is_met", outcome.report.is_met},
                      {"passes", outcome.report.passes},
-                     {"creases_rounded", outcome.report.is_evened_out},
+                     {"creases_rounded", outcome.report.are_creases_rounded},
+                     {"creases_kept", outcome.report.are_creases_kept},
                      {"file", outcome.file.string()}};
   fmt::print("{}\n", json.dump(2));
 }

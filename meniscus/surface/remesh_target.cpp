@@ -102,6 +102,20 @@ double rough_edge_length(const RemeshTarget& target, double area) {
   return edge;
 }
 
+double band(By by) {
+  if (by == By::nodes) return kNodesBand;
+  return by == By::edge_length ? kEdgeBand : kChordalBand;
+}
+
+/// The next knob: first as if the measure were proportional to it, then by the secant of the two
+/// passes before in logarithms (floors and gradation bend the law; its slope stays in bounds).
+double corrected(double knob, double measure, double last_knob, double last_measure, double aim) {
+  double slope = 1.0;
+  if (last_knob > 0.0 && last_knob != knob)
+    slope = std::clamp(std::log(measure / last_measure) / std::log(knob / last_knob), 0.1, 1.5);
+  return knob * std::clamp(std::pow(aim / measure, 1.0 / slope), 0.05, 20.0);
+}
+
 /// The best result of a search: no pieces, and the failure reported, if no pass succeeded.
 struct Found {
   std::vector<SurfaceMesh> pieces;
@@ -149,10 +163,10 @@ class TargetSearch {
         best.miss = miss;
         best.pieces = std::move(remeshed);
         report.reached = measure;
-        report.is_met = miss <= band();
+        report.is_met = miss <= band(target_.by);
       }
       const bool is_stuck = target_.by != By::nodes && passes_since_best == 3;
-      if (miss <= band() || measure == last_measure || is_stuck) break;
+      if (miss <= band(target_.by) || measure == last_measure || is_stuck) break;
       const double next = corrected(knob, measure, last_knob, last_measure, aim);
       last_knob = knob;
       last_measure = measure;
@@ -200,10 +214,6 @@ class TargetSearch {
     if (target_.by == By::nodes)
       return target_.value / (4.0 * std::numbers::pi * static_cast<double>(pieces_.size()));
     return target_.value;
-  }
-  [[nodiscard]] double band() const {
-    if (target_.by == By::nodes) return kNodesBand;
-    return target_.by == By::edge_length ? kEdgeBand : kChordalBand;
   }
 
   [[nodiscard]] RemeshOptions options(std::size_t i, double knob) const {
@@ -263,16 +273,6 @@ class TargetSearch {
       largest = std::max(largest, d.distance + d.error);
     }
     return largest;
-  }
-
-  /// The next knob: first as if the measure were proportional to it, then by the secant of the two
-  /// passes before in logarithms (floors and gradation bend the law; its slope stays in bounds).
-  [[nodiscard]] static double corrected(double knob, double measure, double last_knob,
-                                        double last_measure, double aim) {
-    double slope = 1.0;
-    if (last_knob > 0.0 && last_knob != knob)
-      slope = std::clamp(std::log(measure / last_measure) / std::log(knob / last_knob), 0.1, 1.5);
-    return knob * std::clamp(std::pow(aim / measure, 1.0 / slope), 0.05, 20.0);
   }
 
   std::vector<Piece> pieces_;
@@ -357,11 +357,71 @@ Found search_rounded(const std::vector<Piece>& pieces, const RemeshTarget& targe
     if (best.report.is_met) break;
   }
   best.report.passes = passes;
-  best.report.is_evened_out = true;
+  best.report.are_creases_rounded = true;
   if (best.pieces.empty())
     best.report.failure +=
         "; parts are too thin, or edges too sharp, for triangles as large as asked for";
   return best;
+}
+
+/// Pieces in even triangles on their flat faces; none where that leaves one unsound.
+std::vector<SurfaceMesh> cut_evenly(const std::vector<Piece>& pieces, double edge) {
+  std::vector<SurfaceMesh> even;
+  for (const Piece& piece : pieces) {
+    even.push_back(evened_out(piece.mesh, edge));
+    restore_volume(even.back(), piece.volume);
+    if (!find_defect(even.back()).empty()) return {};
+  }
+  return even;
+}
+
+/// What is left where no smooth surface fits: the pieces as they came, cut evenly. They have no
+/// chordal error, whatever their edges are.
+Found search_cut(const std::vector<Piece>& pieces, const RemeshTarget& target, double rough_edge) {
+  Found best;
+  best.report.are_creases_kept = true;
+  if (target.by == By::chordal_error) {
+    best.pieces = cut_evenly(pieces, rough_edge);
+    best.report.passes = 1;
+    best.report.is_met = true;
+    return best;
+  }
+  double area = 0.0;
+  for (const Piece& piece : pieces) area += surface_area(piece.mesh);
+  double knob = target.value, last_knob = 0.0, last_measure = 0.0;
+  while (best.report.passes < kMaxPasses && !best.report.is_met) {
+    ++best.report.passes;
+    const bool counts = target.by == By::nodes;
+    std::vector<SurfaceMesh> even = cut_evenly(
+        pieces, std::max(counts ? length_of_density(knob / area) : knob, target.edge_floor));
+    if (even.empty()) break;
+    const SurfaceMesh all = joined(even);
+    const double measure = counts ? all.num_vertices() : mean_edge(all);
+    if (measure == last_measure) break;
+    const double miss = std::abs(std::log(measure / target.value));
+    if (miss < best.miss) {
+      best.miss = miss;
+      best.pieces = std::move(even);
+      best.report.reached = measure;
+      best.report.is_met = miss <= band(target.by);
+    }
+    const double next = corrected(knob, measure, last_knob, last_measure, target.value);
+    last_knob = knob;
+    last_measure = measure;
+    knob = next;
+  }
+  return best;
+}
+
+/// A surface with rough pieces: rounded, or cut evenly where that does not do.
+Found search_rough(const std::vector<Piece>& given, const std::vector<Piece>& even,
+                   const RemeshTarget& target, double rough_edge) {
+  Found rounded = search_rounded(even, target, rough_edge);
+  if (!rounded.pieces.empty()) return rounded;
+  Found cut = search_cut(given, target, rough_edge);
+  if (cut.pieces.empty()) return rounded;
+  cut.report.passes += rounded.report.passes;
+  return cut;
 }
 
 /// The target in units of the frame.
@@ -398,11 +458,12 @@ TargetReport remesh_to(SurfaceMesh& mesh, const RemeshTarget& target) {
   std::vector<Piece> pieces = pieces_of(working);
   if (inner.by == By::edge_length)
     require_affordable(inner, surface_area(working) * density_of_length(inner.value));
+  const std::vector<Piece> given = pieces;
   const double rough_edge = even_out(pieces, inner);
   std::vector<bool> is_cavity;
   for (const Piece& piece : pieces) is_cavity.push_back(piece.is_cavity);
 
-  Found found = rough_edge > 0.0 ? search_rounded(pieces, inner, rough_edge)
+  Found found = rough_edge > 0.0 ? search_rough(given, pieces, inner, rough_edge)
                                  : TargetSearch(std::move(pieces), inner, 0.0, kMaxFailures).run();
   TargetReport report = std::move(found.report);
   std::vector<SurfaceMesh> result = std::move(found.pieces);

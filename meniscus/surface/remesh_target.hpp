@@ -23,11 +23,12 @@ struct RemeshTarget {
 
 struct [[nodiscard]] TargetReport {
   bool ok = true;
-  std::string failure;         ///< why the surface was left as it was
-  int passes = 0;              ///< remeshings from the given surface, until the target was met
-  double reached = 0.0;        ///< vertices, mean edge or largest distance of the result
-  bool is_met = false;         ///< within the bands below; shapes have fewest vertices they need
-  bool is_evened_out = false;  ///< the surface had creases or slivers: see below
+  std::string failure;   ///< why the surface was left as it was
+  int passes = 0;        ///< remeshings from the given surface, until the target was met
+  double reached = 0.0;  ///< vertices, mean edge or largest distance of the result
+  bool is_met = false;   ///< within the bands below; shapes have fewest vertices they need
+  // Where the surface had creases or slivers: see below.
+  bool are_creases_rounded = false, are_creases_kept = false;
 };
 
 /// Remeshes every piece of a closed surface (of any unit, any number of pieces, each without
@@ -45,7 +46,11 @@ struct [[nodiscard]] TargetReport {
 /// below 15°) is first given even triangles, half as long as the target's mean edge, on its flat
 /// faces (CGAL's isotropic remeshing, creases kept); with chordal_error, twice the error. The
 /// smooth surface of that mesh rounds creases and corners over about that length, and no edge
-/// shorter than it is asked for.
+/// shorter than it is asked for. Where the target is not met so, the mesh is smoothed as a whole
+/// over half to twice that length (`DiffusedSurface`), the least that meets it. Where no smooth
+/// surface can be remeshed, as where parts are much thinner than the edges asked for, the faces as
+/// given are cut evenly, edges and corners kept: angles then are what the shape allows, and there
+/// is no chordal error.
 ///
 /// Transactional, like `remesh`.
 TargetReport remesh_to(SurfaceMesh& mesh, const RemeshTarget& target);

@@ -188,6 +188,10 @@ def solid(points, *polygons):
     return points, [(p[0], p[i], p[i + 1]) for p in polygons for i in range(1, len(p) - 1)]
 
 
+# Of a box whose corners are the four of its floor, then the four above them.
+BOX_SIDES = (0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)
+
+
 def sharp_solids():
     """Of few faces and sharp edges: name, surface, arguments."""
     yield "tetrahedron", solid([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], (0, 2, 1), (0, 1, 3),
@@ -201,9 +205,8 @@ def sharp_solids():
     yield "wedge", solid([(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0), (0, 0, 0.3), (0, 1, 0.3)],
                          (0, 3, 2, 1), (0, 4, 5, 3), (1, 2, 5, 4), (0, 1, 4), (2, 3, 5)), [
                              "--nodes", 200]
-    sides = (0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)
     for name, (a, b, c), nodes in (("plate", (10, 10, 1), 200), ("bar", (30, 1, 1), 400)):
-        yield name, solid([(a * x, b * y, c * z) for z in (0, 1) for x, y, _ in base], *sides), [
+        yield name, solid([(a * x, b * y, c * z) for z in (0, 1) for x, y, _ in base], *BOX_SIDES), [
             "--nodes", nodes]
 
 
@@ -219,6 +222,16 @@ def creases(program, work):
         # A tip of 17 degrees is cut back by five edges.
         expect(table["hausdorff_distance"] < 6 * table["after"]["mean_edge"], "far off", table)
         expect(table["after"]["low_angle_deg"] > 35, "poor triangles", table)
+    # Much thinner than the triangles asked for: no smooth surface fits.
+    thin = [(10 * x, 10 * y, 0.1 * z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    (work / "thin.off").write_bytes(off(solid(thin, *BOX_SIDES)))
+    for arguments in (["--nodes", 200], ["--chordal-error", 0.1]):
+        table = remesh(program, work, "thin.off", *arguments, "--overwrite")
+        check_sound(table)
+        expect(table["creases_kept"] and not table["creases_rounded"] and table["is_met"], "target",
+               table)
+        expect(abs(table["volume_change"]) < 1e-12, "volume changed", table)
+        expect(table["hausdorff_distance"] < 1e-12, "off the faces", table)
     (work / "cube.stl").write_bytes(stl(cube(10)))
     (work / "rod.stl").write_bytes(stl(rod(10, 60, 64)))
     table = remesh(program, work, "cube.stl")  # as many as there are, but no fewer than twelve

@@ -95,7 +95,7 @@ TEST(RemeshTarget, RoundsCreasesAndSaysSo) {
   const double volume = enclosed_volume(mesh);
   const TargetReport report = remesh_to(mesh, {.by = By::edge_length, .value = 0.25});
   ASSERT_TRUE(report.ok) << report.failure;
-  EXPECT_TRUE(report.is_evened_out);
+  EXPECT_TRUE(report.are_creases_rounded);
   EXPECT_EQ(find_solid_defect(mesh), "");
   EXPECT_NEAR(enclosed_volume(mesh), volume, 1e-10);
   EXPECT_NEAR(mean_edge(mesh), 0.25, 0.0025);
