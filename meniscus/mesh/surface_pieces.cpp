@@ -60,6 +60,10 @@ SurfaceMesh joined(std::span<const SurfaceMesh> pieces) {
   return whole;
 }
 
+int euler_characteristic(const SurfaceMesh& mesh) {
+  return mesh.num_vertices() - mesh.num_faces() / 2;  // every edge is shared by two faces
+}
+
 void turn_inside_out(SurfaceMesh& mesh) {
   for (FaceVertices& f : mesh.faces) std::swap(f[1], f[2]);
 }

@@ -14,6 +14,9 @@ namespace meniscus {
 /// The pieces as one surface: vertices and faces of one after those of the other.
 [[nodiscard]] SurfaceMesh joined(std::span<const SurfaceMesh> pieces);
 
+/// V − E + F of a closed surface: the sum over its pieces of 2 less twice the number of handles.
+[[nodiscard]] int euler_characteristic(const SurfaceMesh& mesh);
+
 /// Turns every face over, so that what was inside is outside.
 void turn_inside_out(SurfaceMesh& mesh);
 

@@ -308,10 +308,6 @@ double even_out(std::vector<Piece>& pieces, const RemeshTarget& target) {
   return edge;
 }
 
-int euler_characteristic(const SurfaceMesh& mesh) {
-  return mesh.num_vertices() - mesh.num_faces() / 2;  // every edge is shared by two faces
-}
-
 /// Pieces whose rough ones can be smoothed over lengths, each not less than the last.
 class RoughPieces {
  public:

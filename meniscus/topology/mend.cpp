@@ -86,11 +86,6 @@ FacePatch widened(const SurfaceMesh& mesh, const FacePatch& patch, double margin
   return wide;
 }
 
-int euler_characteristic(const SurfaceMesh& mesh) {
-  // Every edge is shared by two faces.
-  return mesh.num_vertices() - mesh.num_faces() / 2;
-}
-
 /// The surface with what lies within `margin` mean edges of its creases cut out and closed
 /// smoothly: a crevice or a thorn goes as a whole. None where it does not leave one piece of the
 /// same genus.
