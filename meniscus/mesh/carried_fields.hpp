@@ -24,6 +24,16 @@ struct CarriedField {
   friend bool operator==(const CarriedField&, const CarriedField&) = default;
 };
 
+/// The fields of a surface. On vertices they are linear over the faces, so that their integral is
+/// Σ_v value · (a third of the area of the faces at v); on faces they are means over the face.
+struct SurfaceFields {
+  std::vector<CarriedField<VertexId>> on_vertices;
+  std::vector<CarriedField<FaceId>> on_faces;
+
+  [[nodiscard]] bool empty() const { return on_vertices.empty() && on_faces.empty(); }
+  friend bool operator==(const SurfaceFields&, const SurfaceFields&) = default;
+};
+
 /// The fields of a volume mesh. On vertices they are linear over the cells and one-valued across
 /// interfaces; only interpolated ones may live there. On cells they are means over the cell.
 struct VolumeFields {

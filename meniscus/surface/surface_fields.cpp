@@ -264,7 +264,7 @@ SurfaceFields transferred(const SurfaceFields& fields, const SurfaceChange& chan
     return pieces.of_old_face[change.places[v].face];
   };
 
-  for (const SurfaceFields::OnVertices& field : fields.on_vertices) {
+  for (const CarriedField<VertexId>& field : fields.on_vertices) {
     const VertexInterpolant interpolant(change, field.values);
     VertexField<double> values(change.after.num_vertices());
     for (const VertexId v : values.ids()) values[v] = interpolant.at(change.places[v]);
@@ -274,9 +274,9 @@ SurfaceFields transferred(const SurfaceFields& fields, const SurfaceChange& chan
           vertex_areas(change.before),
           [&](VertexId v) { return pieces.of_old_face[change.topology.faces_around(v)[0]]; },
           pieces.count);
-    result.on_vertices.push_back({std::move(values), field.transfer});
+    result.on_vertices.push_back({field.name, field.unit, field.transfer, std::move(values)});
   }
-  for (const SurfaceFields::OnFaces& field : fields.on_faces) {
+  for (const CarriedField<FaceId>& field : fields.on_faces) {
     const FaceInterpolant interpolant(change, field.values, beside);
     FaceField<double> values(change.after.num_faces(), 0.0);
     for (const FaceId f : values.ids())
@@ -287,7 +287,7 @@ SurfaceFields transferred(const SurfaceFields& fields, const SurfaceChange& chan
           values, face_areas(change.after),
           [&](FaceId f) { return piece_of_vertex(change.after.faces[f][0]); }, field.values,
           face_areas(change.before), [&](FaceId f) { return pieces.of_old_face[f]; }, pieces.count);
-    result.on_faces.push_back({std::move(values), field.transfer});
+    result.on_faces.push_back({field.name, field.unit, field.transfer, std::move(values)});
   }
   return result;
 }

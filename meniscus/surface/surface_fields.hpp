@@ -1,34 +1,10 @@
 #pragma once
 
-#include <vector>
-
+#include "meniscus/mesh/carried_fields.hpp"
 #include "meniscus/surface/smooth_surface.hpp"
 #include "meniscus/surface/surface_walk.hpp"
 
 namespace meniscus {
-
-enum class FieldTransfer {
-  interpolated,  ///< values where the new vertices and faces lie
-  conserved      ///< and then ∮ dS of each piece of the surface as it was, to round-off
-};
-
-/// Values on a surface that follow when it is remeshed. On vertices they are linear over the faces,
-/// so that their integral is Σ_v value · (a third of the area of the faces at v); on faces they are
-/// means. The order of the lists is kept.
-struct SurfaceFields {
-  struct OnVertices {
-    VertexField<double> values;
-    FieldTransfer transfer = FieldTransfer::interpolated;
-  };
-  struct OnFaces {
-    FaceField<double> values;
-    FieldTransfer transfer = FieldTransfer::interpolated;
-  };
-  std::vector<OnVertices> on_vertices;
-  std::vector<OnFaces> on_faces;
-
-  [[nodiscard]] bool empty() const { return on_vertices.empty() && on_faces.empty(); }
-};
 
 /// The surface that fields come from, and where on it the vertices of the new mesh lie.
 struct SurfaceChange {

@@ -37,8 +37,8 @@ Vec3 center(const SurfaceMesh& mesh, FaceId f) {
 SurfaceFields sampled(const SurfaceMesh& mesh, double (*function)(const Vec3&),
                       FieldTransfer transfer) {
   SurfaceFields fields;
-  fields.on_vertices.push_back({VertexField<double>(mesh.num_vertices()), transfer});
-  fields.on_faces.push_back({FaceField<double>(mesh.num_faces()), transfer});
+  fields.on_vertices.push_back({"f", "", transfer, VertexField<double>(mesh.num_vertices())});
+  fields.on_faces.push_back({"f", "", transfer, FaceField<double>(mesh.num_faces())});
   for (const VertexId v : mesh.x.ids()) fields.on_vertices[0].values[v] = function(mesh.x[v]);
   for (const FaceId f : mesh.faces.ids()) fields.on_faces[0].values[f] = function(center(mesh, f));
   return fields;
