@@ -119,9 +119,8 @@ void solve(benchmark::State& state) {
   int iterations = 0;
   for (auto _ : state) {
     const auto flow = make_boundary_integral_flow({});
-    const FlowReport made = flow->rebuild(scene);
-    const FlowReport report = flow->solve(scene, 0.0);
-    if (!made.ok || !report.ok) state.SkipWithError("the flow was not solved");
+    const FlowSolution report = flow->solve({scene}, {});
+    if (!report.ok) state.SkipWithError("the flow was not solved");
     iterations = report.iterations;
   }
   state.counters["iterations"] = iterations;

@@ -63,10 +63,9 @@ int main(int argc, char** argv) {
   const double k = std::atof(argv[2]), lambda = argc > 3 ? std::atof(argv[3]) : 1.0;
   const Scene scene = scene_of(io::read_surface(argv[1]).mesh, lambda);
   const SurfaceMesh& mesh = scene.interfaces[0].mesh;
-  const auto flow = bem::make_boundary_integral_flow({.threads = 2});
-  if (const FlowReport made = flow->rebuild(scene); !made.ok) return 1;
-  if (const FlowReport solved = flow->solve(scene, 0.0); !solved.ok) return 1;
-  const InterfaceMotion motion = normal_motion(scene, flow->velocity(), MotionNormal::area_vector);
+  const FlowSolution flow = bem::make_boundary_integral_flow({.threads = 2})->solve({scene}, {});
+  if (!flow.ok) return 1;
+  const InterfaceMotion motion = normal_motion(scene, flow.velocity, MotionNormal::area_vector);
   VertexField<double> radius(mesh.num_vertices()), rate(mesh.num_vertices());
   for (const VertexId v : mesh.x.ids()) {
     const Vec3 across(0.0, mesh.x[v].y(), mesh.x[v].z());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "meniscus/core/archive_entries.hpp"
 #include "meniscus/io/vtk_file.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/curvature.hpp"
@@ -24,10 +25,10 @@ double corner_value(const TetMesh& mesh, std::span<const double> on_corners, Cel
 
 /// p_out − p_in at the vertices of all interfaces; no values where the flow has no pressure.
 std::vector<double> pressure_jump(const Evolution& evolution) {
-  const TetMesh* mesh = evolution.flow().volume_mesh();
-  const std::span<const double> p = evolution.flow().corner_pressure();
   std::vector<double> jump;
-  if (mesh == nullptr || p.empty()) return jump;
+  if (!evolution.state().mesh || !evolution.flow().bulk) return jump;
+  const TetMesh* mesh = &evolution.state().mesh->tetrahedra();
+  const std::span<const double> p = evolution.flow().bulk->corner_pressure;
   for (std::size_t i = 0; i < mesh->interfaces.size(); ++i) {
     const EmbeddedSurface& surface = mesh->interfaces[i];
     const SurfaceMesh& triangles = evolution.scene().interfaces[i].mesh;
@@ -50,7 +51,7 @@ std::vector<double> pressure_jump(const Evolution& evolution) {
 
 void write_surface_frame(const std::filesystem::path& path, const Evolution& evolution) {
   const Scene& scene = evolution.scene();
-  const auto velocity = evolution.flow().velocity();
+  const auto& velocity = evolution.flow().velocity;
   io::NamedArray curvature{"curvature", 1, {}}, normal_velocity{"normal_velocity", 1, {}},
       velocities{"velocity", 3, {}}, density{"node_density", 1, {}}, drop{"drop", 1, {}};
   std::vector<const SurfaceMesh*> surfaces;
@@ -76,14 +77,14 @@ void write_surface_frame(const std::filesystem::path& path, const Evolution& evo
 }
 
 void write_volume_frame(const std::filesystem::path& path, const Evolution& evolution) {
-  const TetMesh& mesh = *evolution.flow().volume_mesh();
+  const TetMesh& mesh = evolution.state().mesh->tetrahedra();
   io::NamedArray velocity{"velocity", 3, {}}, region{"region", 1, {}},
       dihedral{"min_dihedral_deg", 1, {}};
-  for (const Vec3& u : evolution.flow().mesh_velocity()) append(velocity.values, u);
+  const BulkFlow flow = evolution.flow().bulk.value_or(BulkFlow());
+  velocity.values = flat(flow.v);
   for (const RegionId r : mesh.region) region.values.push_back(r.value);
   for (const double angle : min_dihedral_deg(mesh)) dihedral.values.push_back(angle);
-  const auto p = evolution.flow().corner_pressure();
-  const io::NamedArray pressure{"pressure", 1, {p.begin(), p.end()}};
+  const io::NamedArray pressure{"pressure", 1, flow.corner_pressure};
   io::MeshData data{{}, {region, dihedral}};
   if (!velocity.values.empty()) data.on_vertices.push_back(velocity);
   const std::span<const io::NamedArray> corners(&pressure, pressure.values.empty() ? 0 : 1);

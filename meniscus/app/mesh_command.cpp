@@ -49,11 +49,11 @@ int mesh_command(const MeshArguments& arguments) {
   const Case c = read_case(arguments.case_file, arguments.overrides);
   if (c.method == FlowMethod::boundary_integral && !arguments.output.empty())
     reject_input("--output {}: boundary integrals need no volume mesh", arguments.output);
-  Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c));
+  Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c), make_moving_mesh(c));
   if (const EvolutionReport prepared = evolution.prepare(); !prepared.ok)
     throw RunFailure(fmt::format("the mesh could not be made: {}", prepared.failure));
   print_surfaces(evolution.scene());
-  if (const TetMesh* mesh = evolution.flow().volume_mesh()) print_quality(*mesh);
+  if (evolution.state().mesh) print_quality(evolution.state().mesh->tetrahedra());
   if (!arguments.output.empty()) write_volume_frame(arguments.output, evolution);
   return 0;
 }

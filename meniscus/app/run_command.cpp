@@ -26,7 +26,7 @@ OutputSchedule output_schedule(const OutputOptions& output) {
 }
 
 Evolution make_evolution(const Case& c, Scene scene) {
-  return {std::move(scene), c.evolution, make_flow_solver(c)};
+  return {std::move(scene), c.evolution, make_flow_solver(c), make_moving_mesh(c)};
 }
 
 /// Either solver's work is shared out to all ranks.

@@ -257,7 +257,7 @@ void RunDirectory::add_surface_frame(const Evolution& evolution) {
 }
 
 void RunDirectory::add_volume_frame(const Evolution& evolution) {
-  if (evolution.flow().volume_mesh() == nullptr) return;
+  if (!evolution.state().mesh) return;
   fs::create_directories(path_ / "volume");
   const std::string file = fmt::format("volume/volume-{:06}.vtu", evolution.step());
   write_volume_frame(path_ / file, evolution);

@@ -104,7 +104,7 @@ void Simulation::record(Progress& progress, bool is_last) {
 }
 
 double Simulation::seconds_in(const std::string& phase) const {
-  return evolution_.times()[phase] + evolution_.flow().times()[phase] + output_times_[phase];
+  return evolution_.seconds_in(phase) + output_times_[phase];
 }
 
 std::vector<std::pair<std::string, double>> Simulation::seconds() const {

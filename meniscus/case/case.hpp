@@ -119,5 +119,7 @@ struct Case {
 [[nodiscard]] Scene build_surroundings(const Case& c);
 /// The solver a case asks for.
 [[nodiscard]] std::unique_ptr<FlowSolver> make_flow_solver(const Case& c);
+/// The tetrahedra that the case's solver needs, not made yet; none for boundary integrals.
+[[nodiscard]] std::optional<MovingMesh> make_moving_mesh(const Case& c);
 
 }  // namespace meniscus

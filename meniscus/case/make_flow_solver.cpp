@@ -10,4 +10,9 @@ std::unique_ptr<FlowSolver> make_flow_solver(const Case& c) {
              : fem::make_finite_element_flow(c.flow_solver);
 }
 
+std::optional<MovingMesh> make_moving_mesh(const Case& c) {
+  if (c.method == FlowMethod::boundary_integral) return std::nullopt;
+  return MovingMesh({c.flow_solver.volume_mesh, c.flow_solver.volume_motion});
+}
+
 }  // namespace meniscus

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -10,14 +9,10 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
-#include "meniscus/evolve/drop_stress.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
-#include "meniscus/surface/curved_measures.hpp"
 #include "meniscus/surface/remesh.hpp"
 #include "meniscus/topology/mend.hpp"
-#include "meniscus/topology/necks.hpp"
-#include "meniscus/volume/quality.hpp"
 
 namespace meniscus {
 namespace {
@@ -48,42 +43,11 @@ std::string find_wild_motion(const Scene& start, const Scene& end) {
   return {};
 }
 
-std::optional<double> smallest_gap(const Scene& scene) {
-  double gap = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
-    for (std::size_t j = i + 1; j < scene.interfaces.size(); ++j)
-      gap = std::min(gap, smallest_gap(scene.interfaces[i].mesh, scene.interfaces[j].mesh));
-    if (!scene.is_unbounded)
-      gap = std::min(gap, smallest_gap(scene.interfaces[i].mesh, scene.boundary.mesh));
-  }
-  return std::isfinite(gap) ? std::optional(gap) : std::nullopt;
-}
-
 SurfaceMotion surface_motion(const Scene& scene, const InterfaceMotion& motion) {
   SurfaceMotion result;
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
     result.add(scene.interfaces[i].mesh, motion[i]);
   return result;
-}
-
-/// The radius of the circle of the same area as the section of the thinnest neck, of those thinner
-/// than half of the sphere of the same volume; on the smooth surface where faces are curved.
-std::optional<double> thinnest_neck(const Interface& interface, SurfaceShape faces) {
-  const SurfaceMesh& mesh = interface.mesh;
-  const SurfaceTree tree(mesh);
-  const double sphere = std::cbrt(0.75 * interface.volume / std::numbers::pi);
-  const std::vector<Neck> necks =
-      find_necks(mesh, tree, Side::inside, 0.5 * sphere, SurfaceMotion());
-  if (necks.empty()) return std::nullopt;
-  const Neck& neck = necks.front();
-  double area = neck.area;
-  if (faces != SurfaceShape::faceted) {
-    const SectionResult there =
-        section_around(mesh, tree, neck.center, neck.axis, 4.0 * neck.radius);
-    if (there.kind == SectionKind::closed)
-      area = smooth_area(there.section, mesh, SmoothSurface(mesh, SurfaceTopology(mesh)));
-  }
-  return std::sqrt(area / std::numbers::pi);
 }
 
 std::string text_of(std::span<const int> ids) { return fmt::format("{}", fmt::join(ids, ", ")); }
@@ -107,56 +71,59 @@ double largest_tension(const Scene& scene) {
 
 }  // namespace
 
-Evolution::Evolution(Scene scene, const EvolutionOptions& options, std::unique_ptr<FlowSolver> flow)
-    : scene_(std::move(scene)),
-      options_(options),
-      flow_(std::move(flow)),
-      centroid_(centroid_of_drops(scene_)),
-      correction_(scene_.interfaces.size(), 0.0) {}
+Evolution::Evolution(Scene scene, const EvolutionOptions& options, std::unique_ptr<FlowSolver> flow,
+                     std::optional<MovingMesh> mesh)
+    : options_(options), solver_(std::move(flow)) {
+  state_.scene = std::move(scene);
+  state_.mesh = std::move(mesh);
+  state_.start_centroid = centroid_of_drops(state_.scene);
+  state_.volume_shift.assign(state_.scene.interfaces.size(), 0.0);
+}
 
 EvolutionReport Evolution::prepare() {
   remesh_interfaces();
-  const FlowReport made = flow_->rebuild(scene_);
-  return {made.ok, made.failure};
+  return follow_interfaces();
 }
 
 EvolutionReport Evolution::solve() {
-  const FlowReport solved = solve_flow(t_);
-  if (!solved.ok) return {false, solved.failure};
-  motion_ = normal_motion(scene_, flow_->velocity(), options_.motion_normal);
+  flow_ = solve_flow({.t = state_.t});
+  if (!flow_.ok) return {false, flow_.failure};
+  motion_ = normal_motion(state_.scene, flow_.velocity, options_.motion_normal);
   return {};
 }
 
 EvolutionReport Evolution::advance() {
-  const Scene start = scene_;
-  const std::vector<double> correction = correction_;
-  const std::vector<TopologyEvent> events = events_;
-  flow_->mark(scene_);
-  iterations_ = 0;
+  const Scene start = state_.scene;
+  const std::vector<double> volume_shift = state_.volume_shift;
+  const std::vector<TopologyEvent> events = state_.events;
+  const std::int64_t connectivity = state_.connectivity;
+  if (state_.mesh) state_.mesh->begin_step(start);
+  state_.iterations = 0;
   EvolutionReport report;
   for (double dt = step_length(); dt >= options_.min_step; dt *= 0.5) {
     report = try_step(dt);
     if (report.ok) {
-      t_ += dt;
-      dt_ = dt;
-      ++step_;
-      for (const TopologyEvent& event : events_) announce(event, t_);
+      state_.t += dt;
+      state_.dt = dt;
+      ++state_.step;
+      for (const TopologyEvent& event : state_.events) announce(event, state_.t);
       return report;
     }
-    scene_ = start;
-    correction_ = correction;
-    events_ = events;
+    state_.scene = start;
+    state_.volume_shift = volume_shift;
+    state_.events = events;
+    state_.connectivity = connectivity;
+    if (state_.mesh) state_.mesh->undo();
     if (report.is_final) return report;
     warnings_.push_back(
-        fmt::format("step {} of length {:.3g} failed: {}", step_ + 1, dt, report.failure));
+        fmt::format("step {} of length {:.3g} failed: {}", state_.step + 1, dt, report.failure));
     log::warning("{}; trying a shorter one", warnings_.back());
-    const InterfaceMotion rest(mean_motion(start, start, 1.0));
-    if (const FlowReport back = flow_->move_from_mark(start, rest, 0.0); !back.ok)
-      return {false, back.failure};
-    if (const FlowReport again = solve_flow(t_); !again.ok) return {false, again.failure};
+    if (const FlowSolution again = solve_flow({.t = state_.t}); !again.ok)
+      return {false, again.failure};
   }
   report.failure = fmt::format(
-      "no step of length {:.3g} or more can be taken at t = {:.6g}: {}", options_.min_step, t_,
+      "no step of length {:.3g} or more can be taken at t = {:.6g}: {}", options_.min_step,
+      state_.t,
       report.failure.empty() ? "the interface's edges ask for a shorter one" : report.failure);
   report.ok = false;
   return report;
@@ -165,46 +132,64 @@ EvolutionReport Evolution::advance() {
 /// Table 1 of hooper2001, the flow at t_k being known: move to the half time, solve there, move the
 /// whole step with that velocity, remesh. Explicit Euler leaves the half time out.
 EvolutionReport Evolution::try_step(double dt) {
-  const Scene start = scene_;
-  if (options_.scheme == TimeScheme::euler) return finish_step(start, motion_, dt);
+  const Scene start = state_.scene;
+  if (options_.scheme == TimeScheme::euler) return finish_step(start, motion_, flow_, dt);
 
-  move_interfaces(scene_, motion_, 0.5 * dt);
-  if (const FlowReport moved = flow_->move_from_mark(start, motion_, 0.5 * dt); !moved.ok)
-    return {false, moved.failure};
-  if (const FlowReport solved = solve_flow(t_ + 0.5 * dt); !solved.ok)
-    return {false, solved.failure};
-  const InterfaceMotion middle = normal_motion(scene_, flow_->velocity(), options_.motion_normal);
-  return finish_step(start, middle, dt);
+  move_interfaces(state_.scene, motion_, 0.5 * dt);
+  if (EvolutionReport moved = move_mesh(start, motion_, flow_, 0.5 * dt); !moved.ok) return moved;
+  const FlowSolution middle =
+      solve_flow({.t = state_.t + 0.5 * dt, .dt = dt, .stage = Stage::middle});
+  if (!middle.ok) return {false, middle.failure};
+  const InterfaceMotion motion =
+      normal_motion(state_.scene, middle.velocity, options_.motion_normal);
+  return finish_step(start, motion, middle, dt);
 }
 
+/// Moves the interfaces of `start` the whole step, then makes them and the mesh fit for the next.
 EvolutionReport Evolution::finish_step(const Scene& start, const InterfaceMotion& motion,
-                                       double dt) {
-  scene_ = start;
-  events_.clear();
-  move_interfaces(scene_, motion, dt);
-  if (std::string failure = find_wild_motion(start, scene_); !failure.empty())
+                                       const FlowSolution& flow, double dt) {
+  Scene& scene = state_.scene;
+  scene = start;
+  state_.events.clear();
+  move_interfaces(scene, motion, dt);
+  if (std::string failure = find_wild_motion(start, scene); !failure.empty())
     return {false, std::move(failure)};
-  if (options_.follows_drops) translate_interfaces(scene_, centroid_ - centroid_of_drops(scene_));
+  if (options_.follows_drops)
+    translate_interfaces(scene, state_.start_centroid - centroid_of_drops(scene));
   if (is_remesh_due()) {
-    const Scene moved = scene_;
+    const Scene moved = scene;
     if (EvolutionReport apart = refuse_touching(remesh_interfaces()); !apart.ok) return apart;
     if (EvolutionReport changed = change_topology(moved, motion); !changed.ok) return changed;
-    const FlowReport made = flow_->rebuild(scene_);
-    return {made.ok, made.failure};
+    return follow_interfaces();
   }
   restore_volumes();
   if (EvolutionReport apart = refuse_touching(false); !apart.ok) return apart;
-  const FlowReport moved = flow_->move_from_mark(start, mean_motion(start, scene_, dt), dt);
+  return move_mesh(start, mean_motion(start, scene, dt), flow, dt);
+}
+
+/// The mesh takes the interfaces as they have become.
+EvolutionReport Evolution::follow_interfaces() {
+  state_.connectivity = ++last_connectivity_;
+  if (!state_.mesh) return {};
+  const MeshChange change = state_.mesh->follow(state_.scene);
+  return {change.ok, change.failure};
+}
+
+EvolutionReport Evolution::move_mesh(const Scene& start, const InterfaceMotion& motion,
+                                     const FlowSolution& flow, double dt) {
+  if (!state_.mesh) return {};
+  const MeshReport moved =
+      state_.mesh->move(start, motion, flow.bulk ? flow.bulk->v : Field<TetVertexId, Vec3>(), dt);
   return {moved.ok, moved.failure};
 }
 
 double Evolution::step_length() const {
   double shortest = std::numeric_limits<double>::infinity();
-  for (const Interface& interface : scene_.interfaces)
+  for (const Interface& interface : state_.scene.interfaces)
     shortest = std::min(shortest, shortest_edge(interface.mesh));
-  if (options_.step_edges == StepEdges::mesh)
-    shortest = std::min(shortest, flow_->shortest_mesh_edge());
-  const double tension = largest_tension(scene_);
+  if (options_.step_edges == StepEdges::mesh && state_.mesh)
+    shortest = std::min(shortest, shortest_edge(state_.mesh->tetrahedra()));
+  const double tension = largest_tension(state_.scene);
   const double capillary = tension > 0.0 ? std::min(1.0, 1.0 / tension) : 1.0;
   return std::min(options_.max_step, options_.step_factor * capillary * shortest);
 }
@@ -213,10 +198,11 @@ double Evolution::step_length() const {
 /// of them.
 std::vector<SurfaceTree> Evolution::trees_for_gaps() const {
   std::vector<SurfaceTree> trees;
-  const std::size_t num_surfaces = scene_.interfaces.size() + (scene_.is_unbounded ? 0 : 1);
+  const std::size_t num_surfaces =
+      state_.scene.interfaces.size() + (state_.scene.is_unbounded ? 0 : 1);
   if (options_.gap_layers == 0.0 || num_surfaces < 2) return trees;
-  for (const Interface& interface : scene_.interfaces) trees.emplace_back(interface.mesh);
-  if (!scene_.is_unbounded) trees.emplace_back(scene_.boundary.mesh);
+  for (const Interface& interface : state_.scene.interfaces) trees.emplace_back(interface.mesh);
+  if (!state_.scene.is_unbounded) trees.emplace_back(state_.scene.boundary.mesh);
   return trees;
 }
 
@@ -225,8 +211,8 @@ bool Evolution::remesh_interfaces() {
   const PhaseTimer timer(times_, "remesh surface");
   bool are_remeshed = true;
   std::vector<SurfaceTree> trees = trees_for_gaps();
-  for (std::size_t i = 0; i < scene_.interfaces.size(); ++i) {
-    Interface& interface = scene_.interfaces[i];
+  for (std::size_t i = 0; i < state_.scene.interfaces.size(); ++i) {
+    Interface& interface = state_.scene.interfaces[i];
     RemeshOptions options;
     options.C0 = interface.C0;
     options.restores_volume = options_.surface == SurfaceShape::faceted;
@@ -248,19 +234,21 @@ bool Evolution::remesh_interfaces() {
                                                  mended.smoothed_over)
                                    : fmt::format("creases of drop {} were rounded", interface.drop);
       warnings_.push_back(fmt::format("t = {:.6g}: {}, {} holes through it closed, to remesh it",
-                                      t_, what, mended.closed_holes));
+                                      state_.t, what, mended.closed_holes));
       log::warning("{}", warnings_.back());
     }
-    correction_[i] = report.volume_shift;
+    state_.volume_shift[i] = report.volume_shift;
     if (report.ok && options_.surface != SurfaceShape::faceted)
-      correction_[i] = std::abs(restore_volume(interface.mesh, interface.volume, options_.surface));
+      state_.volume_shift[i] =
+          std::abs(restore_volume(interface.mesh, interface.volume, options_.surface));
     if (report.ok && i < trees.size()) trees[i] = SurfaceTree(interface.mesh);
     if (report.ok) continue;
     are_remeshed = false;
     warnings_.push_back(fmt::format("drop {} was not remeshed at t = {:.6g}: {}", interface.drop,
-                                    t_, report.failure));
+                                    state_.t, report.failure));
     log::warning("{}", warnings_.back());
-    correction_[i] = std::abs(restore_volume(interface.mesh, interface.volume, options_.surface));
+    state_.volume_shift[i] =
+        std::abs(restore_volume(interface.mesh, interface.volume, options_.surface));
   }
   return are_remeshed;
 }
@@ -269,8 +257,8 @@ bool Evolution::remesh_interfaces() {
 /// them come close first, without it drops stay apart. A surface that could be remeshed is known
 /// not to touch itself.
 EvolutionReport Evolution::refuse_touching(bool are_remeshed) const {
-  std::string touching = find_touching_drops(scene_);
-  if (touching.empty() && !are_remeshed) touching = find_folded_drop(scene_);
+  std::string touching = find_touching_drops(state_.scene);
+  if (touching.empty() && !are_remeshed) touching = find_folded_drop(state_.scene);
   if (touching.empty()) return {};
   if (!options_.topology.coalescence)
     touching += "; topology.coalescence = \"off\" keeps them apart";
@@ -280,76 +268,55 @@ EvolutionReport Evolution::refuse_touching(bool are_remeshed) const {
 /// Cuts and bridges what is due in the interfaces as remeshed; `moved` with `motion` says how they
 /// came there.
 EvolutionReport Evolution::change_topology(const Scene& moved, const InterfaceMotion& motion) {
-  TopologyReport changed = apply_topology(scene_, options_.topology, surface_motion(moved, motion));
+  TopologyReport changed =
+      apply_topology(state_.scene, options_.topology, surface_motion(moved, motion));
   for (std::string& warning : changed.warnings)
-    warnings_.push_back(fmt::format("t = {:.6g}: {}", t_, warning));
+    warnings_.push_back(fmt::format("t = {:.6g}: {}", state_.t, warning));
   if (!changed.refusal.empty()) return {false, std::move(changed.refusal), true};
   if (changed.events.empty()) return {};
-  events_ = std::move(changed.events);
-  correction_.assign(scene_.interfaces.size(), 0.0);
+  state_.events = std::move(changed.events);
+  state_.volume_shift.assign(state_.scene.interfaces.size(), 0.0);
   return refuse_touching(remesh_interfaces());
 }
 
 void Evolution::restore_volumes() {
-  for (std::size_t i = 0; i < scene_.interfaces.size(); ++i)
-    correction_[i] = std::abs(
-        restore_volume(scene_.interfaces[i].mesh, scene_.interfaces[i].volume, options_.surface));
+  for (std::size_t i = 0; i < state_.scene.interfaces.size(); ++i)
+    state_.volume_shift[i] = std::abs(restore_volume(
+        state_.scene.interfaces[i].mesh, state_.scene.interfaces[i].volume, options_.surface));
 }
 
-FlowReport Evolution::solve_flow(double t) {
-  FlowReport report = flow_->solve(scene_, t);
-  iterations_ += report.iterations;
-  for (const std::string& warning : report.warnings)
-    warnings_.push_back(fmt::format("t = {:.6g}: {}", t, warning));
-  return report;
+FlowSolution Evolution::solve_flow(const Instant& instant) {
+  if (state_.mesh) state_.mesh->place_interfaces(state_.scene);
+  FlowSolution solution = solver_->solve(state_.domain(), instant);
+  state_.iterations += solution.iterations;
+  for (const std::string& warning : solution.warnings)
+    warnings_.push_back(fmt::format("t = {:.6g}: {}", instant.t, warning));
+  return solution;
 }
 
 HistoryRow Evolution::history_row() const {
   const PhaseTimer timer(times_, "diagnostics");
-  HistoryRow row;
-  row.step = step_;
-  row.t = t_;
-  row.dt = dt_;
-  row.drops = static_cast<int>(scene_.interfaces.size());
-  for (const Interface& interface : scene_.interfaces)
-    row.surface_nodes += interface.mesh.num_vertices();
-  if (const TetMesh* mesh = flow_->volume_mesh()) {
-    row.nodes = mesh->num_vertices();
-    row.tetrahedra = mesh->num_cells();
-    row.min_dihedral_deg = quality(*mesh).min_dihedral_deg;
-  }
-  row.min_gap = smallest_gap(scene_);
-  row.linear_iterations = iterations_;
-  if (const std::optional<Power> power = flow_->power()) {
-    row.power_in = power->in;
-    row.dissipation = power->dissipation;
-  }
-  row.surface_rate = surface_energy_rate(scene_, motion_, options_.surface);
-  if (is_newtonian(scene_.liquids[RegionId{0}].law))
-    row.stress = drop_stress(scene_, flow_->velocity(), options_.surface, flow_->excess_stress());
-  return row;
+  return meniscus::history_row(state_, flow_, motion_, options_.surface);
 }
 
 std::vector<DropRow> Evolution::drop_rows() const {
-  std::vector<DropRow> rows;
-  for (std::size_t i = 0; i < scene_.interfaces.size(); ++i) {
-    const Interface& interface = scene_.interfaces[i];
-    DropRow& row = rows.emplace_back();
-    row.drop = interface.drop;
-    row.parent = interface.parent;
-    row.shape = drop_shape(interface.mesh, scene_.flow.family());
-    if (options_.surface != SurfaceShape::faceted) {
-      const CurvedMeasures curved = curved_measures(interface.mesh, options_.surface);
-      row.shape.volume = curved.volume;
-      row.shape.area = curved.area;
-      row.shape.D_inertia = inertial_deformation(curved.second_moments, curved.volume);
-    }
-    row.volume_drift = row.shape.volume / interface.initial_volume - 1.0;
-    row.volume_correction = correction_[i];
-    if (options_.topology.breakup_radius > 0.0)
-      row.neck_radius = thinnest_neck(interface, options_.surface);
-  }
-  return rows;
+  return meniscus::drop_rows(state_, options_.surface, options_.topology.breakup_radius);
+}
+
+double Evolution::seconds_in(const std::string& phase) const {
+  return times_[phase] + solver_->times()[phase] +
+         (state_.mesh ? state_.mesh->times()[phase] : 0.0);
+}
+
+void Evolution::save(Archive& archive) const {
+  meniscus::save(state_, archive);
+  solver_->save(archive, state_.domain());
+}
+
+void Evolution::load(const Archive& archive) {
+  meniscus::load(state_, archive);
+  state_.connectivity = ++last_connectivity_;
+  solver_->load(archive, state_.domain());
 }
 
 }  // namespace meniscus

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "meniscus/evolve/interface_motion.hpp"
+#include "meniscus/evolve/measures.hpp"
 #include "meniscus/evolve/options.hpp"
-#include "meniscus/evolve/record.hpp"
-#include "meniscus/flow/flow_solver.hpp"
+#include "meniscus/evolve/state.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
 
 namespace meniscus {
@@ -19,15 +20,16 @@ struct [[nodiscard]] EvolutionReport {
   bool is_final = false;  ///< no shorter step would do: what comes must not happen
 };
 
-/// A scene that evolves in time: its interfaces move with the velocity a flow solver gives, and are
+/// A state that evolves in time: its interfaces move with the velocity a flow solver gives, and are
 /// kept fit for the next step. Between calls it stands at t_k with interfaces remeshed and the
-/// solver's mesh made; the order of calls is prepare (or load), then solve, advance, solve,
-/// advance…
+/// mesh made; the order of calls is prepare (or load), then solve, advance, solve, advance…
 class Evolution {
  public:
-  Evolution(Scene scene, const EvolutionOptions& options, std::unique_ptr<FlowSolver> flow);
+  /// `mesh` is given where the flow solver needs one.
+  Evolution(Scene scene, const EvolutionOptions& options, std::unique_ptr<FlowSolver> flow,
+            std::optional<MovingMesh> mesh = std::nullopt);
 
-  /// Remeshes the initial interfaces and makes the solver's mesh: step 0.
+  /// Remeshes the initial interfaces and makes the mesh: step 0.
   EvolutionReport prepare();
   /// The flow at t_k (first line of the paper's Table 1).
   EvolutionReport solve();
@@ -35,17 +37,19 @@ class Evolution {
   /// length, down to `min_step`.
   EvolutionReport advance();
 
-  [[nodiscard]] double t() const { return t_; }
-  [[nodiscard]] std::int64_t step() const { return step_; }
-  [[nodiscard]] bool is_finished() const { return t_ >= options_.end; }
-  [[nodiscard]] const Scene& scene() const { return scene_; }
-  [[nodiscard]] const FlowSolver& flow() const { return *flow_; }
+  [[nodiscard]] const State& state() const { return state_; }
+  [[nodiscard]] double t() const { return state_.t; }
+  [[nodiscard]] std::int64_t step() const { return state_.step; }
+  [[nodiscard]] const Scene& scene() const { return state_.scene; }
+  [[nodiscard]] bool is_finished() const { return state_.t >= options_.end; }
+  /// The flow at t_k and the velocity ẋ = n n·v that the interfaces' vertices leave with.
+  [[nodiscard]] const FlowSolution& flow() const { return flow_; }
   [[nodiscard]] const InterfaceMotion& motion() const { return motion_; }
-  [[nodiscard]] const PhaseTimes& times() const { return times_; }
-  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
-
   /// The changes of topology in the step that led to t_k.
-  [[nodiscard]] const std::vector<TopologyEvent>& events() const { return events_; }
+  [[nodiscard]] const std::vector<TopologyEvent>& events() const { return state_.events; }
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+  /// Seconds spent in a phase by the evolution, its mesh and its solver.
+  [[nodiscard]] double seconds_in(const std::string& phase) const;
 
   /// Δt = step_factor · min(1, 1/tension) · l_min within its bounds, for the shapes as they are.
   [[nodiscard]] double step_length() const;
@@ -60,27 +64,28 @@ class Evolution {
 
  private:
   EvolutionReport try_step(double dt);
-  EvolutionReport finish_step(const Scene& start, const InterfaceMotion& motion, double dt);
-  [[nodiscard]] bool is_remesh_due() const { return (step_ + 1) % options_.remesh_every == 0; }
+  EvolutionReport finish_step(const Scene& start, const InterfaceMotion& motion,
+                              const FlowSolution& flow, double dt);
+  EvolutionReport follow_interfaces();
+  [[nodiscard]] EvolutionReport move_mesh(const Scene& start, const InterfaceMotion& motion,
+                                          const FlowSolution& flow, double dt);
+  [[nodiscard]] bool is_remesh_due() const {
+    return (state_.step + 1) % options_.remesh_every == 0;
+  }
   [[nodiscard]] std::vector<SurfaceTree> trees_for_gaps() const;
   bool remesh_interfaces();
   [[nodiscard]] EvolutionReport refuse_touching(bool are_remeshed) const;
   EvolutionReport change_topology(const Scene& moved, const InterfaceMotion& motion);
   void restore_volumes();
-  FlowReport solve_flow(double t);
+  FlowSolution solve_flow(const Instant& instant);
 
-  Scene scene_;
   EvolutionOptions options_;
-  std::unique_ptr<FlowSolver> flow_;
-  Vec3 centroid_;  // of the drops at the start
-  double t_ = 0.0;
-  double dt_ = 0.0;
-  std::int64_t step_ = 0;
-  InterfaceMotion motion_;          // n n·v at t_k
-  std::vector<double> correction_;  // per interface: largest shift that restored its volume
-  std::vector<TopologyEvent> events_;
-  int iterations_ = 0;        // linear iterations since the last row
-  mutable PhaseTimes times_;  // the clock is no part of the state
+  std::unique_ptr<FlowSolver> solver_;
+  State state_;
+  std::int64_t last_connectivity_ = 0;  // never used again, also when a step is undone
+  FlowSolution flow_;                   // at t_k
+  InterfaceMotion motion_;              // n n·v at t_k
+  mutable PhaseTimes times_;            // the clock is no part of the state
   std::vector<std::string> warnings_;
 };
 

@@ -1,11 +1,13 @@
+#include "meniscus/evolve/state.hpp"
+
 #include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
 
+#include "meniscus/core/archive_entries.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/evolve/event_archive.hpp"
-#include "meniscus/evolve/evolution.hpp"
 
 namespace meniscus {
 namespace {
@@ -16,8 +18,7 @@ std::string interface_path(std::size_t i, const char* name) {
 }
 
 void save_interface(const Interface& interface, std::size_t i, Archive& archive) {
-  std::vector<double>& x = archive.reals[interface_path(i, "x")];
-  for (const Vec3& p : interface.mesh.x) x.insert(x.end(), {p.x(), p.y(), p.z()});
+  archive.reals[interface_path(i, "x")] = flat(interface.mesh.x);
   std::vector<std::int64_t>& faces = archive.integers[interface_path(i, "faces")];
   for (const FaceVertices& f : interface.mesh.faces)
     faces.insert(faces.end(), {f[0].value, f[1].value, f[2].value});
@@ -27,20 +28,10 @@ void save_interface(const Interface& interface, std::size_t i, Archive& archive)
                                                     interface.volume, interface.initial_volume};
 }
 
-const auto& entry(const auto& map, const std::string& name, std::size_t size) {
-  const auto found = map.find(name);
-  if (found == map.end()) reject_input("checkpoint lacks \"{}\"", name);
-  if (size > 0 && found->second.size() != size)
-    reject_input("checkpoint entry \"{}\" has {} values, not {}", name, found->second.size(), size);
-  return found->second;
-}
-
 Interface load_interface(const Archive& archive, std::size_t i) {
   Interface interface;
-  const auto& x = entry(archive.reals, interface_path(i, "x"), 0);
-  for (std::size_t k = 0; k + 2 < x.size(); k += 3)
-    interface.mesh.x.add(Vec3(x[k], x[k + 1], x[k + 2]));
-  const auto& faces = entry(archive.integers, interface_path(i, "faces"), 0);
+  interface.mesh.x = vectors<VertexId>(entry_of_rows(archive.reals, interface_path(i, "x"), 3));
+  const auto& faces = entry(archive.integers, interface_path(i, "faces"));
   const auto vertex = [&](std::int64_t v) {
     if (v < 0 || v >= interface.mesh.num_vertices())
       reject_input("checkpoint entry \"{}\" names vertex {} of {}", interface_path(i, "faces"), v,
@@ -49,12 +40,12 @@ Interface load_interface(const Archive& archive, std::size_t i) {
   };
   for (std::size_t k = 0; k + 2 < faces.size(); k += 3)
     interface.mesh.faces.add({vertex(faces[k]), vertex(faces[k + 1]), vertex(faces[k + 2])});
-  const auto& ids = entry(archive.integers, interface_path(i, "ids"), 4);
+  const auto& ids = entry_of_size(archive.integers, interface_path(i, "ids"), 4);
   interface.drop = static_cast<int>(ids[0]);
   interface.parent = static_cast<int>(ids[1]);
   interface.inside = RegionId{static_cast<std::int32_t>(ids[2])};
   interface.outside = RegionId{static_cast<std::int32_t>(ids[3])};
-  const auto& properties = entry(archive.reals, interface_path(i, "properties"), 4);
+  const auto& properties = entry_of_size(archive.reals, interface_path(i, "properties"), 4);
   interface.tension = properties[0];
   interface.C0 = properties[1];
   interface.volume = properties[2];
@@ -89,7 +80,7 @@ void save_laws(const Scene& scene, Archive& archive) {
 void load_laws(const Archive& archive, Field<RegionId, Liquid>& liquids) {
   if (!archive.reals.contains("evolution/liquid-laws")) return;
   const auto count = static_cast<std::size_t>(liquids.size());
-  const auto& values = entry(archive.reals, "evolution/liquid-laws", 5 * count);
+  const auto& values = entry_of_size(archive.reals, "evolution/liquid-laws", 5 * count);
   for (const RegionId region : liquids.ids()) {
     const double* row = values.data() + 5 * region.value;
     ViscosityLaw& law = liquids[region].law;
@@ -99,7 +90,7 @@ void load_laws(const Archive& archive, Field<RegionId, Liquid>& liquids) {
 }
 
 Field<RegionId, Liquid> load_liquids(const Archive& archive, std::size_t num_interfaces) {
-  const auto& values = entry(archive.reals, "evolution/liquids", 4 * (num_interfaces + 1));
+  const auto& values = entry_of_size(archive.reals, "evolution/liquids", 4 * (num_interfaces + 1));
   Field<RegionId, Liquid> liquids;
   for (std::size_t k = 0; k < values.size(); k += 4)
     liquids.add(
@@ -110,38 +101,38 @@ Field<RegionId, Liquid> load_liquids(const Archive& archive, std::size_t num_int
 
 }  // namespace
 
-void Evolution::save(Archive& archive) const {
-  archive.reals["evolution/time"] = {t_, dt_};
-  archive.integers["evolution/step"] = {step_, iterations_};
-  archive.integers["evolution/interfaces"] = {static_cast<std::int64_t>(scene_.interfaces.size())};
-  archive.reals["evolution/corrections"] = correction_;
-  if (options_.follows_drops)
-    archive.reals["evolution/centroid"] = {centroid_.x(), centroid_.y(), centroid_.z()};
-  for (std::size_t i = 0; i < scene_.interfaces.size(); ++i)
-    save_interface(scene_.interfaces[i], i, archive);
-  save_liquids(scene_, archive);
-  save_laws(scene_, archive);
-  save_events(events_, archive);
-  flow_->save(archive);
+void save(const State& state, Archive& archive) {
+  const std::vector<Interface>& interfaces = state.scene.interfaces;
+  archive.reals["evolution/time"] = {state.t, state.dt};
+  archive.integers["evolution/step"] = {state.step, state.iterations};
+  archive.integers["evolution/interfaces"] = {static_cast<std::int64_t>(interfaces.size())};
+  archive.reals["evolution/corrections"] = state.volume_shift;
+  const Vec3& start = state.start_centroid;
+  archive.reals["evolution/centroid"] = {start.x(), start.y(), start.z()};
+  for (std::size_t i = 0; i < interfaces.size(); ++i) save_interface(interfaces[i], i, archive);
+  save_liquids(state.scene, archive);
+  save_laws(state.scene, archive);
+  save_events(state.events, archive);
+  if (state.mesh) state.mesh->save(archive);
 }
 
-void Evolution::load(const Archive& archive) {
-  const auto& time = entry(archive.reals, "evolution/time", 2);
-  t_ = time[0];
-  dt_ = time[1];
-  const auto& step = entry(archive.integers, "evolution/step", 2);
-  step_ = step[0];
-  iterations_ = static_cast<int>(step[1]);
+void load(State& state, const Archive& archive) {
+  const auto& time = entry_of_size(archive.reals, "evolution/time", 2);
+  state.t = time[0];
+  state.dt = time[1];
+  const auto& step = entry_of_size(archive.integers, "evolution/step", 2);
+  state.step = step[0];
+  state.iterations = static_cast<int>(step[1]);
   const auto count =
-      static_cast<std::size_t>(entry(archive.integers, "evolution/interfaces", 1)[0]);
-  scene_.interfaces.clear();
-  for (std::size_t i = 0; i < count; ++i) scene_.interfaces.push_back(load_interface(archive, i));
-  scene_.liquids = load_liquids(archive, count);
-  events_ = load_events(archive);
-  correction_ = entry(archive.reals, "evolution/corrections", count);
-  if (options_.follows_drops)
-    centroid_ = Vec3(entry(archive.reals, "evolution/centroid", 3).data());
-  flow_->load(archive, scene_);
+      static_cast<std::size_t>(entry_of_size(archive.integers, "evolution/interfaces", 1)[0]);
+  state.scene.interfaces.clear();
+  for (std::size_t i = 0; i < count; ++i)
+    state.scene.interfaces.push_back(load_interface(archive, i));
+  state.scene.liquids = load_liquids(archive, count);
+  state.events = load_events(archive);
+  state.volume_shift = entry_of_size(archive.reals, "evolution/corrections", count);
+  state.start_centroid = Vec3(entry_of_size(archive.reals, "evolution/centroid", 3).data());
+  if (state.mesh) state.mesh->load(archive, state.scene);
 }
 
 }  // namespace meniscus

@@ -13,7 +13,7 @@ namespace meniscus::io {
 namespace {
 
 constexpr std::string_view magic = "Meniscus archive";
-constexpr int format_version = 1;
+constexpr int format_version = 2;
 // HDF5 looks for its signature at bytes 0, 512, 1024, …, so it opens the file with our text in
 // front.
 constexpr std::size_t prefix_size = 512;

@@ -33,7 +33,10 @@ VolumeVelocity volume_velocity(const Scene& scene, const TetMesh& mesh,
                                const Field<TetVertexId, Vec3>& fluid, VolumeMotion motion) {
   VolumeVelocity result{surface_motion(mesh, interface_motion), motion};
   const TetVertexId first_free = first_free_vertex(mesh);
+  MENISCUS_ASSERT(first_free.is_valid(), "a mesh without an outer boundary");
   if (motion == VolumeMotion::lagrangian) {
+    MENISCUS_ASSERT(fluid.size() == mesh.num_vertices(), "{} velocities for {} vertices",
+                    fluid.size(), mesh.num_vertices());
     for (TetVertexId v = first_free; v.value < mesh.num_vertices(); ++v.value)
       result.w[v] = fluid[v];
     return result;

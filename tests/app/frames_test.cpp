@@ -16,7 +16,7 @@ namespace {
 io::SurfaceFrame resting_drop(const std::string& more) {
   const Case c = parse_case(
       "[flow]\nkind = \"quiescent\"\n[[drop]]\nradius = 1.0\nnodes = 110\n" + more, "case.toml");
-  Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c));
+  Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c), make_moving_mesh(c));
   EXPECT_TRUE(evolution.prepare().ok);
   EXPECT_TRUE(evolution.solve().ok);
   const test::TemporaryFolder folder;

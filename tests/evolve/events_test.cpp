@@ -33,7 +33,8 @@ Scene two_drops() {
   return scene;
 }
 
-Evolution evolution_of(const Scene& scene, bool coalescence, std::size_t fewest_drops = 0) {
+Evolution evolution_of(const Scene& scene, bool coalescence,
+                       std::optional<MovingMesh> mesh = std::nullopt) {
   EvolutionOptions options;
   options.end = 10.0;
   options.max_step = 0.02;
@@ -46,8 +47,7 @@ Evolution evolution_of(const Scene& scene, bool coalescence, std::size_t fewest_
   auto flow = std::make_unique<PrescribedFlow>([](const Vec3& x, double) {
     return Vec3(x.x() < 0.0 ? 1.0 : -1.0, 0.0, 0.0);  // toward each other, as they are
   });
-  flow->fewest_drops = fewest_drops;
-  return {scene, options, std::move(flow)};
+  return {scene, options, std::move(flow), std::move(mesh)};
 }
 
 /// Steps until something has happened, at most `count`; the last report.
@@ -97,11 +97,27 @@ TEST(EvolutionEvents, ArePartOfTheCheckpointAfterThem) {
   EXPECT_EQ(again.scene().interfaces[0].mesh, evolution.scene().interfaces[0].mesh);
 }
 
+/// A mesh of the interfaces' vertices alone, without a cell, for two drops or more.
+MovingMesh mesh_of_two_drops() {
+  return {VolumeMotion::spines, [](const Scene& scene, TetMesh& mesh) {
+            if (scene.interfaces.size() < 2)
+              return VolumeMeshReport{.ok = false, .failure = "too few drops"};
+            mesh = {};
+            for (const Interface& interface : scene.interfaces) {
+              mesh.interfaces.push_back(
+                  {TetVertexId{mesh.num_vertices()}, interface.mesh.num_vertices(), {}});
+              for (const Vec3& x : interface.mesh.x) mesh.x.add(x);
+            }
+            mesh.boundary.first_vertex = TetVertexId{mesh.num_vertices()};
+            return VolumeMeshReport{};
+          }};
+}
+
 // The liquids around the merged drop have no mesh: no step can be taken. Neither the drops nor the
 // list of events, which the last checkpoint holds, may show the merger that was tried.
 TEST(EvolutionEvents, AreTakenBackWithTheStepTheyFail) {
   log::set_level(log::Level::off);
-  Evolution evolution = evolution_of(two_drops(), true, 2);
+  Evolution evolution = evolution_of(two_drops(), true, mesh_of_two_drops());
   const EvolutionReport report = run(evolution, 100);
   log::set_level(log::Level::warning);
   ASSERT_FALSE(report.ok);
@@ -112,7 +128,7 @@ TEST(EvolutionEvents, AreTakenBackWithTheStepTheyFail) {
   EXPECT_TRUE(evolution.events().empty());
   Archive archive;
   evolution.save(archive);
-  Evolution again = evolution_of(two_drops(), true);
+  Evolution again = evolution_of(two_drops(), true, mesh_of_two_drops());
   again.load(archive);
   EXPECT_TRUE(again.events().empty());
 }

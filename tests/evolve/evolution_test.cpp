@@ -114,6 +114,29 @@ TEST(Evolution, StepLengthObeysTheEdgeTensionAndBounds) {
   }
 }
 
+TEST(Evolution, StepLengthStaysBelowItsUpperBound) {
+  EvolutionOptions options;
+  options.max_step = 1e-3;
+  auto run = make_run(one_drop(110, 0.5), options, stretching);
+  ASSERT_TRUE(run.evolution.prepare().ok);
+  EXPECT_EQ(run.evolution.step_length(), 1e-3);
+}
+
+// The lower bound lies above what the edges allow: no step is taken, and the words say why.
+TEST(Evolution, StepShorterThanItsLowerBoundIsNotTaken) {
+  EvolutionOptions options;
+  options.min_step = 10.0;
+  options.max_step = 20.0;
+  auto run = make_run(one_drop(110, 0.5), options, stretching);
+  ASSERT_TRUE(run.evolution.prepare().ok);
+  ASSERT_TRUE(run.evolution.solve().ok);
+  const EvolutionReport report = run.evolution.advance();
+  EXPECT_FALSE(report.ok);
+  EXPECT_NE(report.failure.find("edges ask for a shorter one"), std::string::npos)
+      << report.failure;
+  EXPECT_EQ(run.evolution.t(), 0.0);
+}
+
 TEST(Evolution, FailedStepIsUndoneAndHalved) {
   log::set_level(log::Level::off);
   EvolutionOptions options;
@@ -123,7 +146,7 @@ TEST(Evolution, FailedStepIsUndoneAndHalved) {
   auto run = make_run(one_drop(110), options, stretching);
   ASSERT_TRUE(run.evolution.prepare().ok);
   ASSERT_TRUE(run.evolution.solve().ok);
-  run.flow->longest_move = 0.03;
+  run.flow->longest_step = 0.03;
   ASSERT_TRUE(run.evolution.advance().ok);
   EXPECT_NEAR(run.evolution.t(), 0.02, 1e-15);
   EXPECT_EQ(run.evolution.warnings().size(), 2u);
@@ -156,7 +179,7 @@ TEST(Evolution, GivesUpBelowTheSmallestStepWithTheStateAsItWas) {
   ASSERT_TRUE(run.evolution.prepare().ok);
   ASSERT_TRUE(run.evolution.solve().ok);
   const SurfaceMesh before = run.evolution.scene().interfaces[0].mesh;
-  run.flow->longest_move = 0.0;
+  run.flow->longest_step = 0.0;
   const EvolutionReport report = run.evolution.advance();
   EXPECT_FALSE(report.ok);
   EXPECT_NE(report.failure.find("moved too far"), std::string::npos) << report.failure;

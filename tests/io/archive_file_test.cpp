@@ -91,14 +91,17 @@ TEST(ArchiveFile, RefusesEveryFlippedByte) {
             (folder / "a.h5").string() + ": the checkpoint is corrupt (its checksum differs)");
 }
 
-TEST(ArchiveFile, RefusesForeignFilesAndLaterFormats) {
+TEST(ArchiveFile, RefusesForeignFilesAndOtherFormats) {
   const test::TemporaryFolder folder;
   const std::string path = (folder / "a.h5").string();
   EXPECT_EQ(reading(path), path + ": no such file");
   put(path, "\x89HDF\r\n\x1a\n and then some of another program");
   EXPECT_EQ(reading(path), path + ": not a Meniscus checkpoint");
-  put(path, "Meniscus archive 2\nwhatever");
-  EXPECT_EQ(reading(path), path + ": a checkpoint of format 2; this program reads format 1");
+  for (const std::string other : {"1", "3"}) {
+    put(path, "Meniscus archive " + other + "\nwhatever");
+    EXPECT_EQ(reading(path),
+              path + ": a checkpoint of format " + other + "; this program reads format 2");
+  }
 }
 
 TEST(ArchiveFile, FullDiskLeavesNothing) {

@@ -64,13 +64,16 @@ bool mesh_conforms(const Scene& scene) {
 }
 
 bool flow_is_right(const Scene& scene) {
-  const std::unique_ptr<FlowSolver> flow = fem::make_finite_element_flow({});
-  if (!flow->rebuild(scene).ok || !flow->solve(scene, 0.0).ok) return false;
+  MovingMesh mesh{MovingMeshOptions{}};
+  if (!mesh.follow(scene).ok) return false;
+  const std::unique_ptr<FlowSolver> solver = fem::make_finite_element_flow({});
+  const FlowSolution flow = solver->solve({.scene = scene, .mesh = &mesh.tetrahedra()}, {});
+  if (!flow.ok) return false;
   // On a sphere n·v = c n·E·n; c by least squares over the vertices.
   double product = 0.0, square = 0.0;
   for (const VertexId v : scene.interfaces[0].mesh.x.ids()) {
     const Vec3 n = scene.interfaces[0].mesh.x[v];
-    product += n.dot(flow->velocity()[0][v]) * n.dot(kShear * n);
+    product += n.dot(flow.velocity[0][v]) * n.dot(kShear * n);
     square += n.dot(kShear * n) * n.dot(kShear * n);
   }
   // Exact for a drop of ten times the viscosity in a ball of three times the radius, without

@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
-#include "meniscus/core/error.hpp"
+#include "meniscus/core/archive_entries.hpp"
 #include "meniscus/flow/bem/integral_equation.hpp"
 #include "meniscus/linear/matrix_free_solver.hpp"
 
 namespace meniscus::bem {
 namespace {
-
-FlowReport failure(std::string text, int iterations = 0) {
-  return {false, std::move(text), iterations};
-}
 
 bool is_finite(std::span<const VertexField<Vec3>> fields) {
   for (const VertexField<Vec3>& field : fields)
@@ -29,42 +24,37 @@ class BoundaryIntegralFlow final : public FlowSolver {
  public:
   explicit BoundaryIntegralFlow(const Options& options) : options_(options) {}
 
-  FlowReport rebuild(const Scene& scene) override {
-    if (!scene.is_unbounded)
-      return failure("the boundary-integral solver needs an unbounded scene");
-    if (!std::ranges::all_of(scene.liquids, is_newtonian, &Liquid::law))
-      return failure("boundary integrals describe Newtonian liquids alone");
-    velocity_.clear();
-    return {};
-  }
+  FlowSolution solve(const FlowDomain& domain, const Instant& instant) override;
 
-  FlowReport solve(const Scene& scene, double t) override;
-
-  std::span<const VertexField<Vec3>> velocity() const override { return velocity_; }
-  std::optional<Power> power() const override { return std::nullopt; }
-
-  void mark(const Scene&) override {}
-  FlowReport move_from_mark(const Scene&, std::span<const VertexField<Vec3>>, double) override {
-    return {};
-  }
-  double shortest_mesh_edge() const override { return std::numeric_limits<double>::infinity(); }
-
-  void save(Archive& archive) const override;
-  void load(const Archive& archive, const Scene& scene) override;
+  void save(Archive& archive, const FlowDomain& domain) const override;
+  void load(const Archive& archive, const FlowDomain& domain) override;
 
   const PhaseTimes& times() const override { return times_; }
 
  private:
   Options options_;
   std::vector<VertexField<Vec3>> velocity_;  // of the last solve: the next one's first guess
+  std::int64_t connectivity_ = 0;            // of the interfaces it is given on
   PhaseTimes times_;
 };
 
-FlowReport BoundaryIntegralFlow::solve(const Scene& scene, double t) {
+/// Why boundary integrals do not describe a scene; empty where they do.
+std::string find_misfit(const Scene& scene) {
+  if (!scene.is_unbounded) return "the boundary-integral solver needs an unbounded scene";
+  if (!std::ranges::all_of(scene.liquids, is_newtonian, &Liquid::law))
+    return "boundary integrals describe Newtonian liquids alone";
+  return {};
+}
+
+FlowSolution BoundaryIntegralFlow::solve(const FlowDomain& domain, const Instant& instant) {
+  if (std::string misfit = find_misfit(domain.scene); !misfit.empty())
+    return failed_flow(std::move(misfit));
+  if (connectivity_ != domain.connectivity) velocity_.clear();
+  connectivity_ = domain.connectivity;
   std::optional<IntegralEquation> equation;
   {
     const PhaseTimer timer(times_, "assemble");
-    equation.emplace(scene, t, options_);
+    equation.emplace(domain.scene, instant.t, options_);
   }
   const PhaseTimer timer(times_, "solve");
   std::vector<double> w =
@@ -76,35 +66,35 @@ FlowReport BoundaryIntegralFlow::solve(const Scene& scene, double t) {
         equation->right_hand_side(), w,
         {.rtol = options_.rtol, .max_iterations = options_.max_iterations});
     if (!report.converged)
-      return failure(fmt::format("the double layer's equation was not solved in {} iterations: {}",
-                                 report.iterations, report.reason),
-                     report.iterations);
+      return failed_flow(
+          fmt::format("the double layer's equation was not solved in {} iterations: {}",
+                      report.iterations, report.reason),
+          report.iterations);
   } else {
     w = equation->right_hand_side();
   }
   std::vector<VertexField<Vec3>> u = equation->velocity(w);
-  if (!is_finite(u)) return failure("the velocity on an interface is not finite");
-  velocity_ = std::move(u);
-  return {true, {}, report.iterations};
+  if (!is_finite(u)) return failed_flow("the velocity on an interface is not finite");
+  velocity_ = u;
+  FlowSolution solution;
+  solution.iterations = report.iterations;
+  solution.velocity = std::move(u);
+  return solution;
 }
 
-void BoundaryIntegralFlow::save(Archive& archive) const {
-  for (std::size_t i = 0; i < velocity_.size(); ++i) {
-    std::vector<double>& values = archive.reals[guess_name(i)];
-    for (const Vec3& v : velocity_[i]) values.insert(values.end(), v.begin(), v.end());
-  }
+void BoundaryIntegralFlow::save(Archive& archive, const FlowDomain& domain) const {
+  if (connectivity_ != domain.connectivity) return;
+  for (std::size_t i = 0; i < velocity_.size(); ++i)
+    archive.reals[guess_name(i)] = flat(velocity_[i]);
 }
 
-void BoundaryIntegralFlow::load(const Archive& archive, const Scene& scene) {
+void BoundaryIntegralFlow::load(const Archive& archive, const FlowDomain& domain) {
   velocity_.clear();
+  connectivity_ = domain.connectivity;
   if (!archive.reals.contains(guess_name(0))) return;
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
-    const auto found = archive.reals.find(guess_name(i));
-    const auto count = static_cast<std::size_t>(scene.interfaces[i].mesh.num_vertices());
-    if (found == archive.reals.end() || found->second.size() != 3 * count)
-      reject_input("checkpoint: {} does not fit interface {}", guess_name(i), i);
-    VertexField<Vec3>& u = velocity_.emplace_back();
-    for (std::size_t v = 0; v < count; ++v) u.add(Vec3(found->second.data() + 3 * v));
+  for (std::size_t i = 0; i < domain.scene.interfaces.size(); ++i) {
+    const auto count = static_cast<std::size_t>(domain.scene.interfaces[i].mesh.num_vertices());
+    velocity_.push_back(vectors<VertexId>(entry_of_size(archive.reals, guess_name(i), 3 * count)));
   }
 }
 

@@ -4,12 +4,13 @@
 #include <limits>
 #include <optional>
 
+#include "meniscus/core/archive_entries.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/boundary_conditions.hpp"
 #include "meniscus/flow/fem/capillary_force.hpp"
 #include "meniscus/flow/fem/excess_stress.hpp"
 #include "meniscus/flow/fem/face_elements.hpp"
-#include "meniscus/flow/fem/mesh_archive.hpp"
+#include "meniscus/flow/fem/solver_archive.hpp"
 #include "meniscus/flow/fem/stokes_residual.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
 #include "meniscus/flow/fem/vertex_velocity.hpp"
@@ -17,8 +18,6 @@
 
 namespace meniscus::fem {
 namespace {
-
-FlowReport failure(std::string text) { return {false, std::move(text), 0}; }
 
 /// The problem's coefficients and forces; its tractions apart, as their power is paid for outside.
 struct InstantProblem {
@@ -91,12 +90,17 @@ Field<TetVertexId, Vec3> at_vertices(const Field<NodeId, Vec3>& v, std::int32_t 
   return Field<TetVertexId, Vec3>(std::vector<Vec3>(vertices.begin(), vertices.end()));
 }
 
-FlowReport straightened_report(const NodePositions& positions) {
-  FlowReport report;
-  if (positions.num_straightened > 0)
-    report.warnings.push_back(fmt::format("{} edges of surfaces stay straight in the elements",
-                                          positions.num_straightened));
-  return report;
+/// Where no boundary is open the pressure is given relative to its mean over the matrix's nodes.
+void level_pressure(const PressureSpace& space, std::vector<double>& pressure) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < space.region.size(); ++i)
+    if (space.region[i] == RegionId{0}) {
+      sum += pressure[i];
+      ++count;
+    }
+  if (count == 0) return;
+  for (double& p : pressure) p -= sum / count;
 }
 
 class FiniteElementFlow final : public FlowSolver {
@@ -109,103 +113,60 @@ class FiniteElementFlow final : public FlowSolver {
     check_linear_options(options);
   }
 
-  FlowReport rebuild(const Scene& scene) override {
-    const PhaseTimer timer(times_, "tetrahedralize");
-    const VolumeMeshReport report = tetrahedralize(scene, options_.volume_mesh, mesh_);
-    if (!report.ok) return failure(report.failure);
-    use_topology();
-    return {};
-  }
+  FlowSolution solve(const FlowDomain& domain, const Instant& instant) override;
 
-  FlowReport solve(const Scene& scene, double t) override;
-
-  std::span<const VertexField<Vec3>> velocity() const override { return velocity_; }
-  std::optional<Power> power() const override { return power_; }
-
-  std::span<const Mat3> excess_stress() const override { return excess_stress_; }
-
-  void mark(const Scene& scene) override {
-    follow_interfaces(scene);
-    marked_ = mesh_.x;
-  }
-  FlowReport move_from_mark(const Scene& marked, std::span<const VertexField<Vec3>> motion,
-                            double dt) override;
-
-  double shortest_mesh_edge() const override { return shortest_edge(mesh_); }
-  const TetMesh* volume_mesh() const override { return &mesh_; }
-  std::span<const Vec3> mesh_velocity() const override {
-    return state_ ? state_->v.span().first(static_cast<std::size_t>(mesh_.num_vertices()))
-                  : std::span<const Vec3>{};
-  }
-  std::span<const double> corner_pressure() const override { return corner_pressure_; }
-
-  void save(Archive& archive) const override {
-    fem::save(mesh_, archive, "flow/mesh");
-    if (state_) fem::save(*state_, archive, "flow/guess");
-    if (!prepared_at_) return;
-    save_positions(*prepared_at_, archive, "flow/preconditioner");
-    archive.integers["flow/preconditioner/iterations"] = {iterations_then_};
-  }
-  void load(const Archive& archive, const Scene& scene) override;
+  void save(Archive& archive, const FlowDomain& domain) const override;
+  void load(const Archive& archive, const FlowDomain& domain) override;
 
   const PhaseTimes& times() const override { return times_; }
 
  private:
-  void use_topology() {
-    stokes_.reset();
-    space_ = flow_space(mesh_, options_.elements);
-    stokes_.emplace(space_, options_);
-    state_.reset();
-    prepared_at_.reset();
+  void use_connectivity(const FlowDomain& domain);
+  [[nodiscard]] bool has_connectivity_of(const FlowDomain& domain) const {
+    return stokes_ && connectivity_ == domain.connectivity;
   }
-  void follow_interfaces(const Scene& scene);
-  void judge_preconditioner(const StokesProblem& problem, const StokesReport& report, bool is_kept);
-  void take_solution(const Scene& scene, const InstantProblem& problem);
-  void level_pressure();
-  void restore_preconditioner(const Archive& archive, const Scene& scene);
+  void decide_on_preconditioner(const StokesProblem& problem, const StokesReport& report,
+                                bool is_kept);
+  [[nodiscard]] FlowSolution solution(const FlowDomain& domain, const InstantProblem& problem);
+  void restore_preconditioner(const Archive& archive, const FlowDomain& domain);
 
   Options options_;
-  TetMesh mesh_;
-  Field<TetVertexId, Vec3> marked_;
+  std::int64_t connectivity_ = 0;  // that all below is made for
   FlowSpace space_;
   std::optional<StokesSolver> stokes_;
-  /// The last solution: the next solve's first guess while the topology stands.
+  /// The last solution: the next solve's first guess.
   std::optional<StokesState> state_;
   /// Where the nodes were when the preconditioner was made that the next solve will keep, and the
   /// iterations of the solve that made it; none when the next is to make its own.
   std::optional<NodePositions> prepared_at_;
   int iterations_then_ = 0;
-  std::vector<VertexField<Vec3>> velocity_;
-  std::vector<double> corner_pressure_;
-  Power power_;
-  std::vector<Mat3> excess_stress_;
   PhaseTimes times_;
 };
 
-/// Surface vertices are where the scene has them, even where it was corrected after the mesh moved.
-void FiniteElementFlow::follow_interfaces(const Scene& scene) {
-  MENISCUS_ASSERT(mesh_.interfaces.size() == scene.interfaces.size(), "{} {}",
-                  mesh_.interfaces.size(), scene.interfaces.size());
-  for (std::size_t i = 0; i < mesh_.interfaces.size(); ++i) {
-    const SurfaceMesh& surface = scene.interfaces[i].mesh;
-    MENISCUS_ASSERT(mesh_.interfaces[i].num_vertices == surface.num_vertices(), "{} {}",
-                    mesh_.interfaces[i].num_vertices, surface.num_vertices());
-    for (const VertexId v : surface.x.ids()) mesh_.x[mesh_.interfaces[i].vertex(v)] = surface.x[v];
-  }
+void FiniteElementFlow::use_connectivity(const FlowDomain& domain) {
+  stokes_.reset();
+  space_ = flow_space(*domain.mesh, options_.elements);
+  stokes_.emplace(space_, options_);
+  state_.reset();
+  prepared_at_.reset();
+  connectivity_ = domain.connectivity;
 }
 
-FlowReport FiniteElementFlow::solve(const Scene& scene, double t) {
-  if (!stokes_) return failure("there is no volume mesh yet");
-  follow_interfaces(scene);
-  for (const CellId c : mesh_.cells.ids())
-    if (!(signed_volume(mesh_, c) > 0.0)) return failure("a cell of the volume mesh is inverted");
+FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& instant) {
+  MENISCUS_ASSERT(domain.mesh != nullptr, "finite elements need a volume mesh");
+  const TetMesh& mesh = *domain.mesh;
+  if (!has_connectivity_of(domain)) use_connectivity(domain);
+  for (const CellId c : mesh.cells.ids())
+    if (!(signed_volume(mesh, c) > 0.0))
+      return failed_flow("a cell of the volume mesh is inverted");
   std::optional<InstantProblem> problem;
   {
     const PhaseTimer timer(times_, "assemble");
-    problem.emplace(instant_problem(scene, mesh_, space_, node_positions(scene, mesh_, space_),
-                                    options_.capillary, t));
+    problem.emplace(instant_problem(domain.scene, mesh, space_,
+                                    node_positions(domain.scene, mesh, space_), options_.capillary,
+                                    instant.t));
   }
-  if (!problem->failure.empty()) return failure(problem->failure);
+  if (!problem->failure.empty()) return failed_flow(problem->failure);
   if (!state_) {
     state_ = stokes_->state_at_rest();
     state_->v = problem->stokes.undisturbed;
@@ -214,21 +175,21 @@ FlowReport FiniteElementFlow::solve(const Scene& scene, double t) {
   const StokesReport report = stokes_->solve(
       problem->stokes, *state_,
       is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh, times_);
-  judge_preconditioner(problem->stokes, report, is_kept);
-  FlowReport result = straightened_report(problem->stokes.positions);
-  result.ok = report.ok;
-  result.failure = report.failure;
+  decide_on_preconditioner(problem->stokes, report, is_kept);
+  FlowSolution result = report.ok ? solution(domain, *problem) : failed_flow(report.failure);
   result.iterations = report.iterations;
+  if (const int straight = problem->stokes.positions.num_straightened; straight > 0)
+    result.warnings.push_back(
+        fmt::format("{} edges of surfaces stay straight in the elements", straight));
   result.warnings.insert(result.warnings.end(), report.failed_solvers.begin(),
                          report.failed_solvers.end());
-  if (report.ok) take_solution(scene, *problem);
   return result;
 }
 
 /// A preconditioner is kept while the topology stands and it saves more than it costs: to make one
 /// takes as long as three or four iterations (docs/benchmark-stokes.md).
-void FiniteElementFlow::judge_preconditioner(const StokesProblem& problem,
-                                             const StokesReport& report, bool is_kept) {
+void FiniteElementFlow::decide_on_preconditioner(const StokesProblem& problem,
+                                                 const StokesReport& report, bool is_kept) {
   constexpr int kWorthOfOne = 3;
   const bool is_own = report.ok && report.failed_solvers.empty() && report.iterations > 0 &&
                       !problem.is_generalised();  // whose steps make their own
@@ -240,85 +201,57 @@ void FiniteElementFlow::judge_preconditioner(const StokesProblem& problem,
   iterations_then_ = report.iterations;
 }
 
-void FiniteElementFlow::take_solution(const Scene& scene, const InstantProblem& problem) {
+FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const InstantProblem& problem) {
   const PhaseTimer timer(times_, "assemble");
-  if (!problem.stokes.has_open_boundary) level_pressure();
-  velocity_.clear();
-  for (std::size_t i = 0; i < mesh_.interfaces.size(); ++i) {
-    const SurfaceMesh& surface = scene.interfaces[i].mesh;
-    const FaceNodeTable faces = face_nodes(space_, mesh_, surface, mesh_.interfaces[i]);
+  const TetMesh& mesh = *domain.mesh;
+  FlowSolution result;
+  if (!problem.stokes.has_open_boundary) level_pressure(space_.pressure, state_->p);
+  for (std::size_t i = 0; i < mesh.interfaces.size(); ++i) {
+    const SurfaceMesh& surface = domain.scene.interfaces[i].mesh;
+    const FaceNodeTable faces = face_nodes(space_, mesh, surface, mesh.interfaces[i]);
     const NodePositions& positions = problem.stokes.positions;
     VertexField<Vec3> v = vertex_velocity(surface, faces, positions, state_->v);
     remove_net_flux(surface, net_flux(faces, positions, state_->v), v);
-    velocity_.push_back(std::move(v));
+    result.velocity.push_back(std::move(v));
   }
   const StokesPower power = stokes_->power(problem.stokes, *state_);
   double traction = 0.0;
   for (const NodeId i : problem.traction.ids()) traction += problem.traction[i].dot(state_->v[i]);
-  power_ = {power.reaction + traction + power.body_force, power.dissipation};
-  excess_stress_ = fem::excess_stress(problem.stokes, *state_);
-  corner_pressure_.clear();
+  result.power = {power.reaction + traction + power.body_force, power.dissipation};
+  result.excess_stress = fem::excess_stress(problem.stokes, *state_);
+  BulkFlow bulk{at_vertices(state_->v, mesh.num_vertices()), {}};
   for (const std::int32_t node : space_.pressure.nodes.cell_nodes)
-    corner_pressure_.push_back(state_->p[static_cast<std::size_t>(node)]);
+    bulk.corner_pressure.push_back(state_->p[static_cast<std::size_t>(node)]);
+  result.bulk = std::move(bulk);
+  return result;
 }
 
-/// Where no boundary is open the pressure is given relative to its mean over the matrix's nodes.
-void FiniteElementFlow::level_pressure() {
-  const std::vector<RegionId>& region = space_.pressure.region;
-  double sum = 0.0;
-  int count = 0;
-  for (std::size_t i = 0; i < region.size(); ++i)
-    if (region[i] == RegionId{0}) {
-      sum += state_->p[i];
-      ++count;
-    }
-  if (count == 0) return;
-  for (double& p : state_->p) p -= sum / count;
-}
-
-FlowReport FiniteElementFlow::move_from_mark(const Scene& marked,
-                                             std::span<const VertexField<Vec3>> motion, double dt) {
-  if (!state_) return failure("there is no velocity to move the mesh with");
-  const PhaseTimer timer(times_, "move mesh");
-  mesh_.x = marked_;
-  const VolumeVelocity velocity = volume_velocity(
-      marked, mesh_, motion, at_vertices(state_->v, mesh_.num_vertices()), options_.volume_motion);
-  for (const TetVertexId v : mesh_.x.ids()) mesh_.x[v] += dt * velocity.w[v];
-  for (const CellId c : mesh_.cells.ids())
-    if (!(signed_volume(mesh_, c) > 0.0)) {
-      mesh_.x = marked_;
-      return failure("moving the volume mesh inverts a cell");
-    }
-  return {};
+void FiniteElementFlow::save(Archive& archive, const FlowDomain& domain) const {
+  if (!has_connectivity_of(domain)) return;
+  if (state_) fem::save(*state_, archive, "flow/guess");
+  if (!prepared_at_) return;
+  save_positions(*prepared_at_, archive, "flow/preconditioner");
+  archive.integers["flow/preconditioner/iterations"] = {iterations_then_};
 }
 
 /// A resumed run must do the same arithmetic: it gets the preconditioner that the saved one had.
-void FiniteElementFlow::restore_preconditioner(const Archive& archive, const Scene& scene) {
+void FiniteElementFlow::restore_preconditioner(const Archive& archive, const FlowDomain& domain) {
   if (!archive.reals.contains("flow/preconditioner/x")) return;
   prepared_at_ = load_positions(archive, "flow/preconditioner");
   if (prepared_at_->x.size() != space_.velocity.num_nodes ||
-      prepared_at_->is_curved.size() != mesh_.num_cells())
+      prepared_at_->is_curved.size() != domain.mesh->num_cells())
     reject_input("checkpoint: flow/preconditioner/x does not fit the volume mesh");
-  const auto iterations = archive.integers.find("flow/preconditioner/iterations");
-  if (iterations == archive.integers.end() || iterations->second.size() != 1)
-    reject_input("checkpoint: flow/preconditioner/iterations is missing");
-  iterations_then_ = static_cast<int>(iterations->second.front());
+  iterations_then_ = static_cast<int>(
+      entry_of_size(archive.integers, "flow/preconditioner/iterations", 1).front());
   // Time and surface tension matter to the right-hand side alone.
   stokes_->prepare(
-      instant_problem(scene, mesh_, space_, *prepared_at_, CapillaryForm::weak, 0.0).stokes);
+      instant_problem(domain.scene, *domain.mesh, space_, *prepared_at_, CapillaryForm::weak, 0.0)
+          .stokes);
 }
 
-void FiniteElementFlow::load(const Archive& archive, const Scene& scene) {
-  mesh_ = load_mesh(archive, "flow/mesh");
-  if (mesh_.interfaces.size() != scene.interfaces.size())
-    reject_input("checkpoint: the volume mesh has {} interfaces, the scene {}",
-                 mesh_.interfaces.size(), scene.interfaces.size());
-  for (std::size_t i = 0; i < mesh_.interfaces.size(); ++i)
-    if (mesh_.interfaces[i].num_vertices != scene.interfaces[i].mesh.num_vertices())
-      reject_input("checkpoint: interface {} has {} vertices in the volume mesh, {} in the scene",
-                   i, mesh_.interfaces[i].num_vertices, scene.interfaces[i].mesh.num_vertices());
-  use_topology();
-  restore_preconditioner(archive, scene);
+void FiniteElementFlow::load(const Archive& archive, const FlowDomain& domain) {
+  use_connectivity(domain);
+  restore_preconditioner(archive, domain);
   if (!archive.reals.contains("flow/guess/velocity")) return;
   state_ = load_state(archive, "flow/guess");
   const StokesState rest = stokes_->state_at_rest();

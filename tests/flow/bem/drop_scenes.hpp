@@ -37,12 +37,9 @@ struct Solution {
   int iterations = 0;
 };
 inline Solution solved(const Scene& scene, const Options& options = {}) {
-  const auto flow = make_boundary_integral_flow(options);
-  const FlowReport made = flow->rebuild(scene);
-  EXPECT_TRUE(made.ok) << made.failure;
-  const FlowReport report = flow->solve(scene, 0.0);
-  EXPECT_TRUE(report.ok) << report.failure;
-  return {{flow->velocity().begin(), flow->velocity().end()}, report.iterations};
+  FlowSolution solution = make_boundary_integral_flow(options)->solve({scene}, {});
+  EXPECT_TRUE(solution.ok) << solution.failure;
+  return {std::move(solution.velocity), solution.iterations};
 }
 
 /// Least-squares coefficient of n·u against a function on the sphere: the amplitude of its mode.

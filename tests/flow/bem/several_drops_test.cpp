@@ -183,25 +183,24 @@ TEST(SeveralDrops, SolverGoesOnFromACheckpointBitForBit) {
   Scene moved = scene;
   for (Vec3& x : moved.interfaces[0].mesh.x) x += 0.01 * scene.flow.velocity(x, 0.0);
   const auto flow = make_boundary_integral_flow({});
-  ASSERT_TRUE(flow->rebuild(scene).ok);
-  ASSERT_TRUE(flow->solve(scene, 0.0).ok);
+  ASSERT_TRUE(flow->solve({scene}, {}).ok);
   Archive archive;
-  flow->save(archive);
+  flow->save(archive, {scene});
   const auto taken_up = make_boundary_integral_flow({});
-  taken_up->load(archive, scene);
-  const FlowReport first = flow->solve(moved, 0.01), second = taken_up->solve(moved, 0.01);
+  taken_up->load(archive, {scene});
+  const Instant later{.t = 0.01};
+  const FlowSolution first = flow->solve({moved}, later), second = taken_up->solve({moved}, later);
   ASSERT_TRUE(first.ok && second.ok);
   EXPECT_EQ(first.iterations, second.iterations);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(flow->velocity()[i], taken_up->velocity()[i]);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(first.velocity[i], second.velocity[i]);
   archive.reals["flow/guess/1"].pop_back();
-  EXPECT_THROW(taken_up->load(archive, scene), InvalidInput);
+  EXPECT_THROW(taken_up->load(archive, {scene}), InvalidInput);
 }
 
 TEST(SeveralDrops, AGoodGuessSavesIterations) {
   const Scene scene = pair();
   const auto flow = make_boundary_integral_flow({});
-  ASSERT_TRUE(flow->rebuild(scene).ok);
-  const FlowReport cold = flow->solve(scene, 0.0), warm = flow->solve(scene, 0.0);
+  const FlowSolution cold = flow->solve({scene}, {}), warm = flow->solve({scene}, {});
   ASSERT_TRUE(cold.ok && warm.ok);
   EXPECT_GT(cold.iterations, 2);
   EXPECT_EQ(warm.iterations, 0);
@@ -209,8 +208,8 @@ TEST(SeveralDrops, AGoodGuessSavesIterations) {
 
 TEST(SeveralDrops, AnUnsolvedEquationIsReported) {
   const auto flow = make_boundary_integral_flow({.rtol = 1e-12, .max_iterations = 2});
-  ASSERT_TRUE(flow->rebuild(pair()).ok);
-  const FlowReport report = flow->solve(pair(), 0.0);
+  const Scene scene = pair();
+  const FlowSolution report = flow->solve({scene}, {});
   EXPECT_FALSE(report.ok);
   EXPECT_EQ(report.iterations, 2);
   EXPECT_NE(report.failure.find("not solved in 2 iterations"), std::string::npos);

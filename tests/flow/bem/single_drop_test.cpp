@@ -171,7 +171,7 @@ TEST(SingleDrop, WeightsIntegrateSmoothFunctionsToFourthOrder) {
 TEST(SingleDrop, BoundedSceneIsRefused) {
   Scene scene = drop_in(Mat3::Zero(), sphere(60), 1.0, 1.0);
   scene.is_unbounded = false;
-  const FlowReport report = make_boundary_integral_flow({})->rebuild(scene);
+  const FlowSolution report = make_boundary_integral_flow({})->solve({scene}, {});
   EXPECT_FALSE(report.ok);
   EXPECT_EQ(report.failure, "the boundary-integral solver needs an unbounded scene");
 }
@@ -179,7 +179,7 @@ TEST(SingleDrop, BoundedSceneIsRefused) {
 TEST(SingleDrop, LiquidsWithALawAreRefused) {
   Scene scene = drop_in(Mat3::Zero(), sphere(60), 1.0, 1.0);
   scene.liquids[RegionId{1}].law = CarreauYasuda{.time_constant = 1.0, .power_index = 0.5};
-  const FlowReport report = make_boundary_integral_flow({})->rebuild(scene);
+  const FlowSolution report = make_boundary_integral_flow({})->solve({scene}, {});
   EXPECT_FALSE(report.ok);
   EXPECT_EQ(report.failure, "boundary integrals describe Newtonian liquids alone");
 }

@@ -1,7 +1,7 @@
 // The boundary integrals and the finite elements share the interfaces and nothing else: where both
 // can solve a case, each checks the other.
-#include "meniscus/flow/fem/finite_element_flow.hpp"
 #include "tests/flow/bem/drop_scenes.hpp"
+#include "tests/flow/meshed_flow.hpp"
 
 namespace meniscus::bem {
 namespace {
@@ -44,10 +44,8 @@ double difference(int num_vertices, double lambda) {
   const SurfaceMesh& mesh = scene.interfaces[0].mesh;
   const Mat3 integrals = moment_rate(mesh, test::solved(scene).u[0]);
   const Scene bounded = within_walls(scene);
-  const auto elements = fem::make_finite_element_flow({});
-  const FlowReport made = elements->rebuild(bounded), solved = elements->solve(bounded, 0.0);
-  EXPECT_TRUE(made.ok && solved.ok) << made.failure << solved.failure;
-  return (moment_rate(mesh, elements->velocity()[0]) - integrals).norm() / integrals.norm();
+  const FlowSolution elements = fem::test::flow_in(bounded);
+  return (moment_rate(mesh, elements.velocity[0]) - integrals).norm() / integrals.norm();
 }
 
 // With 400 and 1600 vertices 1.7e-2 and 5.0e-3 were measured at λ = 0.1, 3.7e-2 and 1.1e-2 at

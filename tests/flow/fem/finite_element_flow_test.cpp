@@ -8,9 +8,13 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "tests/flow/fem/sphere_scene.hpp"
+#include "tests/flow/meshed_flow.hpp"
 
 namespace meniscus::fem {
 namespace {
+
+using test::flow_in;
+using test::MeshedFlow;
 
 Scene shear_scene(double outer_radius = 4.0) {
   Mat3 gradient = ImposedFlow::simple_shear();
@@ -25,42 +29,39 @@ Scene shear_scene(double outer_radius = 4.0) {
   return scene;
 }
 
-std::vector<VertexField<Vec3>> motion_of(const FlowSolver& flow) {
-  return {flow.velocity().begin(), flow.velocity().end()};
-}
-
-void move(Scene& scene, const std::vector<VertexField<Vec3>>& motion, double dt) {
-  for (std::size_t i = 0; i < motion.size(); ++i)
-    for (const VertexId v : motion[i].ids()) scene.interfaces[i].mesh.x[v] += dt * motion[i][v];
+/// Moves scene and mesh with a flow for a time.
+void move(Scene& scene, MeshedFlow& flow, const FlowSolution& solution, double dt) {
+  const Scene start = scene;
+  flow.mesh.begin_step(start);
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+    for (const VertexId v : solution.velocity[i].ids())
+      scene.interfaces[i].mesh.x[v] += dt * solution.velocity[i][v];
+  const MeshReport moved = flow.mesh.move(start, solution.velocity, solution.bulk->v, dt);
+  ASSERT_TRUE(moved.ok) << moved.failure;
 }
 
 TEST(FiniteElementFlow, WarmSecondStageTakesFewerIterations) {
   Scene scene = shear_scene();
-  const auto flow = make_finite_element_flow({});
-  ASSERT_TRUE(flow->rebuild(scene).ok);
-  const FlowReport first = flow->solve(scene, 0.0);
+  MeshedFlow flow;
+  flow.follow(scene);
+  const FlowSolution first = flow.solve(scene);
   ASSERT_TRUE(first.ok) << first.failure;
-  flow->mark(scene);
-  const Scene start = scene;
-  const auto motion = motion_of(*flow);
-  move(scene, motion, 0.02);
-  ASSERT_TRUE(flow->move_from_mark(start, motion, 0.02).ok);
-  const FlowReport second = flow->solve(scene, 0.02);
+  move(scene, flow, first, 0.02);
+  const FlowSolution second = flow.solve(scene, 0.02);
   ASSERT_TRUE(second.ok) << second.failure;
   EXPECT_GT(second.iterations, 0);
   EXPECT_LT(second.iterations, first.iterations);
-  for (const char* phase : {"tetrahedralize", "assemble", "solve", "move mesh"})
-    EXPECT_GT(flow->times()[phase], 0.0) << phase;
+  for (const char* phase : {"assemble", "solve"})
+    EXPECT_GT(flow.solver->times()[phase], 0.0) << phase;
+  for (const char* phase : {"tetrahedralize", "move mesh"})
+    EXPECT_GT(flow.mesh.times()[phase], 0.0) << phase;
 }
 
 /// The drop's velocity in an outer sphere, solved to a tolerance.
 VertexField<Vec3> drop_velocity(const Scene& scene, double rtol) {
   Options options;
   options.rtol = rtol;
-  const auto flow = make_finite_element_flow(options);
-  EXPECT_TRUE(flow->rebuild(scene).ok);
-  EXPECT_TRUE(flow->solve(scene, 0.0).ok);
-  return flow->velocity()[0];
+  return flow_in(scene, options).velocity[0];
 }
 
 // The forces on a boundary far away, which grow with its distance squared, must not loosen it.
@@ -79,13 +80,11 @@ TEST(FiniteElementFlow, EnergyInIsDissipatedOrStoredInTheSurface) {
   const Scene scene = shear_scene();
   Options options;
   options.rtol = 1e-10;
-  const auto flow = make_finite_element_flow(options);
-  ASSERT_TRUE(flow->rebuild(scene).ok);
-  ASSERT_TRUE(flow->solve(scene, 0.0).ok);
+  const FlowSolution flow = flow_in(scene, options);
   const VertexField<Vec3> gradient = area_gradient(scene.interfaces[0].mesh);
   double growth = 0.0;
-  for (const VertexId v : gradient.ids()) growth += gradient[v].dot(flow->velocity()[0][v]) / 0.4;
-  const Power power = flow->power().value();
+  for (const VertexId v : gradient.ids()) growth += gradient[v].dot(flow.velocity[0][v]) / 0.4;
+  const Power power = flow.power.value();
   EXPECT_NEAR(power.in - power.dissipation, growth, 1e-7 * power.in);
 }
 
@@ -99,28 +98,21 @@ TEST(FiniteElementFlow, ARestoredSolverDoesTheSameArithmetic) {
     options.elements = elements;
     options.linear = which;
     Scene scene = shear_scene();
-    const auto flow = make_finite_element_flow(options);
-    ASSERT_TRUE(flow->rebuild(scene).ok);
-    ASSERT_TRUE(flow->solve(scene, 0.0).ok);
+    MeshedFlow flow(options);
+    flow.follow(scene);
+    FlowSolution straight = flow.solve(scene);
+    ASSERT_TRUE(straight.ok);
     for (int step = 1; step <= 3; ++step) {
-      flow->mark(scene);
-      const Scene start = scene;
-      const auto motion = motion_of(*flow);
-      move(scene, motion, 0.01);
-      ASSERT_TRUE(flow->move_from_mark(start, motion, 0.01).ok);
-      Archive archive;
-      flow->save(archive);
-      const auto restored = make_finite_element_flow(options);
-      restored->load(archive, scene);
-      const FlowReport straight = flow->solve(scene, 0.01 * step);
-      const FlowReport resumed = restored->solve(scene, 0.01 * step);
+      move(scene, flow, straight, 0.01);
+      MeshedFlow restored(options);
+      restored.load(flow.saved(scene), scene);
+      straight = flow.solve(scene, 0.01 * step);
+      const FlowSolution resumed = restored.solve(scene, 0.01 * step);
       ASSERT_TRUE(straight.ok && resumed.ok);
       EXPECT_GT(straight.iterations, 0);
       EXPECT_EQ(straight.iterations, resumed.iterations);
-      EXPECT_EQ(flow->velocity()[0], restored->velocity()[0]) << step;
-      Archive a, b;
-      flow->save(a);
-      restored->save(b);
+      EXPECT_EQ(straight.velocity[0], resumed.velocity[0]) << step;
+      const Archive a = flow.saved(scene), b = restored.saved(scene);
       EXPECT_EQ(a.reals, b.reals) << step;
       EXPECT_EQ(a.integers, b.integers) << step;
     }
@@ -131,24 +123,20 @@ TEST(FiniteElementFlow, ARestoredSolverDoesTheSameArithmetic) {
 // both go into the checkpoint, and with the topology.
 TEST(FiniteElementFlow, KeepsItsPreconditionerAndItsGuessWhileTheTopologyStands) {
   const Scene scene = shear_scene();
-  const auto flow = make_finite_element_flow({});
-  const auto saved = [&] {
-    Archive archive;
-    flow->save(archive);
-    return archive;
-  };
+  MeshedFlow flow;
   for (int topology = 0; topology < 2; ++topology) {
-    ASSERT_TRUE(flow->rebuild(scene).ok);
-    EXPECT_FALSE(saved().reals.contains("flow/preconditioner/x"));
-    EXPECT_FALSE(saved().reals.contains("flow/guess/velocity"));
+    flow.follow(scene);
+    EXPECT_FALSE(flow.saved(scene).reals.contains("flow/preconditioner/x"));
+    EXPECT_FALSE(flow.saved(scene).reals.contains("flow/guess/velocity"));
     Scene moved = scene;
-    ASSERT_TRUE(flow->solve(moved, 0.0).ok);
-    const Archive first = saved();
+    ASSERT_TRUE(flow.solve(moved).ok);
+    const Archive first = flow.saved(moved);
     for (int stage = 0; stage < 4; ++stage) {
       for (Vec3& x : moved.interfaces[0].mesh.x) x[0] *= 1.001;
-      ASSERT_TRUE(flow->solve(moved, 0.0).ok);
-      EXPECT_EQ(saved().reals.at("flow/preconditioner/x"), first.reals.at("flow/preconditioner/x"));
-      EXPECT_NE(saved().reals.at("flow/guess/velocity"), first.reals.at("flow/guess/velocity"));
+      ASSERT_TRUE(flow.solve(moved).ok);
+      const Archive next = flow.saved(moved);
+      EXPECT_EQ(next.reals.at("flow/preconditioner/x"), first.reals.at("flow/preconditioner/x"));
+      EXPECT_NE(next.reals.at("flow/guess/velocity"), first.reals.at("flow/guess/velocity"));
     }
   }
 }
@@ -158,57 +146,38 @@ TEST(FiniteElementFlow, APreconditionerThatNoLongerFitsIsGivenUp) {
   Scene scene = shear_scene();
   Options options;
   options.linear = LinearSolver::mumps;
-  const auto flow = make_finite_element_flow(options);
-  ASSERT_TRUE(flow->rebuild(scene).ok);
-  ASSERT_TRUE(flow->solve(scene, 0.0).ok);
+  MeshedFlow flow(options);
+  flow.follow(scene);
+  ASSERT_TRUE(flow.solve(scene).ok);
   scene.liquids[RegionId{1}].viscosity *= 10.0;
-  const FlowReport kept = flow->solve(scene, 0.0);
+  const FlowSolution kept = flow.solve(scene);
   ASSERT_TRUE(kept.ok);
   EXPECT_GT(kept.iterations, 4);
-  Archive archive;
-  flow->save(archive);
-  EXPECT_FALSE(archive.reals.contains("flow/preconditioner/x"));
+  EXPECT_FALSE(flow.saved(scene).reals.contains("flow/preconditioner/x"));
   for (Vec3& x : scene.interfaces[0].mesh.x) x[0] *= 1.001;
-  const FlowReport fresh = flow->solve(scene, 0.0);
+  const FlowSolution fresh = flow.solve(scene);
   ASSERT_TRUE(fresh.ok);
   EXPECT_LE(fresh.iterations, 2);
 }
 
 TEST(FiniteElementFlow, ADamagedCheckpointIsRefused) {
   const Scene scene = shear_scene();
-  const auto flow = make_finite_element_flow({});
-  ASSERT_TRUE(flow->rebuild(scene).ok);
-  Archive archive;
-  flow->save(archive);
-  const auto restored = make_finite_element_flow({});
+  MeshedFlow flow, restored;
+  flow.follow(scene);
+  const Archive archive = flow.saved(scene);
   Archive missing = archive;
-  missing.reals.erase("flow/mesh/x");
-  EXPECT_THROW(restored->load(missing, scene), InvalidInput);
+  missing.reals.erase("mesh/x");
+  EXPECT_THROW(restored.load(missing, scene), InvalidInput);
   Archive wild = archive;
-  wild.integers["flow/mesh/cells"][7] = 1000000;
-  EXPECT_THROW(restored->load(wild, scene), InvalidInput);
+  wild.integers["mesh/cells"][7] = 1000000;
+  EXPECT_THROW(restored.load(wild, scene), InvalidInput);
   Archive short_preconditioner = archive;
   short_preconditioner.reals["flow/preconditioner/x"] = {0.0, 0.0, 0.0};
-  EXPECT_THROW(restored->load(short_preconditioner, scene), InvalidInput);
+  EXPECT_THROW(restored.load(short_preconditioner, scene), InvalidInput);
   Archive short_guess = archive;
   short_guess.reals["flow/guess/velocity"] = {0.0, 0.0, 0.0};
   short_guess.reals["flow/guess/pressure"] = {0.0};
-  EXPECT_THROW(restored->load(short_guess, scene), InvalidInput);
-}
-
-TEST(FiniteElementFlow, InversionIsReportedAndTheMeshIsAsMarked) {
-  const Scene scene = shear_scene();
-  const auto flow = make_finite_element_flow({});
-  ASSERT_TRUE(flow->rebuild(scene).ok);
-  ASSERT_TRUE(flow->solve(scene, 0.0).ok);
-  flow->mark(scene);
-  const auto before = flow->volume_mesh()->x;
-  std::vector<VertexField<Vec3>> motion = motion_of(*flow);
-  for (Vec3& v : motion[0]) v = Vec3(100.0, 0.0, 0.0);
-  const FlowReport report = flow->move_from_mark(scene, motion, 1.0);
-  EXPECT_FALSE(report.ok);
-  EXPECT_FALSE(report.failure.empty());
-  EXPECT_EQ(flow->volume_mesh()->x, before);
+  EXPECT_THROW(restored.load(short_guess, scene), InvalidInput);
 }
 
 TEST(FiniteElementFlow, TwoDropsEachKeepTheirVolume) {
@@ -224,15 +193,12 @@ TEST(FiniteElementFlow, TwoDropsEachKeepTheirVolume) {
   for (Vec3& x : scene.interfaces[1].mesh.x) x += Vec3(1.5, -0.4, 0.0);
   Options options;
   options.rtol = 1e-9;
-  const auto flow = make_finite_element_flow(options);
-  ASSERT_TRUE(flow->rebuild(scene).ok);
-  const FlowReport report = flow->solve(scene, 0.0);
-  ASSERT_TRUE(report.ok) << report.failure;
-  ASSERT_EQ(flow->velocity().size(), 2u);
+  const FlowSolution flow = flow_in(scene, options);
+  ASSERT_EQ(flow.velocity.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     const VertexField<Vec3> area = vertex_area_vectors(scene.interfaces[i].mesh);
     double flux = 0.0;
-    for (const VertexId v : area.ids()) flux += area[v].dot(flow->velocity()[i][v]);
+    for (const VertexId v : area.ids()) flux += area[v].dot(flow.velocity[i][v]);
     EXPECT_NEAR(flux, 0.0, 1e-7);
   }
 }

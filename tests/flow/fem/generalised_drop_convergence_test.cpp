@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "meniscus/flow/fem/finite_element_flow.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "tests/flow/fem/sphere_experiments.hpp"
+#include "tests/flow/meshed_flow.hpp"
 
 namespace meniscus::fem {
 namespace {
@@ -59,11 +59,8 @@ Measured measured(int num_vertices, Elements elements) {
   Options options;
   options.elements = elements;
   options.rtol = 1e-8;
-  const auto flow = make_finite_element_flow(options);
-  EXPECT_TRUE(flow->rebuild(scene).ok);
-  const FlowReport report = flow->solve(scene, 0.0);
-  EXPECT_TRUE(report.ok) << report.failure;
-  const VertexField<Vec3>& v = flow->velocity()[0];
+  const FlowSolution flow = test::flow_in(scene, options);
+  const VertexField<Vec3>& v = flow.velocity[0];
   Measured result;
   double squared = 0.0, whole = 0.0;
   const SurfaceMesh& drop = scene.interfaces[0].mesh;
@@ -77,8 +74,8 @@ Measured measured(int num_vertices, Elements elements) {
   const double volume =
       elements == Elements::p1_p1 ? enclosed_volume(drop) : 4.0 / 3.0 * std::numbers::pi;
   const Mat3 wanted = 2.0 * volume * (exact.viscosity - lambda) * exact.stretching * E;
-  result.stress_error = (flow->excess_stress()[1] - wanted).norm() / wanted.norm();
-  EXPECT_EQ(flow->excess_stress()[0], Mat3(Mat3::Zero()));  // of the Newtonian matrix
+  result.stress_error = (flow.excess_stress[1] - wanted).norm() / wanted.norm();
+  EXPECT_EQ(flow.excess_stress[0], Mat3(Mat3::Zero()));  // of the Newtonian matrix
   return result;
 }
 

@@ -17,18 +17,21 @@ namespace {
 // Walls at 2 to 5 radii are part of the problem: somewhat finer than the size law would have them.
 constexpr double wall_vertices = 1.25;
 
-std::unique_ptr<FlowSolver> solved(const Scene& scene, const Method& method) {
+struct Solved {
+  MovingMesh mesh;
+  FlowSolution flow;
+};
+Solved solved(const Scene& scene, const Method& method) {
   Options options;
   options.elements = method.elements;
   options.capillary = method.form;
   options.rtol = method.rtol;
-  options.volume_mesh = method.volume_mesh;
-  auto flow = make_finite_element_flow(options);
-  if (const FlowReport made = flow->rebuild(scene); !made.ok)
-    throw std::runtime_error(made.failure);
-  if (const FlowReport report = flow->solve(scene, 0.0); !report.ok)
-    throw std::runtime_error(report.failure);
-  return flow;
+  MovingMesh mesh({.tetrahedra = method.volume_mesh});
+  if (const MeshChange made = mesh.follow(scene); !made.ok) throw std::runtime_error(made.failure);
+  FlowSolution flow =
+      make_finite_element_flow(options)->solve({.scene = scene, .mesh = &mesh.tetrahedra()}, {});
+  if (!flow.ok) throw std::runtime_error(flow.failure);
+  return {std::move(mesh), std::move(flow)};
 }
 
 /// Weighted least squares of values at points of the unit sphere by P_0 … P_5 of the angle to the
@@ -78,8 +81,8 @@ double decay(Scene scene, int l, double epsilon, const Method& method) {
                        velocity_with_middles(scene, method, middle)) /
            epsilon;
   }
-  const auto flow = solved(scene, method);
-  return -shape_rate(l, epsilon, unit_sphere, shape, flow->velocity()[0]) / epsilon;
+  const FlowSolution flow = solved(scene, method).flow;
+  return -shape_rate(l, epsilon, unit_sphere, shape, flow.velocity[0]) / epsilon;
 }
 
 /// The rate at ε → 0: odd powers of ε fall out of the mean of ±ε, ε² by extrapolation.
@@ -98,12 +101,12 @@ double extrapolated_decay(MakeScene make_scene, int l, const Method& method) {
 StaticSphere static_sphere(int num_vertices, const Method& method) {
   const Scene scene =
       sphere_in_sphere({.num_vertices = num_vertices, .outer_per_inner = method.outer_per_inner});
-  const auto flow = solved(scene, method);
+  const Solved at_rest = solved(scene, method);
   StaticSphere result;
-  for (const Vec3& v : flow->mesh_velocity())
+  for (const Vec3& v : at_rest.flow.bulk->v)
     result.largest_velocity = std::max(result.largest_velocity, v.norm());
-  const TetMesh& mesh = *flow->volume_mesh();
-  const auto pressure = flow->corner_pressure();
+  const TetMesh& mesh = at_rest.mesh.tetrahedra();
+  const std::vector<double>& pressure = at_rest.flow.bulk->corner_pressure;
   VertexField<std::array<double, 2>> sides(num_vertices, {0.0, 0.0});
   for (const CellId c : mesh.cells.ids())
     for (std::size_t i = 0; i < 4; ++i)
@@ -145,9 +148,9 @@ double measured_stretching(int num_vertices, double lambda, double b, const Meth
                         .outer_per_inner = wall_vertices,
                         .outer_velocity = [E](const Vec3& x, double) { return Vec3(E * x); },
                         .is_linear_flow = true});
-  const auto flow = solved(scene, method);
+  const FlowSolution flow = solved(scene, method).flow;
   const SurfaceMesh& drop = scene.interfaces[0].mesh;
-  return shape_rate(2, 0.0, drop, drop, flow->velocity()[0]);
+  return shape_rate(2, 0.0, drop, drop, flow.velocity[0]);
 }
 
 double measured_relaxation_in_wall(int num_vertices, double lambda, double b,
@@ -179,8 +182,8 @@ double measured_translation(int num_vertices, double lambda, double b) {
                                   .outer_per_inner = wall_vertices});
   const SurfaceMesh& drop = scene.interfaces[0].mesh;
   scene.liquids[RegionId{1}].body_force = Vec3(drag / enclosed_volume(drop), 0.0, 0.0);
-  const auto flow = solved(scene, CapillaryForm::weak);
-  return shape_rate(1, 0.0, drop, drop, flow->velocity()[0]);
+  const FlowSolution flow = solved(scene, CapillaryForm::weak).flow;
+  return shape_rate(1, 0.0, drop, drop, flow.velocity[0]);
 }
 
 double exact_drag(double lambda, double b) {

@@ -7,11 +7,8 @@
 
 namespace meniscus::fem {
 
-/// A tetrahedral mesh under names that begin with `prefix`, bit for bit.
-void save(const TetMesh& mesh, Archive& archive, const std::string& prefix);
-/// Throws InvalidInput when arrays are missing or do not fit each other.
-[[nodiscard]] TetMesh load_mesh(const Archive& archive, const std::string& prefix);
-
+/// What a solver keeps between solves, under names that begin with `prefix`, bit for bit. Loading
+/// throws InvalidInput when arrays are missing or do not fit each other.
 void save_positions(const NodePositions& positions, Archive& archive, const std::string& prefix);
 [[nodiscard]] NodePositions load_positions(const Archive& archive, const std::string& prefix);
 

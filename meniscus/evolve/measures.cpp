@@ -1,0 +1,99 @@
+#include "meniscus/evolve/measures.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "meniscus/evolve/drop_stress.hpp"
+#include "meniscus/mesh/surface_check.hpp"
+#include "meniscus/mesh/surface_tree.hpp"
+#include "meniscus/surface/curved_measures.hpp"
+#include "meniscus/topology/necks.hpp"
+#include "meniscus/volume/quality.hpp"
+
+namespace meniscus {
+namespace {
+
+std::optional<double> smallest_gap(const Scene& scene) {
+  double gap = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+    for (std::size_t j = i + 1; j < scene.interfaces.size(); ++j)
+      gap =
+          std::min(gap, meniscus::smallest_gap(scene.interfaces[i].mesh, scene.interfaces[j].mesh));
+    if (!scene.is_unbounded)
+      gap = std::min(gap, meniscus::smallest_gap(scene.interfaces[i].mesh, scene.boundary.mesh));
+  }
+  return std::isfinite(gap) ? std::optional(gap) : std::nullopt;
+}
+
+/// The radius of the circle of the same area as the section of the thinnest neck, of those thinner
+/// than half of the sphere of the same volume; on the smooth surface where faces are curved.
+std::optional<double> thinnest_neck(const Interface& interface, SurfaceShape faces) {
+  const SurfaceMesh& mesh = interface.mesh;
+  const SurfaceTree tree(mesh);
+  const double sphere = std::cbrt(0.75 * interface.volume / std::numbers::pi);
+  const std::vector<Neck> necks =
+      find_necks(mesh, tree, Side::inside, 0.5 * sphere, SurfaceMotion());
+  if (necks.empty()) return std::nullopt;
+  const Neck& neck = necks.front();
+  double area = neck.area;
+  if (faces != SurfaceShape::faceted) {
+    const SectionResult there =
+        section_around(mesh, tree, neck.center, neck.axis, 4.0 * neck.radius);
+    if (there.kind == SectionKind::closed)
+      area = smooth_area(there.section, mesh, SmoothSurface(mesh, SurfaceTopology(mesh)));
+  }
+  return std::sqrt(area / std::numbers::pi);
+}
+
+}  // namespace
+
+HistoryRow history_row(const State& state, const FlowSolution& flow, const InterfaceMotion& motion,
+                       SurfaceShape surface) {
+  const Scene& scene = state.scene;
+  HistoryRow row;
+  row.step = state.step;
+  row.t = state.t;
+  row.dt = state.dt;
+  row.drops = static_cast<int>(scene.interfaces.size());
+  for (const Interface& interface : scene.interfaces)
+    row.surface_nodes += interface.mesh.num_vertices();
+  if (state.mesh) {
+    const TetMesh& mesh = state.mesh->tetrahedra();
+    row.nodes = mesh.num_vertices();
+    row.tetrahedra = mesh.num_cells();
+    row.min_dihedral_deg = quality(mesh).min_dihedral_deg;
+  }
+  row.min_gap = smallest_gap(scene);
+  row.linear_iterations = state.iterations;
+  if (flow.power) {
+    row.power_in = flow.power->in;
+    row.dissipation = flow.power->dissipation;
+  }
+  row.surface_rate = surface_energy_rate(scene, motion, surface);
+  if (is_newtonian(scene.liquids[RegionId{0}].law))
+    row.stress = drop_stress(scene, flow.velocity, surface, flow.excess_stress);
+  return row;
+}
+
+std::vector<DropRow> drop_rows(const State& state, SurfaceShape surface, double breakup_radius) {
+  std::vector<DropRow> rows;
+  for (std::size_t i = 0; i < state.scene.interfaces.size(); ++i) {
+    const Interface& interface = state.scene.interfaces[i];
+    DropRow& row = rows.emplace_back();
+    row.drop = interface.drop;
+    row.parent = interface.parent;
+    row.shape = drop_shape(interface.mesh, state.scene.flow.family());
+    if (surface != SurfaceShape::faceted) {
+      const CurvedMeasures curved = curved_measures(interface.mesh, surface);
+      row.shape.volume = curved.volume;
+      row.shape.area = curved.area;
+      row.shape.D_inertia = inertial_deformation(curved.second_moments, curved.volume);
+    }
+    row.volume_drift = row.shape.volume / interface.initial_volume - 1.0;
+    row.volume_correction = state.volume_shift[i];
+    if (breakup_radius > 0.0) row.neck_radius = thinnest_neck(interface, surface);
+  }
+  return rows;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "meniscus/mesh/tet_mesh.hpp"
+
+namespace meniscus {
+
+/// The energy balance of one solution, all in [μ_out G² R0³]; in − dissipation is what the energy
+/// of the interfaces gains per time when nothing is lost.
+struct Power {
+  /// Reaction of the outer boundary times its velocity, plus body force times velocity.
+  double in = 0.0;
+  double dissipation = 0.0;  ///< ∫2μ D:D plus the stabilisation's share
+};
+
+/// v and p at the vertices of the volume mesh.
+struct BulkFlow {
+  Field<TetVertexId, Vec3> v;  ///< [G R0]
+  /// By cell corner (|C| × 4), as pressure is double valued on interfaces [μ_out G].
+  std::vector<double> corner_pressure;
+};
+
+/// The flow at one instant, or why there is none. Failure is an outcome that evolution answers.
+struct [[nodiscard]] FlowSolution {
+  bool ok = true;
+  std::string failure = {};
+  int iterations = 0;                      ///< linear iterations, all Newton steps together
+  std::vector<std::string> warnings = {};  ///< what was done in another way than asked for
+
+  std::vector<VertexField<Vec3>> velocity = {};  ///< of the liquid at each interface's vertices
+  /// None where the flow fills an unbounded space: its power and dissipation are infinite.
+  std::optional<Power> power = {};
+  /// ∫2(μ(γ̇) − μ)D over the liquid of each region, μ its own viscosity: what a law adds to the
+  /// stress in it [μ_out G R0³]. Empty where all liquids are Newtonian.
+  std::vector<Mat3> excess_stress = {};
+  std::optional<BulkFlow> bulk = {};  ///< where there is a volume mesh
+};
+
+/// A solution that was not found.
+[[nodiscard]] inline FlowSolution failed_flow(std::string text, int iterations = 0) {
+  FlowSolution solution;
+  solution.ok = false;
+  solution.failure = std::move(text);
+  solution.iterations = iterations;
+  return solution;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,95 @@
+#include "meniscus/volume/moving_mesh.hpp"
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/volume/mesh_archive.hpp"
+
+namespace meniscus {
+namespace {
+
+/// Vertices of the outer boundary are the same in every mesh of a run. Those of interfaces that
+/// were remeshed and those between the surfaces have no counterpart in a mesh made anew.
+Field<TetVertexId, TetVertexId> boundary_counterparts(const TetMesh& before, const TetMesh& after) {
+  Field<TetVertexId, TetVertexId> old_to_new(before.num_vertices());
+  if (before.boundary.num_vertices != after.boundary.num_vertices) return old_to_new;
+  for (const VertexId v : ids<VertexId>(before.boundary.num_vertices))
+    old_to_new[before.boundary.vertex(v)] = after.boundary.vertex(v);
+  return old_to_new;
+}
+
+bool has_inverted_cell(const TetMesh& mesh) {
+  for (const CellId c : mesh.cells.ids())
+    if (!(signed_volume(mesh, c) > 0.0)) return true;
+  return false;
+}
+
+}  // namespace
+
+MovingMesh::MovingMesh(const MovingMeshOptions& options)
+    : MovingMesh(options.motion,
+                 [tetrahedra = options.tetrahedra](const Scene& scene, TetMesh& mesh) {
+                   return tetrahedralize(scene, tetrahedra, mesh);
+                 }) {}
+
+void MovingMesh::begin_step(const Scene& scene) {
+  place_interfaces(scene);
+  start_ = mesh_;
+}
+
+MeshReport MovingMesh::move(const Scene& start,
+                            std::span<const VertexField<Vec3>> interface_velocity,
+                            const Field<TetVertexId, Vec3>& liquid_velocity, double dt) {
+  const PhaseTimer timer(times_, "move mesh");
+  MENISCUS_ASSERT(start_.num_vertices() == mesh_.num_vertices(), "a step that was not begun");
+  VolumeVelocity velocity =
+      volume_velocity(start, start_, interface_velocity, liquid_velocity, motion_);
+  TetMesh moved = start_;
+  for (const TetVertexId v : moved.x.ids()) moved.x[v] += dt * velocity.w[v];
+  if (has_inverted_cell(moved)) return {false, "moving the volume mesh inverts a cell"};
+  mesh_ = std::move(moved);
+  velocity_ = std::move(velocity.w);
+  return {};
+}
+
+void MovingMesh::undo() { mesh_ = start_; }
+
+void MovingMesh::place_interfaces(const Scene& scene) {
+  MENISCUS_ASSERT(mesh_.interfaces.size() == scene.interfaces.size(), "{} {}",
+                  mesh_.interfaces.size(), scene.interfaces.size());
+  for (std::size_t i = 0; i < mesh_.interfaces.size(); ++i) {
+    const SurfaceMesh& surface = scene.interfaces[i].mesh;
+    MENISCUS_ASSERT(mesh_.interfaces[i].num_vertices == surface.num_vertices(), "{} {}",
+                    mesh_.interfaces[i].num_vertices, surface.num_vertices());
+    for (const VertexId v : surface.x.ids()) mesh_.x[mesh_.interfaces[i].vertex(v)] = surface.x[v];
+  }
+}
+
+MeshChange MovingMesh::follow(const Scene& scene) {
+  const PhaseTimer timer(times_, "tetrahedralize");
+  MeshChange change;
+  TetMesh fitted;
+  const VolumeMeshReport made = mesher_(scene, fitted);
+  change.ok = made.ok;
+  change.failure = made.failure;
+  if (!made.ok) return change;
+  change.old_to_new = boundary_counterparts(mesh_, fitted);
+  mesh_ = std::move(fitted);
+  velocity_ = {};
+  return change;
+}
+
+void MovingMesh::save(Archive& archive) const { meniscus::save(mesh_, archive, "mesh"); }
+
+void MovingMesh::load(const Archive& archive, const Scene& scene) {
+  mesh_ = load_mesh(archive, "mesh");
+  velocity_ = {};
+  if (mesh_.interfaces.size() != scene.interfaces.size())
+    reject_input("checkpoint: the volume mesh has {} interfaces, the scene {}",
+                 mesh_.interfaces.size(), scene.interfaces.size());
+  for (std::size_t i = 0; i < mesh_.interfaces.size(); ++i)
+    if (mesh_.interfaces[i].num_vertices != scene.interfaces[i].mesh.num_vertices())
+      reject_input("checkpoint: interface {} has {} vertices in the volume mesh, {} in the scene",
+                   i, mesh_.interfaces[i].num_vertices, scene.interfaces[i].mesh.num_vertices());
+  start_ = mesh_;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "meniscus/core/archive.hpp"
+#include "meniscus/core/timer.hpp"
+#include "meniscus/mesh/carried_fields.hpp"
+#include "meniscus/volume/motion.hpp"
+#include "meniscus/volume/tetrahedralize.hpp"
+
+namespace meniscus {
+
+struct MovingMeshOptions {
+  VolumeMeshOptions tetrahedra;
+  VolumeMotion motion = VolumeMotion::spines;
+};
+
+/// How a motion of the mesh, or its following of the interfaces, ended. On failure the mesh is as
+/// it was.
+struct [[nodiscard]] MeshReport {
+  bool ok = true;
+  std::string failure;
+};
+
+/// What following the interfaces made of the mesh.
+struct [[nodiscard]] MeshChange {
+  bool ok = true;
+  std::string failure;
+  /// Where the vertices of the mesh before are now; invalid for those without a counterpart.
+  Field<TetVertexId, TetVertexId> old_to_new;
+};
+
+/// The tetrahedra of all regions, which move with the interfaces of a scene. The mesh knows where
+/// its vertices stood when the step began and with what velocity they left; evolution owns it and
+/// lends it to the flow solver.
+class MovingMesh {
+ public:
+  /// Makes the tetrahedra of a scene; `tetrahedralize` but in tests.
+  using Mesher = std::function<VolumeMeshReport(const Scene&, TetMesh&)>;
+  explicit MovingMesh(const MovingMeshOptions& options);
+  MovingMesh(VolumeMotion motion, Mesher mesher) : motion_(motion), mesher_(std::move(mesher)) {}
+
+  [[nodiscard]] const TetMesh& tetrahedra() const { return mesh_; }
+  /// w of every vertex, from the last `move` [G R0]; empty before the first.
+  [[nodiscard]] const Field<TetVertexId, Vec3>& velocity() const { return velocity_; }
+
+  /// Remembers where everything stands: what `move` starts from and `undo` returns to.
+  void begin_step(const Scene& scene);
+  /// Places the vertices at x_start + dt w. On interfaces w is `interface_velocity`; between them
+  /// it follows the options (`volume_velocity`), with the liquid's velocity for Lagrangian motion.
+  /// `start` is the scene where the step began. Fails when a cell would be inverted.
+  MeshReport move(const Scene& start, std::span<const VertexField<Vec3>> interface_velocity,
+                  const Field<TetVertexId, Vec3>& liquid_velocity, double dt);
+  /// Puts everything back where it stood when the step began.
+  void undo();
+  /// Places the vertices of the interfaces exactly where a scene of the same connectivity has them.
+  void place_interfaces(const Scene& scene);
+  /// Fits the mesh to interfaces that were remeshed, or whose topology changed.
+  MeshChange follow(const Scene& scene);
+
+  void save(Archive& archive) const;
+  /// Throws InvalidInput when the archive's mesh is damaged or does not fit the scene.
+  void load(const Archive& archive, const Scene& scene);
+
+  [[nodiscard]] const PhaseTimes& times() const { return times_; }
+
+ private:
+  VolumeMotion motion_;
+  Mesher mesher_;
+  TetMesh mesh_, start_;
+  Field<TetVertexId, Vec3> velocity_;
+  PhaseTimes times_;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,151 @@
+#include "meniscus/volume/moving_mesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "tests/volume/scenes.hpp"
+
+namespace meniscus {
+namespace {
+
+Vec3 shear(const Vec3& x) { return {x.y(), 0.0, 0.0}; }
+
+Field<TetVertexId, Vec3> sheared(const TetMesh& mesh) {
+  Field<TetVertexId, Vec3> v;
+  for (const Vec3& x : mesh.x) v.add(shear(x));
+  return v;
+}
+
+std::vector<VertexField<Vec3>> sheared(const Scene& scene) {
+  std::vector<VertexField<Vec3>> v;
+  for (const Interface& interface : scene.interfaces) {
+    v.emplace_back();
+    for (const Vec3& x : interface.mesh.x) v.back().add(shear(x));
+  }
+  return v;
+}
+
+void move(Scene& scene, double dt) {
+  for (Interface& interface : scene.interfaces)
+    for (Vec3& x : interface.mesh.x) x += dt * shear(x);
+}
+
+MovingMesh mesh_of(const Scene& scene, VolumeMotion motion = VolumeMotion::spines) {
+  MovingMesh mesh({.tetrahedra = {}, .motion = motion});
+  EXPECT_TRUE(mesh.follow(scene).ok);
+  return mesh;
+}
+
+class MovingMeshTest : public testing::TestWithParam<VolumeMotion> {};
+INSTANTIATE_TEST_SUITE_P(AllMotions, MovingMeshTest,
+                         testing::Values(VolumeMotion::spines, VolumeMotion::lagrangian,
+                                         VolumeMotion::harmonic));
+
+TEST_P(MovingMeshTest, MovesWithItsInterfacesAndKnowsItsVelocity) {
+  const Scene start = test::drop_in_sphere(200, 3.0, 100);
+  MovingMesh mesh = mesh_of(start, GetParam());
+  const TetMesh before = mesh.tetrahedra();
+  mesh.begin_step(start);
+  ASSERT_TRUE(mesh.move(start, sheared(start), sheared(before), 0.05).ok);
+  Scene moved = start;
+  move(moved, 0.05);
+  const TetMesh& after = mesh.tetrahedra();
+  EXPECT_EQ(after.cells, before.cells);
+  for (const VertexId v : moved.interfaces[0].mesh.x.ids())
+    EXPECT_EQ(after.x[after.interfaces[0].vertex(v)], moved.interfaces[0].mesh.x[v]);
+  for (const VertexId v : start.boundary.mesh.x.ids())
+    EXPECT_EQ(after.x[after.boundary.vertex(v)], before.x[before.boundary.vertex(v)]);
+  for (const TetVertexId v : after.x.ids())
+    EXPECT_EQ(after.x[v], Vec3(before.x[v] + 0.05 * mesh.velocity()[v]));
+}
+
+TEST_P(MovingMeshTest, UndoPutsEveryVertexBackToTheBit) {
+  const Scene start = test::drop_in_sphere(200, 3.0, 100);
+  MovingMesh mesh = mesh_of(start, GetParam());
+  const TetMesh before = mesh.tetrahedra();
+  mesh.begin_step(start);
+  ASSERT_TRUE(mesh.move(start, sheared(start), sheared(before), 0.05).ok);
+  ASSERT_NE(mesh.tetrahedra().x, before.x);
+  mesh.undo();
+  EXPECT_EQ(mesh.tetrahedra().x, before.x);
+}
+
+// The half step and the whole one start from the same place.
+TEST(MovingMesh, EveryMoveOfAStepStartsWhereTheStepDid) {
+  const Scene start = test::drop_in_sphere(200, 3.0, 100);
+  MovingMesh once = mesh_of(start), twice = once;
+  const Field<TetVertexId, Vec3> liquid = sheared(once.tetrahedra());
+  once.begin_step(start);
+  twice.begin_step(start);
+  ASSERT_TRUE(twice.move(start, sheared(start), liquid, 0.025).ok);
+  ASSERT_TRUE(twice.move(start, sheared(start), liquid, 0.05).ok);
+  ASSERT_TRUE(once.move(start, sheared(start), liquid, 0.05).ok);
+  EXPECT_EQ(once.tetrahedra().x, twice.tetrahedra().x);
+}
+
+TEST(MovingMesh, InvertedCellIsReportedAndTheMeshIsAsItWas) {
+  const Scene start = test::drop_in_sphere(110, 3.0, 100);
+  MovingMesh mesh = mesh_of(start);
+  const TetMesh before = mesh.tetrahedra();
+  mesh.begin_step(start);
+  std::vector<VertexField<Vec3>> far = sheared(start);
+  for (Vec3& v : far[0]) v = Vec3(100.0, 0.0, 0.0);
+  const MeshReport report = mesh.move(start, far, sheared(before), 1.0);
+  EXPECT_FALSE(report.ok);
+  EXPECT_NE(report.failure.find("inverts a cell"), std::string::npos) << report.failure;
+  EXPECT_EQ(mesh.tetrahedra().x, before.x);
+}
+
+TEST(MovingMesh, FollowingSaysWhereTheOuterBoundaryWent) {
+  Scene scene = test::drop_in_sphere(110, 3.0, 100);
+  MovingMesh mesh = mesh_of(scene);
+  const TetMesh before = mesh.tetrahedra();
+  scene.interfaces[0].mesh = sphere(200, 1.1);
+  const MeshChange change = mesh.follow(scene);
+  ASSERT_TRUE(change.ok) << change.failure;
+  const TetMesh& after = mesh.tetrahedra();
+  ASSERT_EQ(change.old_to_new.size(), before.num_vertices());
+  int counterparts = 0;
+  for (const TetVertexId v : before.x.ids()) {
+    const TetVertexId now = change.old_to_new[v];
+    if (!now.is_valid()) continue;
+    EXPECT_EQ(after.x[now], before.x[v]);
+    ++counterparts;
+  }
+  EXPECT_EQ(counterparts, scene.boundary.mesh.num_vertices());
+}
+
+TEST(MovingMesh, AFailedMesherLeavesTheMeshAsItWas) {
+  const Scene scene = test::drop_in_sphere(110, 3.0, 100);
+  bool fails = false;
+  MovingMesh mesh(VolumeMotion::spines, [&](const Scene& of, TetMesh& made) {
+    if (fails) return VolumeMeshReport{.ok = false, .failure = "told to fail"};
+    return tetrahedralize(of, {}, made);
+  });
+  ASSERT_TRUE(mesh.follow(scene).ok);
+  const TetMesh before = mesh.tetrahedra();
+  fails = true;
+  const MeshChange change = mesh.follow(scene);
+  EXPECT_FALSE(change.ok);
+  EXPECT_EQ(change.failure, "told to fail");
+  EXPECT_EQ(mesh.tetrahedra().x, before.x);
+}
+
+TEST(MovingMesh, ComesBackFromAnArchiveAndRefusesADamagedOne) {
+  const Scene scene = test::drop_in_sphere(110, 3.0, 100);
+  const MovingMesh mesh = mesh_of(scene);
+  Archive archive;
+  mesh.save(archive);
+  MovingMesh again{MovingMeshOptions{}};
+  again.load(archive, scene);
+  EXPECT_EQ(again.tetrahedra().x, mesh.tetrahedra().x);
+  EXPECT_EQ(again.tetrahedra().cells, mesh.tetrahedra().cells);
+  const Scene other = test::drop_in_sphere(60, 3.0, 100);
+  EXPECT_THROW(again.load(archive, other), InvalidInput);
+  archive.reals.erase("mesh/x");
+  EXPECT_THROW(again.load(archive, scene), InvalidInput);
+}
+
+}  // namespace
+}  // namespace meniscus
