@@ -21,10 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-OutputSchedule output_schedule(const OutputOptions& output) {
-  return {output.interval, output.volume ? output.volume_interval : 0.0, output.checkpoint_every};
-}
-
 Evolution make_evolution(const Case& c, Scene scene) {
   return {std::move(scene), c.evolution, make_flow_solver(c), make_moving_mesh(c)};
 }
@@ -191,7 +187,7 @@ int run(const RunArguments& arguments) {
     directory = RunDirectory::create(folder, arguments.is_overwrite);
     copy_reference(file.parent_path(), folder);
   });
-  Simulation simulation(std::move(evolution), std::move(directory), output_schedule(c.output),
+  Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, file.parent_path()));
   Progress progress(0.0, c.evolution.end, arguments.is_quiet);
   return simulate(simulation, RunRecord(c, arguments.case_file, text), progress, view.get());
@@ -226,7 +222,7 @@ int resume(const ResumeArguments& arguments) {
     directory = RunDirectory::take_up(folder, evolution.step(), evolution.t());
   });
   Progress progress(evolution.t(), c.evolution.end, arguments.is_quiet);
-  Simulation simulation(std::move(evolution), std::move(directory), output_schedule(c.output),
+  Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, archive.texts.at("case/folder")));
   simulation.load_schedule(archive);
   return simulate(simulation, record, progress, view.get());

@@ -143,9 +143,9 @@ io::TableWriter table(const fs::path& path, const std::vector<std::string>& colu
 }  // namespace
 
 const std::vector<std::string>& timed_phases() {
-  static const std::vector<std::string> phases{"remesh surface", "tetrahedralize", "assemble",
-                                               "solve",          "move mesh",      "diagnostics",
-                                               "output"};
+  static const std::vector<std::string> phases{"remesh surface", "tetrahedralize",  "assemble",
+                                               "solve",          "move mesh",       "diagnostics",
+                                               "output",         "move interfaces", "topology"};
   return phases;
 }
 

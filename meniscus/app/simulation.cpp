@@ -19,10 +19,10 @@ double next_multiple(double interval, double t) {
 }  // namespace
 
 Simulation::Simulation(Evolution evolution, std::optional<RunDirectory> directory,
-                       const OutputSchedule& schedule, std::function<void(Archive&)> describe)
+                       const OutputOptions& output, std::function<void(Archive&)> describe)
     : evolution_(std::move(evolution)),
       directory_(std::move(directory)),
-      schedule_(schedule),
+      output_(output),
       describe_(std::move(describe)),
       timed_(seconds()) {}
 
@@ -41,7 +41,7 @@ Outcome Simulation::run(Progress& progress) {
                is_stopped = !is_last && any_rank(is_interrupted());
     const Archive state = is_first_rank() ? state_before_solve() : Archive();
     if (is_first || is_last || is_stopped || is_after_event ||
-        evolution_.step() % schedule_.checkpoint_every == 0)
+        evolution_.step() % output_.checkpoint_every == 0)
       write_checkpoint(state);
     if (is_stopped) return Outcome::stopped;
     if (const EvolutionReport solved = evolution_.solve(); !solved.ok) {
@@ -61,7 +61,8 @@ Outcome Simulation::run(Progress& progress) {
   }
 }
 
-Archive Simulation::state_before_solve() const {
+Archive Simulation::state_before_solve() {
+  const PhaseTimer timer(output_times_, "output");
   Archive archive;
   evolution_.save(archive);
   archive.reals["output/next"] = {next_surface_frame_, next_volume_frame_};
@@ -84,17 +85,16 @@ void Simulation::record(Progress& progress, bool is_last) {
     const double t = evolution_.t();
     if (t >= next_surface_frame_ || is_last) {
       directory_->add_surface_frame(evolution_);
-      next_surface_frame_ = next_multiple(schedule_.surface_interval, t);
+      next_surface_frame_ = next_multiple(output_.interval, t);
     }
     if (t >= next_volume_frame_ || is_last) {
       directory_->add_volume_frame(evolution_);
-      next_volume_frame_ =
-          schedule_.volume_interval > 0.0 ? next_multiple(schedule_.volume_interval, t) : HUGE_VAL;
+      next_volume_frame_ = output_.volume ? next_multiple(output_.volume_interval, t) : HUGE_VAL;
     }
     directory_->add_rows(history, drops);
     directory_->add_events(history.step, history.t, evolution_.events());
-    if (observer_) observer_(*directory_);
   }
+  if (observer_) timed(output_times_, "output", [&] { observer_(*directory_); });
   const auto now = seconds();
   auto spent = now;
   for (std::size_t i = 0; i < spent.size(); ++i) spent[i].second -= timed_[i].second;

@@ -5,18 +5,13 @@
 
 #include "meniscus/app/progress.hpp"
 #include "meniscus/app/run_directory.hpp"
+#include "meniscus/case/case.hpp"
 #include "meniscus/evolve/evolution.hpp"
 
 namespace meniscus {
 
 /// When what is written. A frame is due at the first step at or after each multiple of its
 /// interval.
-struct OutputSchedule {
-  double surface_interval = 0.2;
-  double volume_interval = 0.0;        ///< 0: no volume frames but the first and the last
-  std::int64_t checkpoint_every = 50;  ///< steps
-};
-
 enum class Outcome { done, stopped };
 
 /// A run from the state its evolution stands at to its end: solve, record, advance. Everything that
@@ -27,7 +22,7 @@ class Simulation {
   /// `describe` adds to a checkpoint what it takes to build the evolution again. Rank 0 has the
   /// directory, and it alone.
   Simulation(Evolution evolution, std::optional<RunDirectory> directory,
-             const OutputSchedule& schedule, std::function<void(Archive&)> describe);
+             const OutputOptions& output, std::function<void(Archive&)> describe);
 
   /// When the next frames are due, from the checkpoint the evolution was loaded from.
   void load_schedule(const Archive& archive);
@@ -45,14 +40,14 @@ class Simulation {
   [[nodiscard]] std::vector<std::pair<std::string, double>> seconds() const;
 
  private:
-  [[nodiscard]] Archive state_before_solve() const;
+  [[nodiscard]] Archive state_before_solve();
   void write_checkpoint(const Archive& state);
   void record(Progress& progress, bool is_last);
   [[nodiscard]] double seconds_in(const std::string& phase) const;
 
   Evolution evolution_;
   std::optional<RunDirectory> directory_;
-  OutputSchedule schedule_;
+  OutputOptions output_;
   std::function<void(Archive&)> describe_;
   std::function<void(const RunDirectory&)> observer_;
   double next_surface_frame_ = 0.0, next_volume_frame_ = 0.0;

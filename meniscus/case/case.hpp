@@ -69,7 +69,7 @@ struct DomainCase {
 /// What a run writes, and when (the case's [output]).
 struct OutputOptions {
   double interval = 0.2;         ///< between surfaces written for viewing [1/G]
-  bool volume = true;            ///< volume meshes too
+  bool volume = true;            ///< volume meshes too; else the first and the last alone
   double volume_interval = 0.2;  ///< between them [1/G]
   int checkpoint_every = 10;     ///< steps
 };

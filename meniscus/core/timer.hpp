@@ -15,6 +15,11 @@ class PhaseTimes {
     return found == seconds_.end() ? 0.0 : found->second;
   }
   [[nodiscard]] const std::map<std::string, double>& all() const { return seconds_; }
+  [[nodiscard]] double sum() const {
+    double sum = 0.0;
+    for (const auto& [phase, seconds] : seconds_) sum += seconds;
+    return sum;
+  }
 
  private:
   std::map<std::string, double> seconds_;
@@ -37,5 +42,32 @@ class PhaseTimer {
   std::string phase_;
   Clock::time_point start_;
 };
+
+/// Adds to one phase what of the time from its construction to its destruction went to none.
+class RemainderTimer {
+ public:
+  RemainderTimer(PhaseTimes& times, std::string phase)
+      : times_(times), phase_(std::move(phase)), before_(times.sum()), start_(Clock::now()) {}
+  RemainderTimer(const RemainderTimer&) = delete;
+  RemainderTimer& operator=(const RemainderTimer&) = delete;
+  ~RemainderTimer() {
+    const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+    times_.add(phase_, elapsed - (times_.sum() - before_));
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  PhaseTimes& times_;
+  std::string phase_;
+  double before_;
+  Clock::time_point start_;
+};
+
+/// What a function returns; its time goes to one phase.
+template <class Function>
+auto timed(PhaseTimes& times, std::string phase, Function&& function) {
+  const PhaseTimer timer(times, std::move(phase));
+  return function();
+}
 
 }  // namespace meniscus

@@ -88,6 +88,7 @@ EvolutionReport Evolution::prepare() {
 EvolutionReport Evolution::solve() {
   flow_ = solve_flow({.t = state_.t});
   if (!flow_.ok) return {false, flow_.failure};
+  const PhaseTimer timer(times_, "move interfaces");
   motion_ = normal_motion(state_.scene, flow_.velocity, options_.motion_normal);
   return {};
 }
@@ -135,13 +136,14 @@ EvolutionReport Evolution::try_step(double dt) {
   const Scene start = state_.scene;
   if (options_.scheme == TimeScheme::euler) return finish_step(start, motion_, flow_, dt);
 
-  move_interfaces(state_.scene, motion_, 0.5 * dt);
+  timed(times_, "move interfaces", [&] { move_interfaces(state_.scene, motion_, 0.5 * dt); });
   if (EvolutionReport moved = move_mesh(start, motion_, flow_, 0.5 * dt); !moved.ok) return moved;
   const FlowSolution middle =
       solve_flow({.t = state_.t + 0.5 * dt, .dt = dt, .stage = Stage::middle});
   if (!middle.ok) return {false, middle.failure};
-  const InterfaceMotion motion =
-      normal_motion(state_.scene, middle.velocity, options_.motion_normal);
+  const InterfaceMotion motion = timed(times_, "move interfaces", [&] {
+    return normal_motion(state_.scene, middle.velocity, options_.motion_normal);
+  });
   return finish_step(start, motion, middle, dt);
 }
 
@@ -149,13 +151,8 @@ EvolutionReport Evolution::try_step(double dt) {
 EvolutionReport Evolution::finish_step(const Scene& start, const InterfaceMotion& motion,
                                        const FlowSolution& flow, double dt) {
   Scene& scene = state_.scene;
-  scene = start;
   state_.events.clear();
-  move_interfaces(scene, motion, dt);
-  if (std::string failure = find_wild_motion(start, scene); !failure.empty())
-    return {false, std::move(failure)};
-  if (options_.follows_drops)
-    translate_interfaces(scene, state_.start_centroid - centroid_of_drops(scene));
+  if (EvolutionReport moved = move_whole_step(start, motion, dt); !moved.ok) return moved;
   if (is_remesh_due()) {
     const Scene moved = scene;
     if (EvolutionReport apart = refuse_touching(remesh_interfaces()); !apart.ok) return apart;
@@ -165,6 +162,19 @@ EvolutionReport Evolution::finish_step(const Scene& start, const InterfaceMotion
   restore_volumes();
   if (EvolutionReport apart = refuse_touching(false); !apart.ok) return apart;
   return move_mesh(start, mean_motion(start, scene, dt), flow, dt);
+}
+
+EvolutionReport Evolution::move_whole_step(const Scene& start, const InterfaceMotion& motion,
+                                           double dt) {
+  const PhaseTimer timer(times_, "move interfaces");
+  Scene& scene = state_.scene;
+  scene = start;
+  move_interfaces(scene, motion, dt);
+  if (std::string failure = find_wild_motion(start, scene); !failure.empty())
+    return {false, std::move(failure)};
+  if (options_.follows_drops)
+    translate_interfaces(scene, state_.start_centroid - centroid_of_drops(scene));
+  return {};
 }
 
 /// The mesh takes the interfaces as they have become.
@@ -257,6 +267,7 @@ bool Evolution::remesh_interfaces() {
 /// them come close first, without it drops stay apart. A surface that could be remeshed is known
 /// not to touch itself.
 EvolutionReport Evolution::refuse_touching(bool are_remeshed) const {
+  const PhaseTimer timer(times_, "topology");
   std::string touching = find_touching_drops(state_.scene);
   if (touching.empty() && !are_remeshed) touching = find_folded_drop(state_.scene);
   if (touching.empty()) return {};
@@ -268,8 +279,9 @@ EvolutionReport Evolution::refuse_touching(bool are_remeshed) const {
 /// Cuts and bridges what is due in the interfaces as remeshed; `moved` with `motion` says how they
 /// came there.
 EvolutionReport Evolution::change_topology(const Scene& moved, const InterfaceMotion& motion) {
-  TopologyReport changed =
-      apply_topology(state_.scene, options_.topology, surface_motion(moved, motion));
+  TopologyReport changed = timed(times_, "topology", [&] {
+    return apply_topology(state_.scene, options_.topology, surface_motion(moved, motion));
+  });
   for (std::string& warning : changed.warnings)
     warnings_.push_back(fmt::format("t = {:.6g}: {}", state_.t, warning));
   if (!changed.refusal.empty()) return {false, std::move(changed.refusal), true};
@@ -280,6 +292,7 @@ EvolutionReport Evolution::change_topology(const Scene& moved, const InterfaceMo
 }
 
 void Evolution::restore_volumes() {
+  const PhaseTimer timer(times_, "move interfaces");
   for (std::size_t i = 0; i < state_.scene.interfaces.size(); ++i)
     state_.volume_shift[i] = std::abs(restore_volume(
         state_.scene.interfaces[i].mesh, state_.scene.interfaces[i].volume, options_.surface));
@@ -300,6 +313,7 @@ HistoryRow Evolution::history_row() const {
 }
 
 std::vector<DropRow> Evolution::drop_rows() const {
+  const PhaseTimer timer(times_, "diagnostics");
   return meniscus::drop_rows(state_, options_.surface, options_.topology.breakup_radius);
 }
 

@@ -66,6 +66,7 @@ class Evolution {
   EvolutionReport try_step(double dt);
   EvolutionReport finish_step(const Scene& start, const InterfaceMotion& motion,
                               const FlowSolution& flow, double dt);
+  EvolutionReport move_whole_step(const Scene& start, const InterfaceMotion& motion, double dt);
   EvolutionReport follow_interfaces();
   [[nodiscard]] EvolutionReport move_mesh(const Scene& start, const InterfaceMotion& motion,
                                           const FlowSolution& flow, double dt);

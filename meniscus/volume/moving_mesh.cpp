@@ -31,6 +31,7 @@ MovingMesh::MovingMesh(const MovingMeshOptions& options)
                  }) {}
 
 void MovingMesh::begin_step(const Scene& scene) {
+  const PhaseTimer timer(times_, "move mesh");
   place_interfaces(scene);
   start_ = mesh_;
 }
@@ -50,7 +51,10 @@ MeshReport MovingMesh::move(const Scene& start,
   return {};
 }
 
-void MovingMesh::undo() { mesh_ = start_; }
+void MovingMesh::undo() {
+  const PhaseTimer timer(times_, "move mesh");
+  mesh_ = start_;
+}
 
 void MovingMesh::place_interfaces(const Scene& scene) {
   MENISCUS_ASSERT(mesh_.interfaces.size() == scene.interfaces.size(), "{} {}",

@@ -37,6 +37,22 @@ TEST(PhaseTimer, AddsTheLifeOfItsScope) {
   EXPECT_LE(times["sleep"], all.count());
 }
 
+TEST(RemainderTimer, AddsWhatNoPhaseWithinItTook) {
+  PhaseTimes times;
+  times.add("solve", 1e3);  // of before
+  const auto start = std::chrono::steady_clock::now();
+  {
+    const RemainderTimer timer(times, "assemble");
+    std::this_thread::sleep_for(milliseconds(5));
+    const PhaseTimer inner(times, "solve");
+    std::this_thread::sleep_for(milliseconds(10));
+  }
+  const std::chrono::duration<double> all = std::chrono::steady_clock::now() - start;
+  EXPECT_GE(times["solve"] - 1e3, 0.010);
+  EXPECT_GE(times["assemble"], 0.0049);
+  EXPECT_LE(times.sum() - 1e3, all.count());
+}
+
 TEST(PhaseTimer, CountsAPhaseThatThrows) {
   PhaseTimes times;
   try {

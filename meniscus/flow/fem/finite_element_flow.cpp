@@ -154,31 +154,28 @@ void FiniteElementFlow::use_connectivity(const FlowDomain& domain) {
 
 FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& instant) {
   MENISCUS_ASSERT(domain.mesh != nullptr, "finite elements need a volume mesh");
+  const RemainderTimer timer(times_, "assemble");
   const TetMesh& mesh = *domain.mesh;
   if (!has_connectivity_of(domain)) use_connectivity(domain);
   for (const CellId c : mesh.cells.ids())
     if (!(signed_volume(mesh, c) > 0.0))
       return failed_flow("a cell of the volume mesh is inverted");
-  std::optional<InstantProblem> problem;
-  {
-    const PhaseTimer timer(times_, "assemble");
-    problem.emplace(instant_problem(domain.scene, mesh, space_,
-                                    node_positions(domain.scene, mesh, space_), options_.capillary,
-                                    instant.t));
-  }
-  if (!problem->failure.empty()) return failed_flow(problem->failure);
+  const InstantProblem problem =
+      instant_problem(domain.scene, mesh, space_, node_positions(domain.scene, mesh, space_),
+                      options_.capillary, instant.t);
+  if (!problem.failure.empty()) return failed_flow(problem.failure);
   if (!state_) {
     state_ = stokes_->state_at_rest();
-    state_->v = problem->stokes.undisturbed;
+    state_->v = problem.stokes.undisturbed;
   }
   const bool is_kept = prepared_at_.has_value();
   const StokesReport report = stokes_->solve(
-      problem->stokes, *state_,
+      problem.stokes, *state_,
       is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh, times_);
-  decide_on_preconditioner(problem->stokes, report, is_kept);
-  FlowSolution result = report.ok ? solution(domain, *problem) : failed_flow(report.failure);
+  decide_on_preconditioner(problem.stokes, report, is_kept);
+  FlowSolution result = report.ok ? solution(domain, problem) : failed_flow(report.failure);
   result.iterations = report.iterations;
-  if (const int straight = problem->stokes.positions.num_straightened; straight > 0)
+  if (const int straight = problem.stokes.positions.num_straightened; straight > 0)
     result.warnings.push_back(
         fmt::format("{} edges of surfaces stay straight in the elements", straight));
   result.warnings.insert(result.warnings.end(), report.failed_solvers.begin(),
@@ -202,7 +199,6 @@ void FiniteElementFlow::decide_on_preconditioner(const StokesProblem& problem,
 }
 
 FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const InstantProblem& problem) {
-  const PhaseTimer timer(times_, "assemble");
   const TetMesh& mesh = *domain.mesh;
   FlowSolution result;
   if (!problem.stokes.has_open_boundary) level_pressure(space_.pressure, state_->p);
