@@ -28,6 +28,9 @@ constexpr double kWidest = 1.5;
 /// perimeter is no measure of a thread, and what seems a neck may be the corner of an edge.
 constexpr std::size_t kFewestFaces = 10;
 constexpr double kApart = 4.0;  // radii between two cuts: what lies between is a drop, not a slice
+/// Thicknesses around a place without a thread within which others are taken to have none: a
+/// quarter of the radius, which is how far the sections of a thread are apart.
+constexpr double kLikewise = 0.125;
 
 /// A place where the liquid is thin: half-way from a vertex to the surface opposite.
 struct ThinPlace {
@@ -149,6 +152,10 @@ bool is_near(const Thread& thread, const Vec3& x) {
   });
 }
 
+bool is_near(const ThinPlace& threadless, const Vec3& x) {
+  return (x - threadless.middle).norm() < kLikewise * threadless.thickness;
+}
+
 /// Of necks in rising order of radius, those that no thinner one lies close to.
 std::vector<Neck> well_apart(std::vector<Neck> necks) {
   std::ranges::sort(necks, [](const Neck& a, const Neck& b) {
@@ -171,12 +178,17 @@ std::vector<Neck> find_necks(const SurfaceMesh& mesh, const SurfaceTree& tree, S
   const double widest = kWidest * radius;
   const FaceNeighbours neighbours = face_neighbours(mesh, SurfaceTopology(mesh));
   std::vector<Thread> threads;
+  std::vector<ThinPlace> threadless;
   std::vector<Neck> necks;
   for (const ThinPlace& place : thin_places(mesh, tree, side, widest)) {
-    const auto is_known = [&](const Thread& thread) { return is_near(thread, place.middle); };
-    if (std::ranges::any_of(threads, is_known)) continue;
+    const auto is_known = [&](const auto& other) { return is_near(other, place.middle); };
+    if (std::ranges::any_of(threads, is_known) || std::ranges::any_of(threadless, is_known))
+      continue;
     Thread thread = traced_thread(mesh, tree, place.middle, side, widest);
-    if (thread.sections.empty()) continue;
+    if (thread.sections.empty()) {
+      threadless.push_back(place);
+      continue;
+    }
     for (int k = 0; k < static_cast<int>(thread.sections.size()); ++k) {
       const Section& section = thread.sections[static_cast<std::size_t>(k)];
       if (section.radius >= radius || !widens(thread, k, 1) || !widens(thread, k, -1)) continue;
