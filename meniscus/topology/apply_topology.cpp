@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "meniscus/mesh/box_tree.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/even_out.hpp"
@@ -275,12 +276,12 @@ TopologyReport apply_topology(Scene& scene, const TopologyOptions& options,
 }
 
 std::string find_touching_drops(const Scene& scene) {
-  std::vector<Eigen::AlignedBox3d> boxes(scene.interfaces.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    for (const Vec3& x : scene.interfaces[i].mesh.x) boxes[i].extend(x);
+  std::vector<Box> bounds;
+  for (const Interface& interface : scene.interfaces)
+    bounds.push_back(bounding_box(interface.mesh));
+  const BoxTree boxes(bounds);
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!boxes[i].intersects(boxes[j])) continue;
+    for (const std::size_t j : boxes.earlier_within(i, 0.0)) {
       const Interface &a = scene.interfaces[j], &b = scene.interfaces[i];
       const std::string meeting = find_intersection(a.mesh, b.mesh);
       if (!meeting.empty())
