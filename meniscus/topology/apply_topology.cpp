@@ -5,11 +5,13 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <tuple>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "meniscus/mesh/box_tree.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/even_out.hpp"
@@ -26,10 +28,10 @@ namespace {
 /// Distance from a place dealt with, in neck radii or gaps, within which nothing else is due in the
 /// same call: beyond the band that was cut and the hole that was opened.
 constexpr double kWaiting = 4.0;
-/// Area that an event may add, of the unit sphere's [R0²]. Cuts and bridges take area off but where
-/// the liquid of a wide neck or film swells small or crumpled drops; a thinner one swells them
-/// less.
-constexpr double kMostAddedArea = 1e-3 * 4.0 * std::numbers::pi;
+/// Area that an event may add, of that of the sphere as large as the largest parent. Cuts and
+/// bridges take area off but where the liquid of a wide neck or film swells small or crumpled
+/// drops; a thinner one swells them less.
+constexpr double kMostAddedArea = 1e-3;
 /// Far beyond what one step can bring about: ends a scene of events that make each other.
 constexpr int kMaxEvents = 1000;
 
@@ -107,12 +109,21 @@ bool clips_an_end(const Surgery& surgery, double radius) {
   });
 }
 
+double most_added_area(const Scene& scene, std::span<const std::size_t> parents) {
+  double volume = 0.0;
+  for (const std::size_t i : parents)
+    volume = std::max(volume, enclosed_volume(scene.interfaces[i].mesh));
+  const double radius = std::cbrt(0.75 * volume / std::numbers::pi);
+  return kMostAddedArea * 4.0 * std::numbers::pi * radius * radius;
+}
+
 /// `succeed`, all or nothing in what it does to the area too.
 std::string succeed_with_little_area(Scene& scene, Succession succession, TopologyEvent& event) {
+  const double most_added = most_added_area(scene, succession.parents);
   Scene after = scene;
   if (std::string failure = succeed(after, std::move(succession), event); !failure.empty())
     return failure;
-  if (event.area_after - event.area_before > kMostAddedArea) return "it would add area";
+  if (event.area_after - event.area_before > most_added) return "it would add area";
   scene = std::move(after);
   return {};
 }
@@ -265,12 +276,12 @@ TopologyReport apply_topology(Scene& scene, const TopologyOptions& options,
 }
 
 std::string find_touching_drops(const Scene& scene) {
-  std::vector<Eigen::AlignedBox3d> boxes(scene.interfaces.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    for (const Vec3& x : scene.interfaces[i].mesh.x) boxes[i].extend(x);
+  std::vector<Box> bounds;
+  for (const Interface& interface : scene.interfaces)
+    bounds.push_back(bounding_box(interface.mesh));
+  const BoxTree boxes(bounds);
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!boxes[i].intersects(boxes[j])) continue;
+    for (const std::size_t j : boxes.earlier_within(i, 0.0)) {
       const Interface &a = scene.interfaces[j], &b = scene.interfaces[i];
       const std::string meeting = find_intersection(a.mesh, b.mesh);
       if (!meeting.empty())

@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/mesh/box_tree.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
 #include "meniscus/topology/face_patch.hpp"
@@ -31,10 +32,7 @@ struct Sheet {
   [[nodiscard]] const SurfaceMesh& mesh() const { return interface->mesh; }
   [[nodiscard]] Vec3 normal(VertexId v) const { return area[v].normalized(); }
   [[nodiscard]] Vec3 normal(FaceId f) const { return face_area_vector(mesh(), f).normalized(); }
-  [[nodiscard]] bool is_near(const Sheet& other, double gap) const {
-    return (tree.low().array() <= other.tree.high().array() + gap).all() &&
-           (other.tree.low().array() <= tree.high().array() + gap).all();
-  }
+  [[nodiscard]] Box box() const { return {tree.low(), tree.high()}; }
 };
 
 /// A vertex of a with the nearest point across the film.
@@ -202,12 +200,13 @@ double film_width(const SurfaceMesh& mesh, const SurfaceTree& tree, const Vec3& 
 std::vector<Gap> find_gaps(const Scene& scene, double limit, const SurfaceMotion& motion) {
   std::vector<Sheet> sheets;
   for (const Interface& interface : scene.interfaces) sheets.emplace_back(interface);
+  std::vector<Box> bounds;
+  for (const Sheet& sheet : sheets) bounds.push_back(sheet.box());
+  const BoxTree boxes(bounds);
   std::vector<Gap> gaps;
   for (std::size_t i = 0; i < sheets.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!sheets[i].is_near(sheets[j], limit)) continue;
+    for (const std::size_t j : boxes.earlier_within(i, limit))
       collect_between(sheets, j, i, limit, motion, gaps);
-    }
     collect_within(sheets[i], i, limit, motion, gaps);
   }
   std::ranges::sort(gaps, [](const Gap& a, const Gap& b) {

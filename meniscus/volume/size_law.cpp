@@ -15,6 +15,7 @@ namespace {
 /// the width that the surfaces have been remeshed for, by more than the error of the distances (a
 /// fifth); low enough that a sphere of 110 vertices, 5.5 edges across, is none for three layers.
 constexpr double kNarrow = 1.75;
+constexpr double kRoundOff = 1.0 + 1e-12;  // of bounds that may leave surfaces out
 
 VertexField<double> mean_edge_at_vertices(const SurfaceMesh& mesh) {
   VertexField<double> sum(mesh.num_vertices(), 0.0), count(mesh.num_vertices(), 0.0);
@@ -95,6 +96,27 @@ SizeLaw::Sized::Nearest SizeLaw::Sized::nearest(const Vec3& x) const {
   return result;
 }
 
+bool SizeLaw::Sized::has_outside_gap() const {
+  return std::ranges::any_of(gaps.outside, [](double width) { return std::isfinite(width); });
+}
+
+SizeLaw::Inner::Inner(std::span<const Sized> surfaces, std::vector<std::size_t> of)
+    : members(std::move(of)), boxes(boxes_of(surfaces, members)) {
+  for (std::size_t place = 0; place < members.size(); ++place) {
+    const Sized& surface = surfaces[members[place]];
+    const auto [least, largest] = std::ranges::minmax(surface.size);
+    least_size = std::min(least_size, least);
+    largest_size = std::max(largest_size, largest);
+    if (surface.has_outside_gap()) folded.push_back(place);
+  }
+}
+
+BoxTree SizeLaw::boxes_of(std::span<const Sized> surfaces, std::span<const std::size_t> members) {
+  std::vector<Box> boxes;
+  for (const std::size_t i : members) boxes.push_back(surfaces[i].box());
+  return BoxTree(boxes);
+}
+
 SizeLaw::SizeLaw(const Scene& scene, const VolumeMeshOptions& options)
     : options_(options), container_(containers(scene)), inside_first_(scene.interfaces.size()) {
   surfaces_.reserve(scene.interfaces.size() + 1);
@@ -104,12 +126,19 @@ SizeLaw::SizeLaw(const Scene& scene, const VolumeMeshOptions& options)
   std::iota(inside_first_.begin(), inside_first_.end(), std::size_t{0});
   std::ranges::stable_sort(inside_first_, std::greater<>(),
                            [&](std::size_t i) { return depth(container_, i); });
+  boxes_ = boxes_of(surfaces_, inside_first_);
+  std::vector<std::vector<std::size_t>> members(surfaces_.size());
+  for (std::size_t i = 0; i < container_.size(); ++i) members[container_[i]].push_back(i);
+  for (std::vector<std::size_t>& each : members) inner_.emplace_back(surfaces_, std::move(each));
 }
 
 std::size_t SizeLaw::enclosing_surface(const Vec3& x) const {
+  std::vector<std::size_t> around;
+  boxes_.visit_within(Box(x), 0.0, [&](std::size_t rank) { around.push_back(rank); });
+  std::ranges::sort(around);
   const auto innermost = std::ranges::find_if(
-      inside_first_, [&](std::size_t i) { return encloses(surfaces_[i].tree, x); });
-  return innermost == inside_first_.end() ? container_.size() : *innermost;
+      around, [&](std::size_t rank) { return encloses(surfaces_[inside_first_[rank]].tree, x); });
+  return innermost == around.end() ? container_.size() : inside_first_[*innermost];
 }
 
 double SizeLaw::bounded_by_gap(double size, const Sized::Nearest& a,
@@ -118,29 +147,67 @@ double SizeLaw::bounded_by_gap(double size, const Sized::Nearest& a,
                   gap_size(a.distance + b.distance, options_.gap_layers, std::min(a.size, b.size)));
 }
 
+std::vector<SizeLaw::Asked> SizeLaw::near_gaps(const Inner& inner, const Vec3& x) const {
+  std::vector<std::size_t> places = inner.folded;
+  // A gap is no wider than that by gap_size, and no narrower than the distance to either side.
+  const double reach = kRoundOff * kNarrow * options_.gap_layers * inner.largest_size;
+  inner.boxes.visit_within(Box(x), reach, [&](std::size_t place) { places.push_back(place); });
+  std::ranges::sort(places);
+  const auto repeated = std::ranges::unique(places);
+  places.erase(repeated.begin(), repeated.end());
+  std::vector<Asked> asked;
+  for (const std::size_t place : places)
+    asked.push_back({place, surfaces_[inner.members[place]].nearest(x)});
+  return asked;
+}
+
+double SizeLaw::least_law(const Inner& inner, const Vec3& x, const Sized::Nearest& outer,
+                          std::span<const Asked> asked) const {
+  const auto nearest = [&](std::size_t place) {
+    const auto known = std::ranges::lower_bound(asked, place, {}, &Asked::place);
+    return known != asked.end() && known->place == place
+               ? known->nearest
+               : surfaces_[inner.members[place]].nearest(x);
+  };
+  // The law rises with the size and the distance of the inner surface if that is the finer one.
+  const bool is_finer = inner.least_size <= outer.size;
+  return inner.boxes.least(
+      x,
+      [&](double distance) {
+        return is_finer ? graded_size(options_.grading, inner.least_size, distance, outer.size,
+                                      outer.distance) /
+                              kRoundOff
+                        : 0.0;
+      },
+      [&](std::size_t place) {
+        const Sized::Nearest at = nearest(place);
+        return graded_size(options_.grading, at.size, at.distance, outer.size, outer.distance);
+      });
+}
+
+double SizeLaw::gap_bound(std::span<const Asked> inners, const Sized::Nearest& outer) const {
+  double bound = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < inners.size(); ++i) {
+    const Sized::Nearest& inner = inners[i].nearest;
+    bound = std::min(bound, gap_size(inner.outside, options_.gap_layers, inner.size));
+    bound = bounded_by_gap(bound, inner, outer);
+    for (const Asked& other : inners.first(i)) bound = bounded_by_gap(bound, inner, other.nearest);
+  }
+  return bound;
+}
+
 double SizeLaw::operator()(const Vec3& x) const {
   const bool with_gaps = options_.gap_layers > 0.0;
   const std::size_t enclosing = enclosing_surface(x);
+  const Inner& inner = inner_[enclosing];
   const Sized::Nearest outer = surfaces_[enclosing].nearest(x);
-  bool has_inner = false;
-  double size = outer.size + options_.interior_growth * outer.distance;
-  double bound = std::numeric_limits<double>::infinity();
-  if (with_gaps && enclosing < container_.size())
-    bound = gap_size(outer.inside, options_.gap_layers, outer.size);
-  std::vector<Sized::Nearest> inners;
-  for (std::size_t i = 0; i < container_.size(); ++i) {
-    if (container_[i] != enclosing) continue;
-    const Sized::Nearest inner = surfaces_[i].nearest(x);
-    const double law =
-        graded_size(options_.grading, inner.size, inner.distance, outer.size, outer.distance);
-    size = has_inner ? std::min(size, law) : law;
-    has_inner = true;
-    if (!with_gaps) continue;
-    bound = std::min(bound, gap_size(inner.outside, options_.gap_layers, inner.size));
-    bound = bounded_by_gap(bound, inner, outer);
-    for (const Sized::Nearest& other : inners) bound = bounded_by_gap(bound, inner, other);
-    inners.push_back(inner);
-  }
+  const std::vector<Asked> asked = with_gaps ? near_gaps(inner, x) : std::vector<Asked>{};
+  const double size = inner.members.empty() ? outer.size + options_.interior_growth * outer.distance
+                                            : least_law(inner, x, outer, asked);
+  if (!with_gaps) return size;
+  double bound = gap_bound(asked, outer);
+  if (enclosing < container_.size())
+    bound = std::min(bound, gap_size(outer.inside, options_.gap_layers, outer.size));
   return std::min(size, bound);
 }
 

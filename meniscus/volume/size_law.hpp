@@ -1,7 +1,10 @@
 #pragma once
 
+#include <limits>
+#include <span>
 #include <vector>
 
+#include "meniscus/mesh/box_tree.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
 #include "meniscus/surface/gap.hpp"
 #include "meniscus/volume/tetrahedralize.hpp"
@@ -37,7 +40,7 @@ class SizeLaw {
  public:
   SizeLaw(const Scene& scene, const VolumeMeshOptions& options);
 
-  /// [R0]; a few µs per surface of the point's region. The scene must outlive the law.
+  /// [R0]; a few µs per surface that may set the size there. The scene must outlive the law.
   [[nodiscard]] double operator()(const Vec3& x) const;
 
  private:
@@ -49,12 +52,33 @@ class SizeLaw {
       double inside = 0.0, outside = 0.0;  // widths of the surface's own gaps there
     };
     [[nodiscard]] Nearest nearest(const Vec3& x) const;
+    [[nodiscard]] Box box() const { return {tree.low(), tree.high()}; }
+    [[nodiscard]] bool has_outside_gap() const;
 
     const SurfaceMesh* mesh;
     SurfaceTree tree;
     VertexField<double> size;
     OwnGaps gaps;  // empty without gap layers
   };
+  /// The interfaces that one surface encloses with nothing in between.
+  struct Inner {
+    Inner(std::span<const Sized> surfaces, std::vector<std::size_t> members);
+    std::vector<std::size_t> members;  // indices into surfaces_
+    BoxTree boxes;                     // of the members
+    double least_size = std::numeric_limits<double>::infinity(), largest_size = 0.0;  // of edges
+    std::vector<std::size_t> folded;  // places in `members` of those with outside gaps of their own
+  };
+  /// What a member of an Inner has at a point.
+  struct Asked {
+    std::size_t place;
+    Sized::Nearest nearest;
+  };
+  /// Those of the members that a gap at x may lie at.
+  [[nodiscard]] std::vector<Asked> near_gaps(const Inner& inner, const Vec3& x) const;
+  [[nodiscard]] double least_law(const Inner& inner, const Vec3& x, const Sized::Nearest& outer,
+                                 std::span<const Asked> asked) const;
+  [[nodiscard]] double gap_bound(std::span<const Asked> inners, const Sized::Nearest& outer) const;
+  static BoxTree boxes_of(std::span<const Sized> surfaces, std::span<const std::size_t> members);
   [[nodiscard]] double bounded_by_gap(double size, const Sized::Nearest& a,
                                       const Sized::Nearest& b) const;
   [[nodiscard]] std::size_t enclosing_surface(const Vec3& x) const;
@@ -63,6 +87,8 @@ class SizeLaw {
   std::vector<Sized> surfaces_;            // interfaces, then the outer boundary
   std::vector<std::size_t> container_;     // of each interface, an index into surfaces_
   std::vector<std::size_t> inside_first_;  // interfaces, the most deeply nested first
+  BoxTree boxes_{{}};                      // of the interfaces in that order
+  std::vector<Inner> inner_;               // of each of surfaces_
 };
 
 }  // namespace meniscus

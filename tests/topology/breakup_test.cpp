@@ -93,6 +93,23 @@ TEST(Breakup, WaitsWhereTheCutWouldAddArea) {
   EXPECT_EQ(report.events.size(), 1U) << (report.warnings.empty() ? "" : report.warnings[0]);
 }
 
+/// Whether the knob comes off when everything is `scale` times as large.
+bool is_cut(SurfaceMesh mesh, double scale) {
+  for (Vec3& x : mesh.x) x *= scale;
+  const std::vector<SurfaceMesh> meshes{std::move(mesh)};
+  Scene scene = scene_of(meshes, kC0);
+  const TopologyReport report = apply_topology(scene, {.breakup_radius = 0.17 * scale}, {});
+  return !report.events.empty();
+}
+
+TEST(Breakup, BoundsTheAddedAreaByTheSizeOfTheDrop) {
+  for (const auto& [factor, is_allowed] : {std::pair(0.2, true), {0.55, false}}) {
+    const SurfaceMesh mesh = knobbed_thread(factor);
+    for (const double scale : {0.1, 1.0, 30.0})
+      EXPECT_EQ(is_cut(mesh, scale), is_allowed) << "factor " << factor << ", scale " << scale;
+  }
+}
+
 TEST(Breakup, LeavesATorusInOnePiece) {
   // A torus whose tube thins to 0.05 on one side.
   SurfaceMesh mesh = test::torus(96, 12, 1.0, 0.3);

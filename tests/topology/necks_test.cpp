@@ -1,6 +1,9 @@
 #include "meniscus/topology/necks.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <ctime>
+#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -158,6 +161,27 @@ TEST(Necks, AreNoneBelowKnobsAndDentsThatHoldLittle) {
       const auto necks = find_necks(mesh, SurfaceTree(mesh), side, 0.045, {});
       EXPECT_EQ(necks.size(), num_necks) << "knob of height " << height;
     }
+}
+
+/// Processor time of one search, the least of three [s].
+double search_time(const SurfaceMesh& mesh, double radius) {
+  const SurfaceTree tree(mesh);
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const std::clock_t start = std::clock();
+    EXPECT_TRUE(find_necks(mesh, tree, Side::inside, radius, {}).empty());
+    least = std::min(least, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+  }
+  return least;
+}
+
+// No section of the flat drop is as narrow as the widest that is followed.
+TEST(Necks, OfAFlatDropAreSoughtInLinearTime) {
+  const Vec3 axes(1.3, 1.3, 0.59);
+  const double coarse = search_time(stretched_sphere(1900, axes), 0.5),
+               fine = search_time(stretched_sphere(7800, axes), 0.5);
+  // Four times the vertices: 4 when linear, 16 when quadratic.
+  EXPECT_LT(fine, 8.0 * coarse);
 }
 
 TEST(Necks, OfAThinPlatesHoleAreFound) {
