@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "meniscus/linear/index.hpp"
+
 namespace meniscus::linear {
 namespace {
 
@@ -49,6 +51,7 @@ CsrMatrix merged(const SaddleSystem& system, double continuity_sign, double pin)
   result.num_columns = system.size();
   const std::size_t entries =
       system.A.values.size() + 2 * system.B.values.size() + system.C.values.size();
+  (void)checked_index(static_cast<std::int64_t>(entries), "entries of the merged matrix");
   result.columns.reserve(entries);
   result.values.reserve(entries);
   result.row_start.reserve(at(system.size()) + 1);

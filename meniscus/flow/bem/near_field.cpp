@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include <Eigen/Geometry>
+
 #include "meniscus/flow/bem/face_moments.hpp"
 
 namespace meniscus::bem {
@@ -12,8 +14,8 @@ using Face = InterfaceElements::Face;
 using Surface = BoundaryGeometry::Surface;
 
 /// A face is near a point closer to its centre than this many of its longest edges; beyond, the
-/// weights of its vertices take over. On the point's own surface errors of neighbours nearly
-/// cancel; on another one they do not, and at 2, 3, 4 edges from the unit sphere of 1000 vertices
+/// weights of its vertices take over. Around the point on its own sheet errors of neighbours nearly
+/// cancel; on another sheet they do not, and at 2, 3, 4 edges from the unit sphere of 1000 vertices
 /// the double layer is wrong by 2e-3, 8e-4, 4e-4 of its size.
 constexpr double kNearOnOwn = 2.0, kNearOnOther = 4.0;
 
@@ -24,6 +26,13 @@ constexpr double kInside = 2.0 * kOnSurface;
 
 void add_identity(Symmetric& m, double factor) {
   for (std::size_t k = 0; k < 3; ++k) m[k] += factor;
+}
+
+/// Whether a face looks the other way than a point of the same interface. An edge of a resolved
+/// surface turns by less than 20°: the way along the surface is then longer than four edges, and a
+/// face nearer in space is of another sheet, across a film or a neck.
+bool is_turned_away(const Triangle& face, const Vec3& normal) {
+  return (face[1] - face[0]).cross(face[2] - face[0]).dot(normal) < 0.0;
 }
 
 /// Builds one row after another; keeps an array over all points for the columns of the row at hand.
@@ -55,7 +64,8 @@ class RowBuilder {
   void add_surface(std::size_t m, std::int32_t i) {
     const Surface& surface = geometry_.surfaces[m];
     const auto own = static_cast<std::size_t>(geometry_.surface_of[static_cast<std::size_t>(i)]);
-    find_near_faces(surface, own == m ? kNearOnOwn : kNearOnOther);
+    find_near_faces(surface,
+                    own == m ? &surface.elements.n[VertexId{i - surface.range.begin}] : nullptr);
     if (near_.empty()) return;
     // The rule's own integrals of the constants; what they are short of the exact ones is the error
     // that subtraction removes.
@@ -73,12 +83,16 @@ class RowBuilder {
       subtract(m, geometry_.index(m, face.columns[c]), weights[c], is_inside ? kInside : 0.0);
   }
 
-  void find_near_faces(const Surface& surface, double sizes) {
+  /// `normal` is the point's own, null where it lies on another surface.
+  void find_near_faces(const Surface& surface, const Vec3* normal) {
     near_.clear();
-    const Vec3 reach = Vec3::Constant(sizes * surface.largest_face);
-    surface.tree.visit_box(x_ - reach, x_ + reach, [&](FaceId f, const Triangle&) {
+    const Vec3 reach = Vec3::Constant(kNearOnOther * surface.largest_face);
+    surface.tree.visit_box(x_ - reach, x_ + reach, [&](FaceId f, const Triangle& triangle) {
       const Face& face = surface.elements.faces[f];
-      if ((face.center - x_).norm() < sizes * face.size) near_.push_back(f);
+      const double distance = (face.center - x_).norm();
+      if (distance >= kNearOnOther * face.size) return true;
+      const bool is_on_other_sheet = normal == nullptr || is_turned_away(triangle, *normal);
+      if (is_on_other_sheet || distance < kNearOnOwn * face.size) near_.push_back(f);
       return true;
     });
     std::ranges::sort(near_);

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "meniscus/flow/fem/constraints.hpp"
 #include "meniscus/flow/fem/node_positions.hpp"
@@ -17,19 +20,31 @@ struct BoundaryConditions {
 };
 
 /// Where patches meet, a node obeys ImposedVelocity first (that of the lowest patch id), then every
-/// NoPenetration. Without an open patch imposed velocities that are not the linear flow lose their
-/// net flux through the boundary's elements along the nodes' area vectors, as interpolated data
-/// have one of O(h²) or, on quadratic elements, O(h³).
+/// NoPenetration. Interpolated data have a net flux through the boundary's elements of O(h²) or, on
+/// quadratic elements, O(h³). Without an open patch it is taken from the nodes that are not of the
+/// linear flow, each in proportion to the flux through it and along its area vector. Walls at rest
+/// or sliding in their plane keep their velocity exactly.
 [[nodiscard]] BoundaryConditions boundary_conditions(const OuterBoundary& boundary,
                                                      const FaceNodeTable& faces,
                                                      const NodePositions& positions, double t);
 
+/// Unit normals by node of a surface, for all nodes one after the other.
+struct PieceNormals {
+  std::vector<std::int32_t> start = {0};  ///< num_nodes + 1
+  std::vector<Vec3> normals;
+
+  [[nodiscard]] std::span<const Vec3> of(NodeId i) const {
+    const auto k = static_cast<std::size_t>(i.value);
+    return std::span(normals).subspan(static_cast<std::size_t>(start[k]),
+                                      static_cast<std::size_t>(start[k + 1] - start[k]));
+  }
+};
+
 /// Unit normals of the flat pieces that the given patches have at each node of a surface: faces of
 /// one patch whose normals lie within 40° of each other make one piece, whose normal is that of its
 /// area vector.
-[[nodiscard]] Field<NodeId, std::vector<Vec3>> piece_normals(const OuterBoundary& boundary,
-                                                             const std::vector<PatchId>& wanted,
-                                                             const FaceNodeTable& faces,
-                                                             std::int32_t num_nodes);
+[[nodiscard]] PieceNormals piece_normals(const OuterBoundary& boundary,
+                                         const std::vector<PatchId>& wanted,
+                                         const FaceNodeTable& faces, std::int32_t num_nodes);
 
 }  // namespace meniscus::fem

@@ -11,12 +11,20 @@ namespace {
 // a normal and far below any corner one would draw.
 constexpr double dependent = 1e-6;
 
+/// Orthonormal vectors, at most three.
+struct Basis {
+  std::array<Vec3, 3> vectors;
+  std::size_t size = 0;
+
+  [[nodiscard]] std::span<const Vec3> all() const { return std::span(vectors).first(size); }
+};
+
 /// Orthonormal basis of the span of the normals.
-std::vector<Vec3> orthonormalized(std::span<const Vec3> normals) {
-  std::vector<Vec3> basis;
+Basis orthonormalized(std::span<const Vec3> normals) {
+  Basis basis;
   for (Vec3 n : normals) {
-    for (const Vec3& e : basis) n -= e.dot(n) * e;
-    if (n.norm() > dependent) basis.push_back(n.normalized());
+    for (const Vec3& e : basis.all()) n -= e.dot(n) * e;
+    if (basis.size < 3 && n.norm() > dependent) basis.vectors[basis.size++] = n.normalized();
   }
   return basis;
 }
@@ -58,7 +66,7 @@ void complete(Mat3& frame, std::array<bool, 3> is_taken) {
   }
 }
 
-bool is_axis_aligned(const std::vector<Vec3>& basis) {
+bool is_axis_aligned(std::span<const Vec3> basis) {
   for (const Vec3& e : basis)
     if (e.cwiseAbs().maxCoeff() < 1.0 - 1e-14) return false;
   return true;
@@ -91,14 +99,14 @@ void Constraints::fix(NodeId i, const Vec3& value) {
 }
 
 void Constraints::forbid_penetration(NodeId i, std::span<const Vec3> normals) {
-  const std::vector<Vec3> basis = orthonormalized(normals);
+  const Basis basis = orthonormalized(normals);
   NodeConstraint& constraint = at(i);
-  if (basis.size() == 3) {
+  if (basis.size == 3) {
     constraint.is_fixed = {true, true, true};
     return;
   }
-  const bool is_aligned = is_axis_aligned(basis);
-  for (const Vec3& e : basis) {
+  const bool is_aligned = is_axis_aligned(basis.all());
+  for (const Vec3& e : basis.all()) {
     const std::size_t slot = nearest_axis(e, constraint.is_fixed);
     constraint.is_fixed[slot] = true;
     if (!is_aligned) constraint.frame.col(static_cast<Eigen::Index>(slot)) = e;

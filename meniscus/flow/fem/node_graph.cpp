@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/linear/index.hpp"
 
 namespace meniscus::fem {
 namespace {
@@ -16,6 +17,7 @@ struct Incidence {
 };
 
 Incidence incidence(const NodeTable& table) {
+  (void)linear::checked_index(std::ssize(table.cell_nodes), "corners of cells");
   Incidence result;
   result.first.assign(at(table.num_nodes) + 1, 0);
   for (const std::int32_t node : table.cell_nodes) ++result.first[at(node) + 1];
@@ -53,7 +55,8 @@ NodeGraph node_graph(const NodeTable& rows, const NodeTable& columns) {
           graph.columns.push_back(j);
         }
     std::sort(graph.columns.begin() + start, graph.columns.end());
-    const auto end = static_cast<std::int32_t>(graph.columns.size());
+    const std::int32_t end =
+        linear::checked_index(std::ssize(graph.columns), "pairs of neighbouring nodes");
     MENISCUS_ASSERT(end - start <= std::numeric_limits<std::uint16_t>::max(), "{}", end - start);
     for (std::int32_t k = start; k < end; ++k) index_of[at(graph.columns[at(k)])] = k;
     for (const std::int32_t place : places) {
@@ -69,10 +72,12 @@ NodeGraph node_graph(const NodeTable& rows, const NodeTable& columns) {
 
 ScalarPattern expanded(const NodeGraph& graph, std::int32_t block_rows,
                        std::int32_t block_columns) {
+  const std::size_t num_entries = graph.num_entries() * at(block_rows) * at(block_columns);
+  (void)linear::checked_index(static_cast<std::int64_t>(num_entries), "matrix entries");
   ScalarPattern pattern;
-  pattern.row_start.reserve(at(graph.num_rows() * block_rows) + 1);
+  pattern.row_start.reserve(at(graph.num_rows()) * at(block_rows) + 1);
   pattern.row_start.push_back(0);
-  pattern.columns.resize(graph.num_entries() * at(block_rows * block_columns));
+  pattern.columns.resize(num_entries);
   std::size_t k = 0;
   for (std::int32_t i = 0; i < graph.num_rows(); ++i)
     for (std::int32_t a = 0; a < block_rows; ++a) {

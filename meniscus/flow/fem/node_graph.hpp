@@ -27,6 +27,7 @@ struct NodeGraph {
     return static_cast<std::size_t>(row_start[static_cast<std::size_t>(row)]) + position[pair];
   }
 };
+/// Throws RunFailure where 32 bits do not number all pairs.
 [[nodiscard]] NodeGraph node_graph(const NodeTable& rows, const NodeTable& columns);
 
 /// The graph with every entry replaced by a dense block, as scalar compressed rows. The entry
@@ -35,6 +36,7 @@ struct NodeGraph {
 struct ScalarPattern {
   std::vector<std::int32_t> row_start, columns;
 };
+/// Throws RunFailure, before taking memory, where 32 bits do not number all entries.
 [[nodiscard]] ScalarPattern expanded(const NodeGraph& graph, std::int32_t block_rows,
                                      std::int32_t block_columns);
 

@@ -21,11 +21,11 @@ struct NodeTable {
   std::vector<std::int32_t> cell_nodes;
 
   [[nodiscard]] std::int32_t num_cells() const {
-    return static_cast<std::int32_t>(cell_nodes.size()) / nodes_per_cell;
+    return static_cast<std::int32_t>(cell_nodes.size() / static_cast<std::size_t>(nodes_per_cell));
   }
   [[nodiscard]] std::span<const std::int32_t> of(CellId c) const {
     return std::span(cell_nodes)
-        .subspan(static_cast<std::size_t>(c.value * nodes_per_cell),
+        .subspan(static_cast<std::size_t>(c.value) * static_cast<std::size_t>(nodes_per_cell),
                  static_cast<std::size_t>(nodes_per_cell));
   }
 };
@@ -72,7 +72,7 @@ struct FaceNodeTable {
   }
   [[nodiscard]] std::span<const NodeId> of(FaceId f) const {
     return std::span(face_nodes)
-        .subspan(static_cast<std::size_t>(f.value * nodes_per_face),
+        .subspan(static_cast<std::size_t>(f.value) * static_cast<std::size_t>(nodes_per_face),
                  static_cast<std::size_t>(nodes_per_face));
   }
 };

@@ -68,13 +68,16 @@ TEST_P(LinearIterations, AreFew) {
 class OnTheSphere : public LinearIterations {};
 INSTANTIATE_TEST_SUITE_P(P1AndP2, OnTheSphere,
                          testing::Values(Case{DropShape::sphere, Elements::p1_p1, 300},
-                                         Case{DropShape::sphere, Elements::p2_p1, 60}));
+                                         Case{DropShape::sphere, Elements::p2_p1, 60},
+                                         Case{DropShape::sphere, Elements::p2_p1, 65}));
 
 // A pressure that is constant in a drop of next to no viscosity acts through the liquid around: its
-// weight keeps the spectrum what it is between like liquids.
+// weight keeps the spectrum what it is between like liquids. So does a smoother that knows the
+// spectrum of both liquids.
 TEST_P(OnTheSphere, StayFewForAGas) {
-  const int between_likes = solved(1.0, {}).iterations, of_a_gas = solved(1e-3, {}).iterations;
-  EXPECT_LE(of_a_gas, 1.25 * between_likes);
+  const int between_likes = solved(1.0, {}).iterations;
+  for (const double lambda : {1e-3, 1e-4, 1e-6})
+    EXPECT_LE(solved(lambda, {}).iterations, 1.25 * between_likes) << "lambda " << lambda;
 }
 
 // PETSc's own multigrid, which a PETSc without hypre is left with, does the same.

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "meniscus/core/error.hpp"
 #include "tests/flow/fem/box_mesh.hpp"
 
 namespace meniscus::fem {
@@ -51,6 +52,20 @@ TEST(NodeGraph, BlocksAreDenseAndSideBySide) {
   EXPECT_EQ(pattern.row_start, (std::vector<std::int32_t>{0, 6, 12, 15, 18}));
   EXPECT_EQ(pattern.columns,
             (std::vector<std::int32_t>{0, 1, 2, 6, 7, 8, 0, 1, 2, 6, 7, 8, 3, 4, 5, 3, 4, 5}));
+}
+
+TEST(NodeGraph, MoreEntriesThan32BitsNumberAreRefused) {
+  NodeGraph graph;
+  graph.num_columns = 1;
+  graph.row_start = {0, 1};
+  graph.columns = {0};
+  try {
+    (void)expanded(graph, 1 << 16, 1 << 16);
+    FAIL() << "2^32 entries were accepted";
+  } catch (const RunFailure& failure) {
+    EXPECT_NE(std::string(failure.what()).find("has 4294967296 matrix entries"), std::string::npos)
+        << failure.what();
+  }
 }
 
 TEST(PressureSpace, IsDoubledOnTheInterfaceAlone) {
