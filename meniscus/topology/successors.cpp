@@ -62,14 +62,41 @@ const Interface& outermost(const Scene& scene, std::span<const std::size_t> pare
   return scene.interfaces[parents.front()];
 }
 
-std::vector<Child> children_of(const Scene& scene, Succession& succession) {
+/// What the pieces are made of: the parents, unless surgery refined them first.
+CarryingSurface origin_of(const Scene& scene, Succession& succession) {
+  if (succession.refined.mesh.num_faces() > 0) return std::move(succession.refined);
+  std::vector<SurfaceMesh> meshes;
+  std::vector<SurfaceFields> fields;
+  for (const std::size_t i : succession.parents) {
+    meshes.push_back(scene.interfaces[i].mesh);
+    fields.push_back(scene.interfaces[i].fields);
+  }
+  return {joined(meshes), joined_fields(fields)};
+}
+
+/// What lives on the parents, on the pieces; nothing where there are no fields.
+std::vector<SurfaceFields> fields_of_pieces(const Scene& scene, Succession& succession,
+                                            FieldExcess& excess) {
+  if (scene.interfaces[succession.parents.front()].fields.empty())
+    return std::vector<SurfaceFields>(succession.pieces.size());
+  const CarryingSurface origin = origin_of(scene, succession);
+  const ReplacedFields replaced =
+      replaced_fields(origin.fields, origin.mesh, joined(succession.pieces));
+  widen(excess, replaced.excess);
+  return split_fields(replaced.fields, succession.pieces);
+}
+
+std::vector<Child> children_of(const Scene& scene, Succession& succession, FieldExcess& excess) {
   const Interface& outer = outermost(scene, succession.parents);
   const Interface& heir = scene.interfaces[largest(scene, succession.parents)];
   double C0 = 0.0;
   for (const std::size_t i : succession.parents) C0 = std::max(C0, scene.interfaces[i].C0);
+  std::vector<SurfaceFields> fields = fields_of_pieces(scene, succession, excess);
   std::vector<Child> children;
-  for (SurfaceMesh& piece : succession.pieces) {
+  for (std::size_t k = 0; k < succession.pieces.size(); ++k) {
+    SurfaceMesh& piece = succession.pieces[k];
     Child child;
+    child.interface.fields = std::move(fields[k]);
     child.interface.parent = heir.drop;
     child.interface.tension = heir.tension;
     child.interface.C0 = C0;
@@ -85,6 +112,13 @@ std::vector<Child> children_of(const Scene& scene, Succession& succession) {
     return enclosed_centroid(child.interface.mesh).dot(generic_direction());
   });
   return children;
+}
+
+/// Makes the volume of a child's mesh that which it has been given.
+void give_volume(Interface& interface, FieldExcess& excess) {
+  const SurfaceMesh before = interface.fields.empty() ? SurfaceMesh() : interface.mesh;
+  restore_volume(interface.mesh, interface.volume);
+  widen(excess, move_fields(interface.fields, before, interface.mesh));
 }
 
 /// Signed sum of the children's volumes.
@@ -161,13 +195,13 @@ std::string succeed(Scene& scene, Succession succession, TopologyEvent& event) {
   std::vector<Interface> parents;
   for (const std::size_t i : succession.parents) parents.push_back(scene.interfaces[i]);
   const LiquidVolume volume = liquid_volume(scene, succession.parents);
-  std::vector<Child> children = children_of(scene, succession);
+  std::vector<Child> children = children_of(scene, succession, event.field_excess);
   if (children.empty()) return "nothing is left";
   event.volume_moved = std::abs(volume.of_faces - enclosed_liquid(children));
   share_volume(children, volume.of_faces);
   for (Child& child : children) {
     if (!(child.interface.volume > 0.0)) return "a fragment encloses nothing";
-    restore_volume(child.interface.mesh, child.interface.volume);
+    give_volume(child.interface, event.field_excess);
     if (std::string defect = find_defect(child.interface.mesh); !defect.empty()) return defect;
   }
   add_curved_part(children, volume);
