@@ -271,13 +271,18 @@ FieldExcess move_fields(SurfaceFields& fields, const SurfaceMesh& before,
 
 ReplacedFields replaced_fields(const SurfaceFields& fields, const SurfaceMesh& before,
                                const SurfaceMesh& after) {
+  return replaced_fields(fields, before, after, after);
+}
+
+ReplacedFields replaced_fields(const SurfaceFields& fields, const SurfaceMesh& before,
+                               const SurfaceMesh& after, const SurfaceMesh& settled) {
   ReplacedFields result;
   if (fields.empty()) return result;
   const Replacement replacement(before, after);
   result.fields.on_vertices =
-      replaced(fields.on_vertices, replacement, vertex_shares(after), result.excess);
+      replaced(fields.on_vertices, replacement, vertex_shares(settled), result.excess);
   result.fields.on_faces =
-      replaced(fields.on_faces, replacement, face_shares(after), result.excess);
+      replaced(fields.on_faces, replacement, face_shares(settled), result.excess);
   return result;
 }
 

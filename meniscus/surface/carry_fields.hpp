@@ -40,6 +40,11 @@ struct [[nodiscard]] ReplacedFields {
 /// the elements as far as the old range lets them take it; the rest is passed on. What no neighbour
 /// takes is shared by the whole piece, v + θ (max − v) or v − θ (v − min), and beyond the range in
 /// equal parts. Amounts add up over the pieces to round-off. O(n log n).
+///
+/// `settled` is `after` with its vertices shifted a little, as to restore its volume: it is there
+/// that amounts are kept.
+ReplacedFields replaced_fields(const SurfaceFields& fields, const SurfaceMesh& before,
+                               const SurfaceMesh& after, const SurfaceMesh& settled);
 ReplacedFields replaced_fields(const SurfaceFields& fields, const SurfaceMesh& before,
                                const SurfaceMesh& after);
 

@@ -9,8 +9,7 @@ std::optional<Repaired> repaired(const SurfaceMesh& mesh, const SurfaceFields& f
   SurfaceMesh restored = shape;
   if (volume > 0.0) restore_volume(restored, volume);
   if (!find_defect(restored).empty()) return std::nullopt;
-  auto [carried, excess] = replaced_fields(fields, mesh, shape);
-  widen(excess, move_fields(carried, shape, restored));
+  auto [carried, excess] = replaced_fields(fields, mesh, shape, restored);
   return Repaired{{std::move(restored), std::move(carried)}, excess};
 }
 

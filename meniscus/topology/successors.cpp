@@ -74,29 +74,30 @@ CarryingSurface origin_of(const Scene& scene, Succession& succession) {
   return {joined(meshes), joined_fields(fields)};
 }
 
-/// What lives on the parents, on the pieces; nothing where there are no fields.
-std::vector<SurfaceFields> fields_of_pieces(const Scene& scene, Succession& succession,
-                                            FieldExcess& excess) {
-  if (scene.interfaces[succession.parents.front()].fields.empty())
-    return std::vector<SurfaceFields>(succession.pieces.size());
+/// Gives the children what lives on the parents. `cut` has them as they were before their volumes
+/// were restored.
+FieldExcess give_fields(const Scene& scene, Succession& succession,
+                        std::span<const SurfaceMesh> cut, std::span<Child> children) {
+  if (scene.interfaces[succession.parents.front()].fields.empty()) return {};
+  std::vector<SurfaceMesh> restored;
+  for (const Child& child : children) restored.push_back(child.interface.mesh);
   const CarryingSurface origin = origin_of(scene, succession);
   const ReplacedFields replaced =
-      replaced_fields(origin.fields, origin.mesh, joined(succession.pieces));
-  widen(excess, replaced.excess);
-  return split_fields(replaced.fields, succession.pieces);
+      replaced_fields(origin.fields, origin.mesh, joined(cut), joined(restored));
+  std::vector<SurfaceFields> fields = split_fields(replaced.fields, restored);
+  for (std::size_t k = 0; k < children.size(); ++k)
+    children[k].interface.fields = std::move(fields[k]);
+  return replaced.excess;
 }
 
-std::vector<Child> children_of(const Scene& scene, Succession& succession, FieldExcess& excess) {
+std::vector<Child> children_of(const Scene& scene, Succession& succession) {
   const Interface& outer = outermost(scene, succession.parents);
   const Interface& heir = scene.interfaces[largest(scene, succession.parents)];
   double C0 = 0.0;
   for (const std::size_t i : succession.parents) C0 = std::max(C0, scene.interfaces[i].C0);
-  std::vector<SurfaceFields> fields = fields_of_pieces(scene, succession, excess);
   std::vector<Child> children;
-  for (std::size_t k = 0; k < succession.pieces.size(); ++k) {
-    SurfaceMesh& piece = succession.pieces[k];
+  for (SurfaceMesh& piece : succession.pieces) {
     Child child;
-    child.interface.fields = std::move(fields[k]);
     child.interface.parent = heir.drop;
     child.interface.tension = heir.tension;
     child.interface.C0 = C0;
@@ -112,13 +113,6 @@ std::vector<Child> children_of(const Scene& scene, Succession& succession, Field
     return enclosed_centroid(child.interface.mesh).dot(generic_direction());
   });
   return children;
-}
-
-/// Makes the volume of a child's mesh that which it has been given.
-void give_volume(Interface& interface, FieldExcess& excess) {
-  const SurfaceMesh before = interface.fields.empty() ? SurfaceMesh() : interface.mesh;
-  restore_volume(interface.mesh, interface.volume);
-  widen(excess, move_fields(interface.fields, before, interface.mesh));
 }
 
 /// Signed sum of the children's volumes.
@@ -195,16 +189,19 @@ std::string succeed(Scene& scene, Succession succession, TopologyEvent& event) {
   std::vector<Interface> parents;
   for (const std::size_t i : succession.parents) parents.push_back(scene.interfaces[i]);
   const LiquidVolume volume = liquid_volume(scene, succession.parents);
-  std::vector<Child> children = children_of(scene, succession, event.field_excess);
+  std::vector<Child> children = children_of(scene, succession);
   if (children.empty()) return "nothing is left";
   event.volume_moved = std::abs(volume.of_faces - enclosed_liquid(children));
   share_volume(children, volume.of_faces);
+  std::vector<SurfaceMesh> cut;
   for (Child& child : children) {
     if (!(child.interface.volume > 0.0)) return "a fragment encloses nothing";
-    give_volume(child.interface, event.field_excess);
+    cut.push_back(child.interface.mesh);
+    restore_volume(child.interface.mesh, child.interface.volume);
     if (std::string defect = find_defect(child.interface.mesh); !defect.empty()) return defect;
   }
   add_curved_part(children, volume);
+  const FieldExcess excess = give_fields(scene, succession, cut, children);
   Scene after = with_children(scene, succession.parents, children);
   if (std::string conflict = find_conflict(after); !conflict.empty()) return conflict;
 
@@ -214,6 +211,7 @@ std::string succeed(Scene& scene, Succession succession, TopologyEvent& event) {
     event.children.push_back(child.interface.drop);
     born.push_back(child.interface);
   }
+  event.field_excess = excess;
   event.volume_before = volume.kept;
   event.volume_after = enclosed_liquid(children);
   event.area_before = area(parents);

@@ -22,7 +22,7 @@ struct Succession {
 /// their cavities, is what the parents enclosed (of a drop released from another, less it): what
 /// the surgery took from that is given back to the pieces in equal parts. A cavity becomes an
 /// interface around the liquid of the first parent's other side. Fields of the parents go to the
-/// pieces (`replaced_fields`) and follow them when their volumes are restored (`move_fields`).
+/// pieces as their volumes are restored (`replaced_fields`).
 ///
 /// Interfaces that stay keep their order and come first; the event's drops, volumes, areas and
 /// energies are filled in. Not done, with one line that says why, when a piece encloses nothing, is
