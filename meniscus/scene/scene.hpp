@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "meniscus/mesh/carried_fields.hpp"
 #include "meniscus/mesh/tet_mesh.hpp"
 #include "meniscus/scene/imposed_flow.hpp"
 #include "meniscus/scene/viscosity.hpp"
@@ -28,6 +29,7 @@ struct Interface {
   double C0 = 8.75;      ///< resolution: C0 = N0/4π in ρ = C0⟨κ⟩² (eq. 1 of hooper2001)
   double volume = 0.0;   ///< the volume every remesh restores [R0³]
   double initial_volume = 0.0;  ///< the reference of volume_drift
+  SurfaceFields fields = {};    ///< what lives on it; of the same list on every interface
 };
 
 /// v given on a patch; `velocity` maps a point of the patch and a time to v [G R0].

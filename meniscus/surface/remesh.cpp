@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/restructure.hpp"
 #include "meniscus/surface/sizing.hpp"
@@ -144,6 +145,14 @@ void RemeshOptions::validate() const {
   require(equilibrium >= 0.0 && equilibrium < 1.0, "equilibrium", equilibrium, "in [0, 1)");
 }
 
+RemeshOptions sound_remeshing(double C0, double edge_floor) {
+  RemeshOptions options;
+  options.C0 = C0;
+  options.edge_floor = edge_floor;
+  options.find_fault = find_self_intersection;
+  return options;
+}
+
 RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options) {
   SurfaceFields none;
   return remesh(mesh, options, none);
@@ -176,8 +185,10 @@ RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options, SurfaceFiel
     report.min_angle_deg = smallest_angle_deg(result);
     std::string fault = find_fault(result, smallest_angle_deg(mesh), options, report);
     if (!fault.empty()) return fail(std::move(fault));
-    fields =
+    auto [carried, excess] =
         transferred(fields, {mesh, topology, reference.surface, reference.walk, result, places});
+    fields = std::move(carried);
+    report.field_excess = excess;
     mesh = std::move(result);
   } catch (const InvalidInput& invalid) {  // from the topology check, before or after
     return fail(invalid.what());

@@ -34,6 +34,10 @@ struct RemeshOptions {
   void validate() const;  ///< Throws InvalidInput naming field, value, range.
 };
 
+/// Options for a density of C0 = N0/4π vertices, edges of `edge_floor` [R0] or more, and a result
+/// that does not meet itself; the rest as `RemeshOptions` has it.
+[[nodiscard]] RemeshOptions sound_remeshing(double C0, double edge_floor = 0.0);
+
 struct [[nodiscard]] RemeshReport {
   bool ok = true;
   std::string failure;  ///< why the surface was left as it was
@@ -43,6 +47,7 @@ struct [[nodiscard]] RemeshReport {
   double volume_shift_over_edge = 0.0;  ///< of each vertex, over the mean edge there
   double min_angle_deg = 0.0;
   double expected_vertices = 0.0;  ///< ∮ρ dS of eq. 2 on the result
+  FieldExcess field_excess = {};   ///< of conserved fields over the range they had
 };
 
 /// Rebuilds the triangulation of a closed surface so that its vertex density is ρ = C0⟨κ⟩², by

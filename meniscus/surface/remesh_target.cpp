@@ -217,17 +217,14 @@ class TargetSearch {
   }
 
   [[nodiscard]] RemeshOptions options(std::size_t i, double knob) const {
-    RemeshOptions options;
+    RemeshOptions options = sound_remeshing(knob, std::max(target_.edge_floor, rough_edge_));
     options.volume = pieces_[i].volume;
     options.gradation = target_.gradation;
     options.min_vertices = RemeshTarget::kFewestNodes;
     options.max_sweeps = kMaxSweeps;
     options.equilibrium = kEquilibrium;
-    options.find_fault = [](const SurfaceMesh& m) { return find_self_intersection(m); };
-    options.edge_floor = std::max(target_.edge_floor, rough_edge_);
     switch (target_.by) {
       case By::nodes:
-        options.C0 = knob;
         break;
       case By::edge_length:
         options.C0 = 1.0;

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Cholesky>
 
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/mesh/surface_tree.hpp"
+#include "meniscus/surface/keep_amounts.hpp"
 
 namespace meniscus {
 namespace {
@@ -202,80 +205,134 @@ std::array<SurfaceLocation, 4> sample_places(const SurfaceChange& change, FaceId
   return places;
 }
 
-/// Pieces of the old surface, by number, and for each element of the new mesh the one it lies on.
-struct Pieces {
-  int count = 0;
-  FaceField<int> of_old_face;
-
-  Pieces(const SurfaceMesh& mesh, const FaceField<std::array<FaceId, 3>>& beside)
-      : of_old_face(mesh.num_faces(), -1) {
-    std::vector<FaceId> open;
-    for (const FaceId seed : of_old_face.ids()) {
-      if (of_old_face[seed] >= 0) continue;
-      of_old_face[seed] = count;
-      open.push_back(seed);
-      while (!open.empty()) {
-        const FaceId f = open.back();
-        open.pop_back();
-        for (const FaceId g : beside[f]) {
-          if (of_old_face[g] >= 0) continue;
-          of_old_face[g] = count;
-          open.push_back(g);
-        }
-      }
-      ++count;
-    }
-  }
-};
-
-/// Makes Σ weight · value of each piece what it was.
-template <class Id, class PieceOfNew, class PieceOfOld>
-void conserve(Field<Id, double>& after, const Field<Id, double>& weights_after,
-              const PieceOfNew& piece_of_new, const Field<Id, double>& before,
-              const Field<Id, double>& weights_before, const PieceOfOld& piece_of_old, int pieces) {
-  std::vector<double> missing(static_cast<std::size_t>(pieces), 0.0), size = missing;
-  for (const Id i : before.ids())
-    missing[static_cast<std::size_t>(piece_of_old(i))] += weights_before[i] * before[i];
-  for (const Id i : after.ids()) {
-    const auto piece = static_cast<std::size_t>(piece_of_new(i));
-    missing[piece] -= weights_after[i] * after[i];
-    size[piece] += weights_after[i] * std::abs(after[i]);
-  }
-  for (const Id i : after.ids()) {
-    const auto piece = static_cast<std::size_t>(piece_of_new(i));
-    if (size[piece] > 0.0) after[i] += missing[piece] / size[piece] * std::abs(after[i]);
-  }
-}
-
 FaceField<double> face_areas(const SurfaceMesh& mesh) {
   FaceField<double> areas(mesh.num_faces());
   for (const FaceId f : areas.ids()) areas[f] = face_area_vector(mesh, f).norm();
   return areas;
 }
 
+/// Each side of an old face is cut in this many, to find what its parts come to lie on.
+constexpr int kCuts = 3;
+
+/// A part of an old face, and where it comes to lie on the new surface.
+struct Part {
+  SurfaceLocation from;
+  double area;
+  SurfaceTree::Hit to;
+};
+std::vector<Part> parts_of(const SurfaceChange& change, const FaceField<double>& areas) {
+  const SurfaceTree tree(change.after);
+  const std::vector<Vec3> centers = part_centers(kCuts);
+  std::vector<Part> parts;
+  for (const FaceId f : areas.ids())
+    for (const Vec3& center : centers) {
+      const SurfaceLocation from{f, center};
+      parts.push_back({from, areas[f] / static_cast<double>(centers.size()),
+                       tree.closest(change.walk.flat_point(from))});
+    }
+  return parts;
+}
+
+double linear(const SurfaceMesh& mesh, const VertexField<double>& values, FaceId f,
+              const Vec3& weights) {
+  const FaceVertices& v = mesh.faces[f];
+  return weights[0] * values[v[0]] + weights[1] * values[v[1]] + weights[2] * values[v[2]];
+}
+
+/// Conserved fields: what the old surface had beyond the new values goes to where it comes to lie;
+/// what areas have gained or lost is left to the piece.
+class Conservation {
+ public:
+  explicit Conservation(const SurfaceChange& change)
+      : change_(change),
+        old_areas_(face_areas(change.before)),
+        old_pieces_(vertex_pieces(change.before, change.topology)),
+        parts_(parts_of(change, old_areas_)) {}
+
+  FieldExcess keep(VertexField<double>& values, const VertexField<double>& before) const {
+    VertexField<double> missing(values.size(), 0.0);
+    for (const Part& part : parts_) {
+      const double amount =
+          part.area * (linear(change_.before, before, part.from.face, part.from.weights) -
+                       linear(change_.after, values, part.to.face, part.to.weights));
+      for (int k = 0; k < 3; ++k)
+        missing[change_.after.faces[part.to.face][static_cast<std::size_t>(k)]] +=
+            part.to.weights[k] * amount;
+    }
+    const Shares<VertexId> shares = vertex_shares(change_.after);
+    const VertexField<double> areas = vertex_areas(change_.before);
+    std::vector<double> amounts(static_cast<std::size_t>(old_pieces_.count), 0.0);
+    for (const VertexId v : before.ids())
+      amounts[static_cast<std::size_t>(old_pieces_.piece[v])] += areas[v] * before[v];
+    return keep_amounts(values, std::move(missing), of_new_pieces(amounts, shares.num_pieces),
+                        shares, range_of(before));
+  }
+
+  FieldExcess keep(FaceField<double>& values, const FaceField<double>& before,
+                   const FaceInterpolant& interpolant) const {
+    FaceField<double> missing(values.size(), 0.0);
+    for (const Part& part : parts_)
+      missing[part.to.face] += part.area * (interpolant.at(part.from) - values[part.to.face]);
+    std::vector<double> amounts(static_cast<std::size_t>(old_pieces_.count), 0.0);
+    for (const FaceId f : before.ids())
+      amounts[static_cast<std::size_t>(old_pieces_.piece[change_.before.faces[f][0]])] +=
+          old_areas_[f] * before[f];
+    const Shares<FaceId> shares = face_shares(change_.after);
+    return keep_amounts(values, std::move(missing), of_new_pieces(amounts, shares.num_pieces),
+                        shares, range_of(before));
+  }
+
+ private:
+  template <class IdType>
+  static FieldRange range_of(const Field<IdType, double>& values) {
+    const auto [low, high] = std::ranges::minmax(values);
+    return {low, high};
+  }
+  /// The same numbers in the order of the pieces of the new surface.
+  [[nodiscard]] std::vector<double> of_new_pieces(const std::vector<double>& of_old,
+                                                  int num_pieces) const {
+    std::vector<double> result(static_cast<std::size_t>(num_pieces), 0.0);
+    const VertexPieces pieces = vertex_pieces(change_.after, SurfaceTopology(change_.after));
+    for (const VertexId v : pieces.piece.ids()) {
+      const VertexId old = change_.before.faces[change_.places[v].face][0];
+      result[static_cast<std::size_t>(pieces.piece[v])] =
+          of_old[static_cast<std::size_t>(old_pieces_.piece[old])];
+    }
+    return result;
+  }
+
+  const SurfaceChange& change_;
+  FaceField<double> old_areas_;
+  VertexPieces old_pieces_;
+  std::vector<Part> parts_;
+};
+
+bool has_conserved(const SurfaceFields& fields) {
+  const auto is_conserved = [](const auto& field) {
+    return field.transfer == FieldTransfer::conserved;
+  };
+  return std::ranges::any_of(fields.on_vertices, is_conserved) ||
+         std::ranges::any_of(fields.on_faces, is_conserved);
+}
+
 }  // namespace
 
-SurfaceFields transferred(const SurfaceFields& fields, const SurfaceChange& change) {
-  SurfaceFields result;
+ReplacedFields transferred(const SurfaceFields& fields, const SurfaceChange& change) {
+  ReplacedFields result;
   if (fields.empty()) return result;
-  const auto beside = neighbours(change.before, change.topology);
-  const Pieces pieces(change.before, beside);
-  const auto piece_of_vertex = [&](VertexId v) {
-    return pieces.of_old_face[change.places[v].face];
-  };
-
+  std::optional<Conservation> conservation;
+  if (has_conserved(fields)) conservation.emplace(change);
   for (const CarriedField<VertexId>& field : fields.on_vertices) {
     const VertexInterpolant interpolant(change, field.values);
     VertexField<double> values(change.after.num_vertices());
     for (const VertexId v : values.ids()) values[v] = interpolant.at(change.places[v]);
     if (field.transfer == FieldTransfer::conserved)
-      conserve(
-          values, vertex_areas(change.after), piece_of_vertex, field.values,
-          vertex_areas(change.before),
-          [&](VertexId v) { return pieces.of_old_face[change.topology.faces_around(v)[0]]; },
-          pieces.count);
-    result.on_vertices.push_back({field.name, field.unit, field.transfer, std::move(values)});
+      widen(result.excess, conservation->keep(values, field.values));
+    result.fields.on_vertices.push_back(
+        {field.name, field.unit, field.transfer, std::move(values)});
   }
+  if (fields.on_faces.empty()) return result;
+  const auto beside = neighbours(change.before, change.topology);
   for (const CarriedField<FaceId>& field : fields.on_faces) {
     const FaceInterpolant interpolant(change, field.values, beside);
     FaceField<double> values(change.after.num_faces(), 0.0);
@@ -283,11 +340,8 @@ SurfaceFields transferred(const SurfaceFields& fields, const SurfaceChange& chan
       for (const SurfaceLocation& place : sample_places(change, f))
         values[f] += 0.25 * interpolant.at(place);
     if (field.transfer == FieldTransfer::conserved)
-      conserve(
-          values, face_areas(change.after),
-          [&](FaceId f) { return piece_of_vertex(change.after.faces[f][0]); }, field.values,
-          face_areas(change.before), [&](FaceId f) { return pieces.of_old_face[f]; }, pieces.count);
-    result.on_faces.push_back({field.name, field.unit, field.transfer, std::move(values)});
+      widen(result.excess, conservation->keep(values, field.values, interpolant));
+    result.fields.on_faces.push_back({field.name, field.unit, field.transfer, std::move(values)});
   }
   return result;
 }

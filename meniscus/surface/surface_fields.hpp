@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meniscus/mesh/carried_fields.hpp"
+#include "meniscus/surface/carry_fields.hpp"
 #include "meniscus/surface/smooth_surface.hpp"
 #include "meniscus/surface/surface_walk.hpp"
 
@@ -25,8 +25,10 @@ struct SurfaceChange {
 /// from, so that constants stay constant and nothing changes its sign; what has not moved keeps its
 /// value.
 ///
-/// Where a field is conserved, the values of a piece then change by one common fraction of their
-/// size: v + c|v|. That keeps signs; a constant stays one, but follows the area of the mesh.
-[[nodiscard]] SurfaceFields transferred(const SurfaceFields& fields, const SurfaceChange& change);
+/// Where a field is conserved, parts of the old faces give the new elements nearest to them what
+/// they held beyond the new values (`keep_amounts`): second order. What the area of the mesh gained
+/// or lost is shared by the piece within the old range, beyond it in equal parts: a constant stays
+/// one, but follows the area.
+ReplacedFields transferred(const SurfaceFields& fields, const SurfaceChange& change);
 
 }  // namespace meniscus

@@ -15,7 +15,7 @@
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/even_out.hpp"
-#include "meniscus/surface/remesh.hpp"
+#include "meniscus/surface/repair.hpp"
 #include "meniscus/surface/sizing.hpp"
 #include "meniscus/topology/bridge_gap.hpp"
 #include "meniscus/topology/cut_neck.hpp"
@@ -138,7 +138,8 @@ std::string cut(Scene& scene, const DueNeck& due, Surgery surgery, TopologyEvent
     event.gap = 2.0 * due.neck.radius;
   }
   if (!surgery.failure.empty()) return surgery.failure;
-  return succeed_with_little_area(scene, {{due.interface}, std::move(surgery.pieces)}, event);
+  return succeed_with_little_area(
+      scene, {{due.interface}, std::move(surgery.pieces), std::move(surgery.refined)}, event);
 }
 
 void cut_necks(Scene& scene, const TopologyOptions& options, const SurfaceMotion& motion,
@@ -186,7 +187,7 @@ std::string open_gap(Scene& scene, const Gap& gap, const TopologyOptions& option
   event.gap = gap.width;
   Surgery surgery = bridge_gap(scene, gap, {options.coalescence_gap, options.edge_floor});
   if (!surgery.failure.empty()) return surgery.failure;
-  Succession succession{{gap.a}, std::move(surgery.pieces)};
+  Succession succession{{gap.a}, std::move(surgery.pieces), std::move(surgery.refined)};
   if (gap.b != gap.a) succession.parents.push_back(gap.b);
   return succeed_with_little_area(scene, std::move(succession), event);
 }
@@ -227,32 +228,40 @@ int next_id(const Scene& scene) {
 
 /// A small drop that the remesher alone does not bring to its vertices is given even triangles
 /// first.
-void give_vertices(Interface& interface, const RemeshOptions& options) {
+void give_vertices(Interface& interface, const RemeshOptions& options, FieldExcess& excess) {
   const double area = surface_area(interface.mesh), volume = enclosed_volume(interface.mesh);
-  SurfaceMesh even = evened_out(
-      interface.mesh, length_of_density(1.5 * static_cast<double>(options.min_vertices) / area));
-  restore_volume(even, volume);
-  if (!find_defect(even).empty()) return;
-  interface.mesh = std::move(even);
-  static_cast<void>(remesh(interface.mesh, options));  // it is fit as it is
+  const double edge = length_of_density(1.5 * static_cast<double>(options.min_vertices) / area);
+  std::optional<Repaired> even =
+      repaired(interface.mesh, interface.fields, evened_out(interface.mesh, edge), volume);
+  if (!even) return;
+  interface.mesh = std::move(even->surface.mesh);
+  interface.fields = std::move(even->surface.fields);
+  widen(excess, even->excess);
+  // It is fit as it is.
+  widen(excess, remesh(interface.mesh, options, interface.fields).field_excess);
 }
 
 /// Remeshes the interfaces that have ids from `first_id` on: the seams of surgery give way, and a
 /// small drop gets its vertices. What cannot be remeshed stays as it is: it is sound already.
-void finish_new_interfaces(Scene& scene, int first_id, const TopologyOptions& topology) {
+/// Returns by how much fields left their range on the way.
+FieldExcess finish_new_interfaces(Scene& scene, int first_id, const TopologyOptions& topology) {
   constexpr int kRemeshings = 2;  // a density far from the wanted one takes more than one
   const Scene before = scene;
+  FieldExcess excess;
   for (Interface& interface : scene.interfaces) {
     if (interface.drop < first_id) continue;
-    RemeshOptions options;
-    options.C0 = interface.C0;
-    options.edge_floor = topology.edge_floor;
-    options.find_fault = find_self_intersection;
-    for (int i = 0; i < kRemeshings; ++i)
-      if (!remesh_or_mend(interface.mesh, options).remesh.ok) break;
-    if (interface.mesh.num_vertices() < options.min_vertices) give_vertices(interface, options);
+    const RemeshOptions options = sound_remeshing(interface.C0, topology.edge_floor);
+    for (int i = 0; i < kRemeshings; ++i) {
+      const RemeshReport report = remesh_or_mend(interface.mesh, options, interface.fields).remesh;
+      widen(excess, report.field_excess);
+      if (!report.ok) break;
+    }
+    if (interface.mesh.num_vertices() < options.min_vertices)
+      give_vertices(interface, options, excess);
   }
-  if (!find_conflict(scene).empty()) scene = before;
+  if (find_conflict(scene).empty()) return excess;
+  scene = before;
+  return {};
 }
 
 }  // namespace
@@ -271,7 +280,8 @@ TopologyReport apply_topology(Scene& scene, const TopologyOptions& options,
     scene = before;
     report.events.clear();
   }
-  if (!report.events.empty()) finish_new_interfaces(scene, first_id, options);
+  if (!report.events.empty())
+    report.finishing_excess = finish_new_interfaces(scene, first_id, options);
   return report;
 }
 

@@ -25,6 +25,9 @@ struct [[nodiscard]] TopologyReport {
   std::vector<std::string> warnings;  ///< places due whose surgery failed: left as they were
   /// Why what is due must not happen (unlike liquids); the scene is then as it was given.
   std::string refusal;
+  /// Of fields over their range, by the remeshing of the children at the end; the events have what
+  /// the cuts and bridges themselves did.
+  FieldExcess finishing_excess = {};
 };
 
 /// Cuts every neck that is due, the thinnest first, then opens every film that is due, the thinnest

@@ -51,11 +51,10 @@ double edge_at(const Gap& gap, const BridgeOptions& options) {
       {kEdge * options.limit, options.edge_floor, std::sqrt(patch_area / kPatchVertices)});
 }
 
-/// Refines a surface around the gap; it stays as it is where that fails.
-void refine(SurfaceMesh& mesh, const Interface& interface, const Gap& gap, double edge) {
-  RemeshOptions options;
-  options.C0 = interface.C0;
-  options.find_fault = find_self_intersection;
+/// An interface's surface refined around the gap; as it is where that fails.
+CarryingSurface refined(const Interface& interface, const Gap& gap, double edge) {
+  CarryingSurface surface{interface.mesh, interface.fields};
+  RemeshOptions options = sound_remeshing(interface.C0);
   const double hole = kHole / kEdge * edge;
   const auto distance = [&](const Vec3& x) {
     double nearest = std::min((x - gap.from).norm(), (x - gap.to).norm()) - hole;
@@ -64,23 +63,22 @@ void refine(SurfaceMesh& mesh, const Interface& interface, const Gap& gap, doubl
   };
   options.size_bound = [&](const Vec3& x) { return edge + options.gradation * distance(x); };
   for (int i = 0; i < kRefinements; ++i) {
-    const RemeshReport report = remesh(mesh, options);
-    if (!report.ok || (report.splits == 0 && report.collapses == 0)) return;
+    const RemeshReport report = remesh(surface.mesh, options, surface.fields);
+    if (!report.ok || (report.splits == 0 && report.collapses == 0)) break;
   }
+  return surface;
 }
 
 /// Both surfaces as one, outward from the liquid that the bridge belongs to.
-SurfaceMesh refined_surfaces(const Scene& scene, const Gap& gap, double edge) {
+CarryingSurface refined_surfaces(const Scene& scene, const Gap& gap, double edge) {
   const Interface &a = scene.interfaces[gap.a], &b = scene.interfaces[gap.b];
-  std::vector<SurfaceMesh> parts{a.mesh};
-  refine(parts.front(), a, gap, edge);
-  if (gap.a != gap.b) {
-    parts.push_back(b.mesh);
-    refine(parts.back(), b, gap, edge);
-    if (a.inside == b.outside) turn_inside_out(parts.back());
-    if (b.inside == a.outside) turn_inside_out(parts.front());
-  }
-  return joined(parts);
+  CarryingSurface first = refined(a, gap, edge);
+  if (gap.a == gap.b) return first;
+  CarryingSurface second = refined(b, gap, edge);
+  if (a.inside == b.outside) turn_inside_out(second.mesh);
+  if (b.inside == a.outside) turn_inside_out(first.mesh);
+  return {joined(std::array{std::move(first.mesh), std::move(second.mesh)}),
+          joined_fields(std::array{std::move(first.fields), std::move(second.fields)})};
 }
 
 /// The film seen from the surfaces around it.
@@ -274,7 +272,8 @@ std::optional<Surgery> taken_up(const Scene& scene, const Gap& gap, double hole)
 /// The bridge as `bridge_gap` makes it where both drops are larger than the hole.
 Opening bridged(const Scene& scene, const Gap& gap, const BridgeOptions& options) {
   const double edge = edge_at(gap, options);
-  const SurfaceMesh mesh = refined_surfaces(scene, gap, edge);
+  CarryingSurface surface = refined_surfaces(scene, gap, edge);
+  const SurfaceMesh& mesh = surface.mesh;
   // The film lies outside the liquid of the bridge, or is that liquid when it lies inside of a.
   const Side side = gap.side;
   const SurfaceTopology topology(mesh);
@@ -290,7 +289,9 @@ Opening bridged(const Scene& scene, const Gap& gap, const BridgeOptions& options
   const std::array<VertexId, 2> at{nearest_vertex(film, gap.from, across),
                                    nearest_vertex(film, gap.to, -across)};
   if (!at[0].is_valid() || !at[1].is_valid()) return {{{}, "the two sides are not to be found"}};
-  return opened(film, at, edge, options);
+  Opening result = opened(film, at, edge, options);
+  result.surgery.refined = std::move(surface);
+  return result;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "meniscus/surface/carry_fields.hpp"
 #include "meniscus/topology/necks.hpp"
 
 namespace meniscus {
@@ -11,6 +12,9 @@ namespace meniscus {
 struct [[nodiscard]] Surgery {
   std::vector<SurfaceMesh> pieces;
   std::string failure;
+  /// What the pieces were made of, where that is not the parents themselves but their surfaces
+  /// refined, and what lives on it; no mesh otherwise.
+  CarryingSurface refined = {};
 };
 
 /// Cuts a thread: the band of faces around the neck within 1.5 of its radius from the middle is

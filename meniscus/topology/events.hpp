@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "meniscus/core/vec.hpp"
+#include "meniscus/mesh/carried_fields.hpp"
 
 namespace meniscus {
 
@@ -22,6 +23,7 @@ struct TopologyEvent {
   /// Liquid that the cut or the bridge moved from one place to another before volumes were made to
   /// add up [R0³].
   double volume_moved = 0.0;
+  FieldExcess field_excess = {};  ///< of the children's fields over the range of the parents'
 };
 
 }  // namespace meniscus

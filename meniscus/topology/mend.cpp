@@ -15,6 +15,7 @@
 #include "meniscus/mesh/surface_pieces.hpp"
 #include "meniscus/surface/diffused.hpp"
 #include "meniscus/surface/even_out.hpp"
+#include "meniscus/surface/repair.hpp"
 #include "meniscus/topology/smooth_fill.hpp"
 
 namespace meniscus {
@@ -50,15 +51,13 @@ FacePatch creases(const SurfaceMesh& mesh, double crease_deg) {
   return patch;
 }
 
-/// The surface with its creases rounded; none where it has none, or where that makes it unsound.
-std::optional<SurfaceMesh> rounded(SurfaceMesh mesh, const Rounding& rounding, double volume) {
+/// The surface with its creases rounded; none where it has none, or too much moves.
+std::optional<SurfaceMesh> rounded(SurfaceMesh mesh, const Rounding& rounding) {
   const FacePatch patch = creases(mesh, rounding.crease_deg);
   if (std::ranges::find(patch, char{true}) == patch.end()) return std::nullopt;
   const double before = enclosed_volume(mesh);
   if (!smooth_part(mesh, patch, rounding.rings)) return std::nullopt;
   if (std::abs(enclosed_volume(mesh) / before - 1.0) > kMostVolume) return std::nullopt;
-  restore_volume(mesh, volume);
-  if (!find_defect(mesh).empty()) return std::nullopt;
   return mesh;
 }
 
@@ -87,9 +86,9 @@ FacePatch widened(const SurfaceMesh& mesh, const FacePatch& patch, double margin
 }
 
 /// The surface with what lies within `margin` mean edges of its creases cut out and closed
-/// smoothly: a crevice or a thorn goes as a whole. None where it does not leave one piece of the
-/// same genus.
-std::optional<SurfaceMesh> recapped(const SurfaceMesh& mesh, double margin, double volume) {
+/// smoothly: a crevice or a thorn goes as a whole. None where an end cannot be closed, or too much
+/// moves.
+std::optional<SurfaceMesh> recapped(const SurfaceMesh& mesh, double margin) {
   const FacePatch patch = creases(mesh, kRoundings.front().crease_deg);
   if (std::ranges::find(patch, char{true}) == patch.end()) return std::nullopt;
   std::vector<SurfaceMesh> left =
@@ -99,78 +98,82 @@ std::optional<SurfaceMesh> recapped(const SurfaceMesh& mesh, double margin, doub
   if (!cap_holes(closed)) return std::nullopt;
   if (std::abs(enclosed_volume(closed) / enclosed_volume(mesh) - 1.0) > kMostVolume)
     return std::nullopt;
-  restore_volume(closed, volume);
-  if (!find_defect(closed).empty()) return std::nullopt;
   return closed;
 }
 
 /// The first capping of a surface that can be remeshed.
-std::optional<MendReport> recap_and_remesh(SurfaceMesh& mesh, const RemeshOptions& options,
-                                           double volume) {
+std::optional<MendReport> recap_and_remesh(SurfaceMesh& mesh, SurfaceFields& fields,
+                                           const RemeshOptions& options, double volume) {
+  const int euler = euler_characteristic(mesh);
   for (const double margin : kMargins) {
-    std::optional<SurfaceMesh> capped = recapped(mesh, margin, volume);
+    std::optional<SurfaceMesh> capped = recapped(mesh, margin);
     if (!capped) continue;
-    const RemeshReport report = remesh(*capped, options);
-    if (!report.ok) continue;
-    const int closed = (euler_characteristic(*capped) - euler_characteristic(mesh)) / 2;
-    mesh = std::move(*capped);
-    return MendReport{report, true, closed};
+    const auto report = repair_and_remesh(mesh, fields, std::move(*capped), volume, options);
+    if (report) return MendReport{*report, true, (euler_characteristic(mesh) - euler) / 2};
   }
   return std::nullopt;
 }
 
 /// The first rounding of a surface that can be remeshed.
-std::optional<RemeshReport> round_and_remesh(SurfaceMesh& mesh, const RemeshOptions& options,
-                                             double volume) {
+std::optional<RemeshReport> round_and_remesh(SurfaceMesh& mesh, SurfaceFields& fields,
+                                             const RemeshOptions& options, double volume) {
   for (const Rounding& rounding : kRoundings) {
-    std::optional<SurfaceMesh> round = rounded(mesh, rounding, volume);
+    std::optional<SurfaceMesh> round = rounded(mesh, rounding);
     if (!round) continue;
-    const RemeshReport report = remesh(*round, options);
-    if (!report.ok) continue;
-    mesh = std::move(*round);
-    return report;
+    auto report = repair_and_remesh(mesh, fields, std::move(*round), volume, options);
+    if (report) return report;
   }
   return std::nullopt;
 }
 
 /// The least smoothed of the surfaces of the same volume that can be remeshed. None may have more
 /// holes than there were.
-std::optional<MendReport> diffuse_and_remesh(SurfaceMesh& mesh, const RemeshOptions& options) {
+std::optional<MendReport> diffuse_and_remesh(SurfaceMesh& mesh, SurfaceFields& fields,
+                                             const RemeshOptions& options) {
   if (!find_self_intersection(mesh).empty()) return std::nullopt;  // it has no inside
   const double edge = mean_edge(mesh);
   DiffusedSurface diffused(mesh, edge);
   for (const double length : kLengths) {
     std::optional<SurfaceMesh> smooth = diffused.smoothed(length * edge, kMostVolume);
-    if (!smooth || !find_defect(*smooth).empty()) continue;
+    if (!smooth) continue;
     const int closed = (euler_characteristic(*smooth) - euler_characteristic(mesh)) / 2;
     if (closed < 0) continue;
-    const RemeshReport report = remesh(*smooth, options);
-    if (!report.ok) continue;
-    mesh = std::move(*smooth);
-    return MendReport{report, true, closed, length * edge};
+    const auto report = repair_and_remesh(mesh, fields, std::move(*smooth), 0.0, options);
+    if (report) return MendReport{*report, true, closed, length * edge};
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-MendReport remesh_or_mend(SurfaceMesh& mesh, const RemeshOptions& given) {
-  MendReport report{.remesh = remesh(mesh, given)};
+MendReport remesh_or_mend(SurfaceMesh& mesh, const RemeshOptions& options) {
+  SurfaceFields none;
+  return remesh_or_mend(mesh, options, none);
+}
+
+MendReport remesh_or_mend(SurfaceMesh& mesh, const RemeshOptions& given, SurfaceFields& fields) {
+  MendReport report{.remesh = remesh(mesh, given, fields)};
   if (report.remesh.ok) return report;
   RemeshOptions options = given;
   if (options.volume == 0.0) options.volume = enclosed_volume(mesh);
   const double volume = options.volume;
   if (!(volume > 0.0)) return report;  // turned inside out: no shape to be mended
-  if (const auto remeshed = round_and_remesh(mesh, options, volume)) return {*remeshed, true};
+  if (const auto remeshed = round_and_remesh(mesh, fields, options, volume))
+    return {*remeshed, true};
   SurfaceMesh even = evened_out(mesh, kEvenEdge * mean_edge(mesh));
-  const auto replaced = [&](const RemeshReport& remeshed) {
+  auto [even_fields, excess] = replaced_fields(fields, mesh, even);
+  const auto replaced = [&](RemeshReport remeshed) {
+    widen(remeshed.field_excess, excess);
     mesh = std::move(even);
-    return MendReport{remeshed, true};
+    fields = std::move(even_fields);
+    return MendReport{std::move(remeshed), true};
   };
-  if (const RemeshReport remeshed = remesh(even, options); remeshed.ok) return replaced(remeshed);
-  if (const auto mended = recap_and_remesh(mesh, options, volume)) return *mended;
-  if (const auto remeshed = round_and_remesh(even, options, volume)) return replaced(*remeshed);
-  if (const auto mended = diffuse_and_remesh(mesh, options)) return *mended;
+  if (const RemeshReport remeshed = remesh(even, options, even_fields); remeshed.ok)
+    return replaced(remeshed);
+  if (const auto mended = recap_and_remesh(mesh, fields, options, volume)) return *mended;
+  if (const auto remeshed = round_and_remesh(even, even_fields, options, volume))
+    return replaced(*remeshed);
+  if (const auto mended = diffuse_and_remesh(mesh, fields, options)) return *mended;
   return report;
 }
 

@@ -19,5 +19,8 @@ struct [[nodiscard]] MendReport {
   double smoothed_over = 0.0;  ///< [R0] length that the whole surface was smoothed over
 };
 MendReport remesh_or_mend(SurfaceMesh& mesh, const RemeshOptions& options);
+/// The same, and fields follow: to a mended shape as to any that replaces another
+/// (`replaced_fields`). On failure they are unchanged as well.
+MendReport remesh_or_mend(SurfaceMesh& mesh, const RemeshOptions& options, SurfaceFields& fields);
 
 }  // namespace meniscus

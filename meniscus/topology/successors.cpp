@@ -62,6 +62,34 @@ const Interface& outermost(const Scene& scene, std::span<const std::size_t> pare
   return scene.interfaces[parents.front()];
 }
 
+/// What the pieces are made of: the parents, unless surgery refined them first.
+CarryingSurface origin_of(const Scene& scene, Succession& succession) {
+  if (succession.refined.mesh.num_faces() > 0) return std::move(succession.refined);
+  std::vector<SurfaceMesh> meshes;
+  std::vector<SurfaceFields> fields;
+  for (const std::size_t i : succession.parents) {
+    meshes.push_back(scene.interfaces[i].mesh);
+    fields.push_back(scene.interfaces[i].fields);
+  }
+  return {joined(meshes), joined_fields(fields)};
+}
+
+/// Gives the children what lives on the parents. `cut` has them as they were before their volumes
+/// were restored.
+FieldExcess give_fields(const Scene& scene, Succession& succession,
+                        std::span<const SurfaceMesh> cut, std::span<Child> children) {
+  if (scene.interfaces[succession.parents.front()].fields.empty()) return {};
+  std::vector<SurfaceMesh> restored;
+  for (const Child& child : children) restored.push_back(child.interface.mesh);
+  const CarryingSurface origin = origin_of(scene, succession);
+  const ReplacedFields replaced =
+      replaced_fields(origin.fields, origin.mesh, joined(cut), joined(restored));
+  std::vector<SurfaceFields> fields = split_fields(replaced.fields, restored);
+  for (std::size_t k = 0; k < children.size(); ++k)
+    children[k].interface.fields = std::move(fields[k]);
+  return replaced.excess;
+}
+
 std::vector<Child> children_of(const Scene& scene, Succession& succession) {
   const Interface& outer = outermost(scene, succession.parents);
   const Interface& heir = scene.interfaces[largest(scene, succession.parents)];
@@ -165,12 +193,15 @@ std::string succeed(Scene& scene, Succession succession, TopologyEvent& event) {
   if (children.empty()) return "nothing is left";
   event.volume_moved = std::abs(volume.of_faces - enclosed_liquid(children));
   share_volume(children, volume.of_faces);
+  std::vector<SurfaceMesh> cut;
   for (Child& child : children) {
     if (!(child.interface.volume > 0.0)) return "a fragment encloses nothing";
+    cut.push_back(child.interface.mesh);
     restore_volume(child.interface.mesh, child.interface.volume);
     if (std::string defect = find_defect(child.interface.mesh); !defect.empty()) return defect;
   }
   add_curved_part(children, volume);
+  const FieldExcess excess = give_fields(scene, succession, cut, children);
   Scene after = with_children(scene, succession.parents, children);
   if (std::string conflict = find_conflict(after); !conflict.empty()) return conflict;
 
@@ -180,6 +211,7 @@ std::string succeed(Scene& scene, Succession succession, TopologyEvent& event) {
     event.children.push_back(child.interface.drop);
     born.push_back(child.interface);
   }
+  event.field_excess = excess;
   event.volume_before = volume.kept;
   event.volume_after = enclosed_liquid(children);
   event.area_before = area(parents);

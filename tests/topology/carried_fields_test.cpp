@@ -1,0 +1,167 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "meniscus/mesh/shapes.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/carry_fields.hpp"
+#include "meniscus/topology/mend.hpp"
+#include "tests/topology/scenes.hpp"
+
+namespace meniscus {
+namespace {
+
+using enum FieldTransfer;
+
+constexpr double kC0 = 9.0;
+
+Vec3 center(const SurfaceMesh& mesh, FaceId f) {
+  const FaceVertices& v = mesh.faces[f];
+  return (mesh.x[v[0]] + mesh.x[v[1]] + mesh.x[v[2]]) / 3.0;
+}
+
+double wave(const Vec3& x) { return std::cos(2.0 * x.x() + x.y()); }
+
+/// The wave on vertices and on faces, interpolated first and conserved second.
+SurfaceFields waves(const SurfaceMesh& mesh) {
+  SurfaceFields fields;
+  for (const FieldTransfer transfer : {interpolated, conserved}) {
+    auto& on_vertices = fields.on_vertices.emplace_back();
+    auto& on_faces = fields.on_faces.emplace_back();
+    on_vertices.name = on_faces.name = transfer == conserved ? "amount" : "colour";
+    on_vertices.transfer = on_faces.transfer = transfer;
+    for (const Vec3& x : mesh.x) on_vertices.values.add(wave(x));
+    for (const FaceId f : mesh.faces.ids()) on_faces.values.add(wave(center(mesh, f)));
+  }
+  return fields;
+}
+
+/// ∮ f dS of what is conserved, and ∮ |f| dS.
+struct Amounts {
+  double on_vertices = 0.0, on_faces = 0.0, size = 0.0;
+};
+void add_amounts(const SurfaceMesh& mesh, const SurfaceFields& fields, Amounts& amounts) {
+  ASSERT_EQ(fields.on_vertices[1].values.size(), mesh.num_vertices());
+  ASSERT_EQ(fields.on_faces[1].values.size(), mesh.num_faces());
+  const VertexField<double> areas = vertex_areas(mesh);
+  for (const VertexId v : areas.ids()) {
+    amounts.on_vertices += areas[v] * fields.on_vertices[1].values[v];
+    amounts.size += areas[v] * std::abs(fields.on_vertices[1].values[v]);
+  }
+  for (const FaceId f : mesh.faces.ids())
+    amounts.on_faces += face_area_vector(mesh, f).norm() * fields.on_faces[1].values[f];
+}
+Amounts amounts_of(const Scene& scene) {
+  Amounts amounts;
+  for (const Interface& drop : scene.interfaces) add_amounts(drop.mesh, drop.fields, amounts);
+  return amounts;
+}
+
+void expect_same(const Amounts& after, const Amounts& before) {
+  EXPECT_NEAR(after.on_vertices, before.on_vertices, 1e-12 * before.size);
+  EXPECT_NEAR(after.on_faces, before.on_faces, 1e-12 * before.size);
+}
+
+/// Of the wave: |f| ≤ 1. What is interpolated never leaves that, what is conserved by the excess.
+void expect_in_range(const SurfaceFields& fields, const FieldExcess& excess) {
+  const auto expect = [](const auto& field, double above, double below) {
+    const auto [low, high] = std::ranges::minmax(field.values);
+    EXPECT_LE(high, 1.0 + above) << field.name;
+    EXPECT_GE(low, -1.0 - below) << field.name;
+  };
+  expect(fields.on_vertices[0], 0.0, 0.0);
+  expect(fields.on_faces[0], 0.0, 0.0);
+  expect(fields.on_vertices[1], excess.above, excess.below);
+  expect(fields.on_faces[1], excess.above, excess.below);
+}
+
+Scene carrying(Scene scene) {
+  for (Interface& drop : scene.interfaces) drop.fields = waves(drop.mesh);
+  return scene;
+}
+
+/// Amounts, ranges, and that everything but the fields is what it is without them.
+void expect_carried(const Scene& bare, const TopologyOptions& options) {
+  Scene without = bare, scene = carrying(bare);
+  const Amounts before = amounts_of(scene);
+  ASSERT_EQ(apply_topology(without, options, {}).events.size(), 1U);
+  const TopologyReport report = apply_topology(scene, options, {});
+  ASSERT_EQ(report.events.size(), 1U);
+  ASSERT_EQ(scene.interfaces.size(), without.interfaces.size());
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+    EXPECT_EQ(scene.interfaces[i].mesh, without.interfaces[i].mesh);
+  expect_same(amounts_of(scene), before);
+  FieldExcess excess = report.events[0].field_excess;
+  widen(excess, report.finishing_excess);
+  for (const Interface& drop : scene.interfaces) expect_in_range(drop.fields, excess);
+  testing::Test::RecordProperty("above", std::to_string(excess.above));
+  EXPECT_LT(std::max(excess.above, excess.below), 0.2);
+}
+
+Scene dumbbell() {
+  const std::vector<SurfaceMesh> meshes{test::wavy_thread(2.0, 0.5, 4, -0.9, 1, kC0)};
+  return test::scene_of(meshes, kC0);
+}
+
+Scene two_spheres(double gap) {
+  constexpr double kDensity = 400 / (4.0 * std::numbers::pi);
+  std::vector<SurfaceMesh> meshes;
+  for (const double side : {-1.0, 1.0}) {
+    meshes.push_back(sphere(400, 1.0, Vec3(side * (1.0 + gap / 2.0), 0, 0)));
+    EXPECT_TRUE(remesh(meshes.back(), {.C0 = kDensity}).ok);
+  }
+  return test::scene_of(meshes, kDensity);
+}
+
+TEST(CarriedFields, GoThroughACut) { expect_carried(dumbbell(), {.breakup_radius = 0.06}); }
+
+TEST(CarriedFields, GoThroughABridge) {
+  expect_carried(two_spheres(0.01), {.coalescence = true, .coalescence_gap = 0.02});
+}
+
+// Far from the neck nothing is to be seen of a cut but a remeshing of the children.
+TEST(CarriedFields, AreChangedByACutOnlyNearTheNeck) {
+  Scene scene = dumbbell();
+  for (Interface& drop : scene.interfaces) {
+    drop.fields = waves(drop.mesh);
+    // 1 on the neck and −1 far from it: what the cut takes is above all of what is far.
+    for (const VertexId v : drop.mesh.x.ids())
+      drop.fields.on_vertices[1].values[v] = std::abs(drop.mesh.x[v].x()) < 0.6 ? 0.5 : -1.0;
+  }
+  ASSERT_EQ(apply_topology(scene, {.breakup_radius = 0.06}, {}).events.size(), 1U);
+  for (const Interface& drop : scene.interfaces)
+    for (const VertexId v : drop.mesh.x.ids())
+      if (std::abs(drop.mesh.x[v].x()) > 1.5) {
+        EXPECT_NEAR(drop.fields.on_vertices[1].values[v], -1.0, 0.02);
+      }
+}
+
+/// A sphere with a slit pressed into it that no remeshing can round.
+SurfaceMesh slit_sphere() {
+  SurfaceMesh mesh = sphere(1200, 1.0);
+  for (Vec3& x : mesh.x) {
+    const double across = std::abs(x.y()) / 0.05, along = std::abs(x.x()) / 0.4;
+    if (x.z() > 0.0 && across < 1.0 && along < 1.0) x *= 1.0 - 0.6 * (1.0 - across);
+  }
+  return mesh;
+}
+
+TEST(CarriedFields, GoThroughMendedCreases) {
+  SurfaceMesh mesh = slit_sphere(), bare = mesh;
+  SurfaceFields fields = waves(mesh);
+  Amounts before, after;
+  add_amounts(mesh, fields, before);
+  const RemeshOptions options = sound_remeshing(10.0, 0.05);
+  ASSERT_TRUE(remesh_or_mend(bare, options).is_mended);
+  const MendReport report = remesh_or_mend(mesh, options, fields);
+  ASSERT_TRUE(report.remesh.ok && report.is_mended) << report.remesh.failure;
+  EXPECT_EQ(mesh, bare);
+  add_amounts(mesh, fields, after);
+  expect_same(after, before);
+  expect_in_range(fields, report.remesh.field_excess);
+}
+
+}  // namespace
+}  // namespace meniscus
