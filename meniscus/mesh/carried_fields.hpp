@@ -50,4 +50,9 @@ struct FieldExcess {
   double above = 0.0, below = 0.0;  ///< ≥ 0, over all fields, in the unit of the worst one
 };
 
+/// Throws InvalidInput naming the field that has a wrong length, a value that is not finite, the
+/// name of an earlier one, or no name; or that is conserved on the vertices of a volume mesh.
+void check_fields(const SurfaceFields& fields, const SurfaceMesh& mesh);
+void check_fields(const VolumeFields& fields, const TetMesh& mesh);
+
 }  // namespace meniscus

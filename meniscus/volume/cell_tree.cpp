@@ -1,0 +1,86 @@
+#include "meniscus/volume/cell_tree.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+
+#include "meniscus/core/error.hpp"
+
+namespace meniscus {
+namespace {
+
+namespace bg = boost::geometry;
+using Point = bg::model::point<double, 3, bg::cs::cartesian>;
+using Box = bg::model::box<Point>;
+using Entry = std::pair<Box, std::int32_t>;
+
+Point point(const Vec3& x) { return {x.x(), x.y(), x.z()}; }
+
+Box box(const TetCorners& x) {
+  return {point(x[0].cwiseMin(x[1]).cwiseMin(x[2]).cwiseMin(x[3])),
+          point(x[0].cwiseMax(x[1]).cwiseMax(x[2]).cwiseMax(x[3]))};
+}
+
+std::vector<Entry> entries(const TetMesh& mesh, const std::vector<CellId>& cells) {
+  std::vector<Entry> all;
+  all.reserve(cells.size());
+  for (const CellId c : cells) all.emplace_back(box(corners(mesh, c)), c.value);
+  return all;
+}
+
+}  // namespace
+
+TetCorners corners(const TetMesh& mesh, CellId c) {
+  const CellVertices& v = mesh.cells[c];
+  return {mesh.x[v[0]], mesh.x[v[1]], mesh.x[v[2]], mesh.x[v[3]]};
+}
+
+struct CellTree::Index {
+  bg::index::rtree<Entry, bg::index::quadratic<16>> tree;
+};
+
+CellTree::CellTree(const TetMesh& mesh, const std::vector<CellId>& cells)
+    : mesh_(mesh),
+      index_(std::make_unique<Index>(Index{decltype(Index::tree)(entries(mesh, cells))})) {
+  MENISCUS_ASSERT(!cells.empty());
+}
+
+CellTree::~CellTree() = default;
+
+std::vector<CellId> CellTree::near(const TetCorners& tet) const {
+  std::vector<CellId> found;
+  const auto& tree = index_->tree;
+  for (auto hit = tree.qbegin(bg::index::intersects(box(tet))); hit != tree.qend(); ++hit)
+    found.push_back({hit->second});
+  std::ranges::sort(found);
+  return found;
+}
+
+CellTree::Hit CellTree::closest(const Vec3& p) const {
+  Hit best;
+  best.squared_distance = std::numeric_limits<double>::infinity();
+  const auto& tree = index_->tree;
+  const auto all = static_cast<unsigned>(tree.size());
+  for (auto hit = tree.qbegin(bg::index::nearest(point(p), all)); hit != tree.qend(); ++hit) {
+    if (bg::comparable_distance(point(p), hit->first) > best.squared_distance) break;
+    const CellId c{hit->second};
+    const TetCorners x = corners(mesh_, c);
+    const TetPoint at = closest_point(x, p);
+    const double squared = (at.point - p).squaredNorm();
+    const auto corner = std::ranges::find(x, p);
+    if (corner != x.end()) {
+      Hit exact{c, {p, {}}, 0.0};
+      exact.at.weights[static_cast<std::size_t>(corner - x.begin())] = 1.0;
+      return exact;
+    }
+    if (squared < best.squared_distance) best = {c, at, squared};
+  }
+  MENISCUS_ASSERT(best.cell.is_valid());
+  return best;
+}
+
+}  // namespace meniscus

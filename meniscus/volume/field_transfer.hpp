@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "meniscus/mesh/carried_fields.hpp"
+
+namespace meniscus {
+
+/// For each region of a new mesh the regions of the old one whose liquid it took: the children of a
+/// cut name one parent, the child of a merge names two. Empty: every region is what it was.
+using RegionSources = Field<RegionId, std::vector<RegionId>>;
+
+/// The fields of a mesh on another mesh of the same liquids (docs/fields.md, "In the bulk").
+/// Conserved: integrals of a limited linear reconstruction over the intersections of cells. Σ v |c|
+/// stays to round-off over the regions that share liquid. Interpolated: P1 at vertices, never
+/// leaving the old range. Second order where the interfaces agree; O(n log n).
+/// Raises `excess` by what conserved values leave the old range of their regions.
+/// Throws InvalidInput when a field does not fit the mesh (`check_fields`).
+[[nodiscard]] VolumeFields transfer_fields(const VolumeFields& fields, const TetMesh& before,
+                                           const TetMesh& after, FieldExcess& excess,
+                                           const RegionSources& sources = {});
+
+/// The fields after vertices moved, connectivity kept: interpolated values stay, conserved ones
+/// become v |c before| / |c after|. Raises `excess` as `transfer_fields` does. Linear.
+void move_fields(VolumeFields& fields, const TetMesh& before, const TetMesh& after,
+                 FieldExcess& excess);
+
+}  // namespace meniscus

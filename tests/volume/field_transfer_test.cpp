@@ -1,0 +1,320 @@
+#include "meniscus/volume/field_transfer.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/volume/tet_overlap.hpp"
+#include "meniscus/volume/tetrahedralize.hpp"
+#include "tests/volume/scenes.hpp"
+
+namespace meniscus {
+namespace {
+
+double wave(const Vec3& x) { return 1.5 + std::cos(1.3 * x.x() + 0.7 * x.y() - 0.4 * x.z() + 0.3); }
+
+TetMesh meshed(const Scene& scene, double cell_volume = 2.0) {
+  TetMesh mesh;
+  EXPECT_TRUE(tetrahedralize(scene, {.cell_volume = cell_volume}, mesh).ok);
+  return mesh;
+}
+
+/// A drop in a sphere of radius 2, turned, so that its interface has other triangles.
+Scene turned_scene(int vertices, unsigned seed) {
+  std::mt19937 random(seed);
+  const Mat3 turn = test::random_rotation(random);
+  Scene scene = test::drop_in_sphere(vertices, 2.0, vertices);
+  for (Vec3& x : scene.interfaces[0].mesh.x) x = turn * x;
+  return scene;
+}
+
+/// Means over the cells by a rule of degree 2.
+template <class Function>
+CellField<double> means(const TetMesh& mesh, const Function& f) {
+  constexpr double a = 0.5854101966249685, b = 0.1381966011250105;  // (5 ± √5)/20 and so on
+  CellField<double> values;
+  for (const CellId c : mesh.cells.ids()) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      Vec3 x = Vec3::Zero();
+      for (std::size_t j = 0; j < 4; ++j) x += (j == k ? a : b) * mesh.x[mesh.cells[c][j]];
+      sum += 0.25 * f(x);
+    }
+    values.add(sum);
+  }
+  return values;
+}
+
+template <class Function>
+VolumeFields sampled(const TetMesh& mesh, const Function& f) {
+  VolumeFields fields;
+  fields.on_cells.push_back({"amount", "", FieldTransfer::conserved, means(mesh, f)});
+  fields.on_cells.push_back({"level", "", FieldTransfer::interpolated, means(mesh, f)});
+  Field<TetVertexId, double> at_vertices;
+  for (const Vec3& x : mesh.x) at_vertices.add(f(x));
+  fields.on_vertices.push_back({"nodal", "", FieldTransfer::interpolated, at_vertices});
+  return fields;
+}
+
+std::vector<double> amounts(const TetMesh& mesh, const CellField<double>& values) {
+  std::vector<long double> sums;
+  for (const CellId c : mesh.cells.ids()) {
+    const auto r = static_cast<std::size_t>(mesh.region[c].value);
+    if (sums.size() <= r) sums.resize(r + 1, 0.0L);
+    sums[r] += static_cast<long double>(values[c]) * signed_volume(mesh, c);
+  }
+  return {sums.begin(), sums.end()};
+}
+
+/// Σ over cells (v − mean f)² |c| over the whole volume, square root.
+double cell_error(const TetMesh& mesh, const CellField<double>& values) {
+  const CellField<double> exact = means(mesh, wave);
+  double sum = 0.0, volume = 0.0;
+  for (const CellId c : mesh.cells.ids()) {
+    sum += std::pow(values[c] - exact[c], 2) * signed_volume(mesh, c);
+    volume += signed_volume(mesh, c);
+  }
+  return std::sqrt(sum / volume);
+}
+
+double vertex_error(const TetMesh& mesh, const Field<TetVertexId, double>& values) {
+  double sum = 0.0, volume = 0.0;
+  for (const CellId c : mesh.cells.ids())
+    for (const TetVertexId v : mesh.cells[c]) {
+      sum += std::pow(values[v] - wave(mesh.x[v]), 2) * 0.25 * signed_volume(mesh, c);
+      volume += 0.25 * signed_volume(mesh, c);
+    }
+  return std::sqrt(sum / volume);
+}
+
+template <class Values>
+double least(const Values& values) {
+  return *std::ranges::min_element(values);
+}
+template <class Values>
+double most(const Values& values) {
+  return *std::ranges::max_element(values);
+}
+
+void expect_same_amounts(const std::vector<double>& a, const std::vector<double>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t r = 0; r < a.size(); ++r)
+    EXPECT_NEAR(a[r], b[r], 1e-12 * std::abs(a[r])) << "region " << r;
+}
+
+TEST(TetOverlap, OfATetrahedronWithItselfAndWithAShiftedOne) {
+  const TetCorners unit{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
+  EXPECT_NEAR(tet_overlap(unit, unit).volume, 1.0 / 6.0, 1e-15);
+  TetCorners shifted = unit;
+  for (Vec3& x : shifted) x += Vec3(0.25, 0.25, 0.0);
+  // x ≥ 1/4, y ≥ 1/4, z ≥ 0, x + y + z ≤ 1: half the size.
+  const VolumeMoments part = tet_overlap(unit, shifted);
+  EXPECT_NEAR(part.volume, 0.125 / 6.0, 1e-16);
+  EXPECT_LT((part.moment / part.volume - Vec3(0.375, 0.375, 0.125)).norm(), 1e-14);
+  for (Vec3& x : shifted) x += Vec3(1.0, 0.0, 0.0);
+  EXPECT_EQ(tet_overlap(unit, shifted).volume, 0.0);
+}
+
+TEST(TetOverlap, IsSymmetricOnRandomTetrahedra) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> at(-1.0, 1.0);
+  const auto tet = [&] {
+    for (;;) {
+      TetCorners x;
+      for (Vec3& p : x) p = Vec3(at(random), at(random), at(random));
+      if ((x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) > 0.1) return x;
+    }
+  };
+  for (int i = 0; i < 200; ++i) {
+    const TetCorners a = tet(), b = tet();
+    const VolumeMoments ab = tet_overlap(a, b), ba = tet_overlap(b, a);
+    EXPECT_NEAR(ab.volume, ba.volume, 1e-14) << i;
+    EXPECT_LT((ab.moment - ba.moment).norm(), 1e-14) << i;
+  }
+}
+
+TEST(FieldTransfer, KeepsAmountsAndRangesBetweenOtherInterfaces) {
+  const TetMesh before = meshed(turned_scene(200, 1)), after = meshed(turned_scene(200, 2), 1.4);
+  const VolumeFields fields = sampled(before, wave);
+  FieldExcess excess;
+  const auto start = std::chrono::steady_clock::now();
+  const VolumeFields carried = transfer_fields(fields, before, after, excess);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  RecordProperty("microseconds_per_cell", std::to_string(1e6 * wall.count() / after.num_cells()));
+  RecordProperty("cells", after.num_cells());
+  check_fields(carried, after);
+  expect_same_amounts(amounts(before, fields.on_cells[0].values),
+                      amounts(after, carried.on_cells[0].values));
+  // The drop and the matrix measure the same in both meshes to round-off.
+  EXPECT_LT(std::max(excess.above, excess.below), 1e-12);
+  EXPECT_GE(least(carried.on_cells[1].values), least(fields.on_cells[1].values));
+  EXPECT_LE(most(carried.on_cells[1].values), most(fields.on_cells[1].values));
+  EXPECT_GE(least(carried.on_vertices[0].values), least(fields.on_vertices[0].values));
+  EXPECT_LE(most(carried.on_vertices[0].values), most(fields.on_vertices[0].values));
+}
+
+TEST(FieldTransfer, KeepsConstantsAndTheOwnMesh) {
+  const TetMesh before = meshed(turned_scene(100, 1)), after = meshed(turned_scene(100, 2));
+  FieldExcess excess;
+  const VolumeFields constant = sampled(before, [](const Vec3&) { return 3.0; });
+  const VolumeFields carried = transfer_fields(constant, before, after, excess);
+  for (const double v : carried.on_cells[0].values) EXPECT_NEAR(v, 3.0, 1e-12);
+  for (const double v : carried.on_cells[1].values) EXPECT_DOUBLE_EQ(v, 3.0);
+  for (const double v : carried.on_vertices[0].values) EXPECT_DOUBLE_EQ(v, 3.0);
+  const VolumeFields fields = sampled(before, wave);
+  const VolumeFields same = transfer_fields(fields, before, before, excess);
+  EXPECT_EQ(same.on_vertices[0].values, fields.on_vertices[0].values);
+  for (const CellId c : before.cells.ids())
+    EXPECT_NEAR(same.on_cells[0].values[c], fields.on_cells[0].values[c], 1e-10);
+}
+
+/// Errors of one transfer at three levels, the mean edge halved from one to the next.
+void expect_second_order(unsigned seed_of_the_other, const std::string& name) {
+  std::vector<double> conserved, interpolated, nodal;
+  for (const int vertices : {75, 300, 1200}) {
+    const TetMesh before = meshed(turned_scene(vertices, 1));
+    const TetMesh after = meshed(turned_scene(vertices, seed_of_the_other), 1.4);
+    FieldExcess excess;
+    const VolumeFields carried = transfer_fields(sampled(before, wave), before, after, excess);
+    conserved.push_back(cell_error(after, carried.on_cells[0].values));
+    interpolated.push_back(cell_error(after, carried.on_cells[1].values));
+    nodal.push_back(vertex_error(after, carried.on_vertices[0].values));
+  }
+  for (const auto& [what, error] :
+       {std::pair{"conserved", &conserved}, std::pair{"interpolated", &interpolated},
+        std::pair{"nodal", &nodal}}) {
+    const double order = 0.5 * std::log2(error->front() / error->back());
+    ::testing::Test::RecordProperty(
+        name + what, fmt::format("{:.3e} order {:.2f}", fmt::join(*error, " "), order));
+    EXPECT_GT(order, 1.8) << what << fmt::format(" {:.3e}", fmt::join(*error, " "));
+  }
+}
+
+TEST(FieldTransfer, IsOfSecondOrderBetweenTheSameInterfaces) { expect_second_order(1, "same_"); }
+TEST(FieldTransfer, IsOfSecondOrderBetweenOtherInterfaces) { expect_second_order(2, "other_"); }
+
+TEST(FieldTransfer, LosesLittleInTwoHundredTransfers) {
+  const TetMesh meshes[] = {meshed(turned_scene(150, 1)), meshed(turned_scene(150, 2), 1.6)};
+  VolumeFields fields = sampled(meshes[0], wave);
+  const std::vector<double> start = amounts(meshes[0], fields.on_cells[0].values);
+  FieldExcess excess;
+  double after_two = 0.0;
+  std::string errors;
+  for (std::size_t k = 1; k <= 200; ++k) {
+    fields = transfer_fields(fields, meshes[(k - 1) % 2], meshes[k % 2], excess);
+    const double error = cell_error(meshes[k % 2], fields.on_cells[0].values);
+    if (k == 2) after_two = error;
+    if (k == 2 || k == 20 || k == 200)
+      errors += fmt::format("{}: {:.3e} {:.3e} {:.3e}; ", k, error,
+                            cell_error(meshes[k % 2], fields.on_cells[1].values),
+                            vertex_error(meshes[k % 2], fields.on_vertices[0].values));
+  }
+  RecordProperty("errors", errors);
+  RecordProperty("excess", fmt::format("{:.2e} {:.2e}", excess.above, excess.below));
+  const double last = cell_error(meshes[0], fields.on_cells[0].values);
+  // Every pair of transfers adds at most the error of the first: growth is linear at worst.
+  EXPECT_LT(last, 100.0 * after_two);
+  expect_same_amounts(start, amounts(meshes[0], fields.on_cells[0].values));
+}
+
+TEST(FieldTransfer, KeepsAmountsOfMovingCells) {
+  const TetMesh before = meshed(turned_scene(100, 1));
+  TetMesh after = before;
+  for (Vec3& x : after.x) x = 1.1 * x;
+  VolumeFields fields = sampled(before, wave);
+  const VolumeFields old = fields;
+  FieldExcess excess;
+  move_fields(fields, before, after, excess);
+  expect_same_amounts(amounts(before, old.on_cells[0].values),
+                      amounts(after, fields.on_cells[0].values));
+  EXPECT_EQ(fields.on_cells[1], old.on_cells[1]);
+  EXPECT_EQ(fields.on_vertices, old.on_vertices);
+  EXPECT_EQ(excess.above, 0.0);
+  EXPECT_GT(excess.below, 0.0);
+  FieldExcess none;
+  VolumeFields still = old;
+  move_fields(still, before, before, none);
+  EXPECT_EQ(still, old);
+}
+
+TEST(FieldTransfer, ReportsTheExcessOfAConstantOnARegionThatShrank) {
+  const TetMesh before = meshed(test::drop_in_sphere(100, 2.0, 100));
+  TetMesh after = before;
+  for (Vec3& x : after.x) x *= 0.99;
+  FieldExcess excess;
+  const VolumeFields constant = sampled(before, [](const Vec3&) { return 2.0; });
+  const VolumeFields carried = transfer_fields(constant, before, after, excess);
+  expect_same_amounts(amounts(before, constant.on_cells[0].values),
+                      amounts(after, carried.on_cells[0].values));
+  const double expected = 2.0 / std::pow(0.99, 3) - 2.0;
+  EXPECT_NEAR(excess.above, expected, 1e-12);
+  EXPECT_EQ(excess.below, 0.0);
+}
+
+TEST(FieldTransfer, SharesAParentAmongItsChildrenAndSumsWhatMerges) {
+  Scene one = test::scene_within(sphere(150, 4.0)), two = test::scene_within(sphere(150, 4.0));
+  SurfaceMesh parent = sphere(150);
+  for (Vec3& x : parent.x) x.x() *= 2.2;
+  test::add_drop(one, parent);
+  test::add_drop(two, sphere(100, 0.9, Vec3(-1.0, 0.0, 0.0)));
+  test::add_drop(two, sphere(100, 0.9, Vec3(1.0, 0.0, 0.0)));
+  const TetMesh whole = meshed(one), parts = meshed(two);
+  const RegionId matrix{0}, a{1}, b{2};
+  RegionSources cut, merge;
+  for (const auto& sources : {std::vector{matrix}, std::vector{a}, std::vector{a}})
+    cut.add(sources);
+  for (const auto& sources : {std::vector{matrix}, std::vector{a, b}}) merge.add(sources);
+  FieldExcess excess;
+  const VolumeFields parent_fields = sampled(whole, wave);
+  const VolumeFields children = transfer_fields(parent_fields, whole, parts, excess, cut);
+  const auto old = amounts(whole, parent_fields.on_cells[0].values);
+  const auto now = amounts(parts, children.on_cells[0].values);
+  EXPECT_NEAR(now[0], old[0], 1e-12 * old[0]);
+  EXPECT_NEAR(now[1] + now[2], old[1], 1e-12 * old[1]);
+  const VolumeFields merged = transfer_fields(children, parts, whole, excess, merge);
+  expect_same_amounts(old, amounts(whole, merged.on_cells[0].values));
+  EXPECT_THROW((void)transfer_fields(children, parts, whole, excess), InvalidInput);
+}
+
+void expect_refusal(const VolumeFields& fields, const TetMesh& mesh, const std::string& text) {
+  try {
+    check_fields(fields, mesh);
+    FAIL() << "accepted; expected " << text;
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+  }
+}
+
+TEST(FieldTransfer, RefusesFieldsThatDoNotFit) {
+  const TetMesh mesh = meshed(test::drop_in_sphere(60, 2.0, 60));
+  const VolumeFields good = sampled(mesh, wave);
+  check_fields(good, mesh);
+  VolumeFields bad = good;
+  bad.on_cells[0].values[CellId{7}] = std::nan("");
+  expect_refusal(bad, mesh, "field \"amount\": value 7 of cells is nan");
+  bad = good;
+  bad.on_vertices[0].values.add(0.0);
+  expect_refusal(bad, mesh, "field \"nodal\": ");
+  bad = good;
+  bad.on_vertices[0].name = "level";
+  bad.on_cells[0].name = "level";
+  expect_refusal(bad, mesh, "field \"level\": named twice");
+  bad = good;
+  bad.on_vertices[0].transfer = FieldTransfer::conserved;
+  expect_refusal(bad, mesh, "field \"nodal\": conserved");
+  bad = good;
+  bad.on_cells[1].name.clear();
+  expect_refusal(bad, mesh, "no name");
+  FieldExcess excess;
+  EXPECT_THROW((void)transfer_fields(bad, mesh, mesh, excess), InvalidInput);
+  SurfaceFields surface;
+  surface.on_faces.push_back({"film", "", FieldTransfer::conserved, FaceField<double>(3, 0.0)});
+  EXPECT_THROW(check_fields(surface, sphere(60)), InvalidInput);
+}
+
+}  // namespace
+}  // namespace meniscus
