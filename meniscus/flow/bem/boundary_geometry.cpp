@@ -1,6 +1,9 @@
 #include "meniscus/flow/bem/boundary_geometry.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "meniscus/core/error.hpp"
 
 namespace meniscus::bem {
 namespace {
@@ -9,6 +12,7 @@ std::vector<bool> enclosing(const Scene& scene, const Interface& interface) {
   std::vector<bool> result(scene.interfaces.size(), false);
   for (RegionId r = interface.outside; r != RegionId{0};) {
     const auto around = static_cast<std::size_t>(r.value - 1);
+    MENISCUS_ASSERT(around < result.size() && !result[around], "region {}", r.value);
     result[around] = true;
     r = scene.interfaces[around].outside;
   }
@@ -28,6 +32,7 @@ BoundaryGeometry make_geometry(const Scene& scene) {
     const InterfaceElements& elements = surface.elements;
     surface.range.begin = geometry.size();
     for (const VertexId v : elements.x.ids()) {
+      MENISCUS_ASSERT(std::abs(elements.n[v].norm() - 1.0) < 1e-9, "vertex {}", v.value);
       geometry.points.add(elements.x[v], elements.weight[v] * elements.n[v]);
       geometry.surface_of.push_back(static_cast<std::int32_t>(geometry.surfaces.size()));
     }

@@ -120,6 +120,7 @@ double IntegralEquation::mean_normal_component(std::size_t m, const SourceVector
     flux += elements.weight[i] * elements.n[i].dot(v.at(geometry_.index(m, i)));
     area += elements.weight[i];
   }
+  MENISCUS_ASSERT(area > 0.0, "surface {}", m);
   return flux / area;
 }
 
@@ -171,6 +172,7 @@ std::vector<VertexField<Vec3>> IntegralEquation::velocity(std::span<const double
   for (const std::size_t k : outermost_first()) {
     const InterfaceElements& elements = geometry_.surfaces[k].elements;
     const Contrast& contrast = contrast_[k];
+    MENISCUS_ASSERT(contrast.outer > 0.0, "surface {}", k);
     u[k].resize(elements.x.size());
     for (const VertexId v : u[k].ids()) {
       const Vec3& x = elements.x[v];

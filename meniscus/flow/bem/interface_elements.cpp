@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/flow/bem/face_rules.hpp"
 #include "meniscus/flow/bem/quartic_curvature.hpp"
 #include "meniscus/surface/edge_interpolation.hpp"
@@ -93,6 +94,8 @@ InterfaceElements make_elements(const SurfaceMesh& mesh) {
     }
     set_stencil(face, mesh.faces[f], middles);
     set_shares(face);
+    MENISCUS_ASSERT(face.size > 0.0 && face.share.size() == face.columns.size(), "face {}",
+                    f.value);
     for (std::size_t c = 0; c < face.columns.size(); ++c)
       result.weight[face.columns[c]] += face.share[c];
     result.faces.add(std::move(face));

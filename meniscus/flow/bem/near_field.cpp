@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/flow/bem/face_moments.hpp"
 
 namespace meniscus::bem {
@@ -78,6 +79,7 @@ class RowBuilder {
     const SurfaceTree::Hit nearest = surface.tree.closest(x_);
     const Face& face = surface.elements.faces[nearest.face];
     const std::vector<double> weights = value_weights(face, nearest.weights);
+    MENISCUS_ASSERT(weights.size() == face.columns.size(), "point {}", i);
     const bool is_inside = geometry_.surfaces[own].is_inside_of[m];
     for (std::size_t c = 0; c < weights.size(); ++c)
       subtract(m, geometry_.index(m, face.columns[c]), weights[c], is_inside ? kInside : 0.0);
@@ -104,6 +106,9 @@ class RowBuilder {
     int corner = -1;
     for (int k = 0; k < 3; ++k)
       if (geometry_.index(m, elements.corners[f][static_cast<std::size_t>(k)]) == i) corner = k;
+    MENISCUS_ASSERT(corner < 0 || geometry_.surface_of[static_cast<std::size_t>(i)] ==
+                                      static_cast<std::int32_t>(m),
+                    "point {} on surface {}", i, m);
     const FaceMoments moments = corner < 0 ? near_moments(face, x_) : corner_moments(face, corner);
     for (std::size_t c = 0; c < face.columns.size(); ++c) {
       const VertexId v = face.columns[c];

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/face_elements.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 
@@ -85,8 +86,10 @@ std::string remove_net_flux(const OuterBoundary& boundary, const Field<NodeId, V
         flux);
   for (const NodeId i : area.ids()) {
     const double through = std::abs(flux_through(area[i], values.velocity[i]));
-    if (through > 0.0 && is_free(i))
+    if (through > 0.0 && is_free(i)) {
+      MENISCUS_ASSERT(area[i].squaredNorm() > 0.0, "node {}", i.value);
       values.velocity[i] -= flux / gross_of_free * through / area[i].squaredNorm() * area[i];
+    }
   }
   return {};
 }
@@ -131,7 +134,10 @@ FacesOfNodes faces_of_nodes(const OuterBoundary& boundary, const std::vector<Pat
   std::partial_sum(result.start.begin(), result.start.end(), result.start.begin());
   result.faces.resize(at(result.start.back()));
   std::vector<std::int32_t> next(result.start.begin(), result.start.end() - 1);
-  for_each_pair([&](std::size_t i, FaceId f) { result.faces[at(next[i]++)] = f; });
+  for_each_pair([&](std::size_t i, FaceId f) {
+    MENISCUS_ASSERT(next[i] < result.start[i + 1], "node {}", i);
+    result.faces[at(next[i]++)] = f;
+  });
   return result;
 }
 

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus::fem {
 namespace {
 
@@ -95,6 +97,7 @@ NodeConstraint& Constraints::at(NodeId i) {
 void Constraints::fix(NodeId i, const Vec3& value) {
   NodeConstraint& constraint = at(i);
   constraint.is_fixed = {true, true, true};
+  MENISCUS_ASSERT(value.allFinite(), "node {}", i.value);
   constraint.value = value;
 }
 
@@ -108,6 +111,7 @@ void Constraints::forbid_penetration(NodeId i, std::span<const Vec3> normals) {
   const bool is_aligned = is_axis_aligned(basis.all());
   for (const Vec3& e : basis.all()) {
     const std::size_t slot = nearest_axis(e, constraint.is_fixed);
+    MENISCUS_ASSERT(slot < 3, "node {}", i.value);
     constraint.is_fixed[slot] = true;
     if (!is_aligned) constraint.frame.col(static_cast<Eigen::Index>(slot)) = e;
   }

@@ -42,10 +42,12 @@ std::vector<std::int32_t> number_edges(const NodeGraph& graph) {
     std::size_t k = at(graph.row_start[at(p)]);
     // Row q names its upper neighbours in the order in which they come here.
     for (; graph.columns[k] < p; ++k) edges[k] = 2 * next[at(graph.columns[k])]++ + 1;
+    MENISCUS_ASSERT(graph.columns[k] == p, "row {} lacks its diagonal", p);
     edges[k++] = 2 * num_edges;
     next[at(p)] = count;
     for (; k < at(graph.row_start[at(p) + 1]); ++k) edges[k] = 2 * count++;
   }
+  MENISCUS_ASSERT(count == num_edges, "{} {}", count, num_edges);
   return edges;
 }
 
@@ -228,6 +230,7 @@ void EdgeSums::write_row(std::int32_t p, const Constraints& constraints,
     subtract(rest, sums, turn);
     write_entry<is_plain>(row, k, sums, turn, false);
   }
+  MENISCUS_ASSERT(begin <= diagonal && diagonal < end, "pressure {}", p);
   write_entry<is_plain>(row, diagonal, rest, 1.0, true);
   matrices.pressure_mass[at(p)] = -rest.mass;
 }

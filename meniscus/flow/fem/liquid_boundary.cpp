@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus::fem {
 namespace {
 
@@ -47,6 +49,7 @@ std::vector<LiquidFace> liquid_faces(const NodeTable& pressures, const NodeGraph
   for (auto first = candidates.begin(); first != candidates.end();) {
     const auto next = std::find_if(first, candidates.end(),
                                    [&](const Candidate& c) { return c.nodes != first->nodes; });
+    MENISCUS_ASSERT(next - first <= 2, "a face of {} cells", next - first);
     if (next - first == 1) faces.push_back(first->face);
     first = next;
   }

@@ -61,9 +61,11 @@ NodeGraph node_graph(const NodeTable& rows, const NodeTable& columns) {
     for (std::int32_t k = start; k < end; ++k) index_of[at(graph.columns[at(k)])] = k;
     for (const std::int32_t place : places) {
       const auto nodes = columns.of(CellId{place / rows.nodes_per_cell});
-      for (std::size_t b = 0; b < at(width); ++b)
-        graph.position[at(place) * at(width) + b] =
-            static_cast<std::uint16_t>(index_of[at(nodes[b])] - start);
+      for (std::size_t b = 0; b < at(width); ++b) {
+        const std::int32_t k = index_of[at(nodes[b])];
+        MENISCUS_ASSERT(start <= k && k < end, "row {}: {}", i, k);
+        graph.position[at(place) * at(width) + b] = static_cast<std::uint16_t>(k - start);
+      }
     }
     graph.row_start.push_back(end);
   }
@@ -86,6 +88,7 @@ ScalarPattern expanded(const NodeGraph& graph, std::int32_t block_rows,
           pattern.columns[k++] = graph.columns[at(e)] * block_columns + b;
       pattern.row_start.push_back(static_cast<std::int32_t>(k));
     }
+  MENISCUS_ASSERT(k == num_entries, "{} {}", k, num_entries);
   return pattern;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/elements.hpp"
 #include "meniscus/surface/edge_middles.hpp"
 
@@ -34,6 +35,7 @@ int straighten(const TetMesh& mesh, const FlowSpace& space, CellId c,
   int count = 0;
   for (std::size_t k = 4; k < 10; ++k) {
     const NodeId node{space.velocity.of(c)[k]};
+    MENISCUS_ASSERT(node.value >= space.num_vertices(), "node {} is a vertex", node.value);
     const auto e = static_cast<std::size_t>(node.value - space.num_vertices());
     if (is_straight[e]) continue;
     is_straight[e] = true;
@@ -80,6 +82,7 @@ void curve_edges(const SurfaceMesh& surface, const SurfaceTopology& topology,
     const SurfaceEdge& edge = topology.edges()[e];
     const FaceVertices& v = surface.faces[edge.left];
     const auto k = static_cast<std::size_t>(std::ranges::find(v, edge.a) - v.begin());
+    MENISCUS_ASSERT(k < 3, "edge {} is not of its face", e);
     positions.x[nodes.of(edge.left)[3 + k]] = middles[e];  // left runs a → b
   }
 }

@@ -75,14 +75,17 @@ LocalItems local_items(const NodeTable& whole, const Numbering& numbering, int r
   items.number.insert(items.number.end(), others.begin(), others.end());
   for (const std::int32_t number : items.number) {
     const std::int32_t item = numbering.order[at(number)];
+    MENISCUS_ASSERT(numbering.number[at(item)] == number, "{} {}", item, number);
     items.here[at(item)] = static_cast<std::int32_t>(items.of_whole.size());
     items.of_whole.push_back(item);
   }
   items.table = {static_cast<std::int32_t>(items.of_whole.size()), whole.nodes_per_cell, {}};
   items.table.cell_nodes.reserve(cells.size() * at(whole.nodes_per_cell));
   for (const CellId c : cells)
-    for (const std::int32_t item : whole.of(c))
+    for (const std::int32_t item : whole.of(c)) {
+      MENISCUS_ASSERT(items.here[at(item)] >= 0, "item {} of cell {}", item, c.value);
       items.table.cell_nodes.push_back(items.here[at(item)]);
+    }
   return items;
 }
 

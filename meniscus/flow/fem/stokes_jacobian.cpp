@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/block_rows.hpp"
 #include "meniscus/flow/fem/straight_quadratic_matrices.hpp"
 #include "meniscus/linear/collective.hpp"
@@ -21,6 +22,7 @@ linear::CsrMatrix interpolation_from_linear(const LinearFunctions& coarse, std::
   matrix.row_start.push_back(0);
   for (std::size_t i = 0; i < at(num_rows); ++i) {
     const auto& [a, b] = coarse.ends[i];
+    MENISCUS_ASSERT(coarse.number[at(a)] >= 0 && coarse.number[at(b)] >= 0, "node {}", i);
     if (a == b) {
       matrix.columns.push_back(coarse.number[at(a)]);
       matrix.values.push_back(1.0);
@@ -97,6 +99,7 @@ void StokesJacobian::weigh_regions() {
   region_weights_.clear();
   for (std::size_t r = 0; r < mass.size(); ++r) {
     const double whole = share_ == nullptr ? mass[r] : linear::sum(share_->communicator, mass[r]);
+    MENISCUS_ASSERT(region_shares_[r] == 0.0 || whole > 0.0, "region {}", r);
     region_weights_.push_back(region_shares_[r] / whole);
   }
 }

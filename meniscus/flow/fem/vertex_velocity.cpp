@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 
 namespace meniscus::fem {
@@ -66,6 +67,7 @@ VertexField<Vec3> vertex_velocity(const SurfaceMesh& surface, const FaceNodeTabl
       const VertexId at = surface.faces[f][k];
       for (const std::size_t edge : {k, (k + 1) % 3}) {
         const NodeId middle = faces.of(f)[3 + edge];
+        MENISCUS_ASSERT(positions.x[middle] != surface.x[at], "vertex {}", at.value);
         fits[at].add(positions.x[middle] - surface.x[at], v[middle]);
       }
     }
