@@ -159,6 +159,11 @@ class FaceInterpolant {
     return ranges_[place.face].clamped(values_[place.face] + gradients_[place.face].dot(d));
   }
 
+  /// The function of a face, continued to a point near it.
+  [[nodiscard]] double continued(FaceId f, const Vec3& x) const {
+    return values_[f] + gradients_[f].dot(x - center(change_.before, f));
+  }
+
  private:
   /// Of a face and all that it shares a vertex with: the three beside it do not reach as far as its
   /// own corners do.
@@ -268,11 +273,15 @@ class Conservation {
                         shares, range_of(before));
   }
 
+  /// Both are compared at the centre of the new face: at the part itself the slope would count, and
+  /// with it how parts happen to lie.
   FieldExcess keep(FaceField<double>& values, const FaceField<double>& before,
                    const FaceInterpolant& interpolant) const {
     FaceField<double> missing(values.size(), 0.0);
     for (const Part& part : parts_)
-      missing[part.to.face] += part.area * (interpolant.at(part.from) - values[part.to.face]);
+      missing[part.to.face] +=
+          part.area * (interpolant.continued(part.from.face, center(change_.after, part.to.face)) -
+                       values[part.to.face]);
     std::vector<double> amounts(static_cast<std::size_t>(old_pieces_.count), 0.0);
     for (const FaceId f : before.ids())
       amounts[static_cast<std::size_t>(old_pieces_.piece[change_.before.faces[f][0]])] +=

@@ -96,7 +96,6 @@ void expect_carried(const Scene& bare, const TopologyOptions& options) {
   FieldExcess excess = report.events[0].field_excess;
   widen(excess, report.finishing_excess);
   for (const Interface& drop : scene.interfaces) expect_in_range(drop.fields, excess);
-  testing::Test::RecordProperty("above", std::to_string(excess.above));
   EXPECT_LT(std::max(excess.above, excess.below), 0.2);
 }
 
