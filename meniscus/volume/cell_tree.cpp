@@ -1,7 +1,7 @@
 #include "meniscus/volume/cell_tree.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <utility>
 
 #include <boost/geometry.hpp>
@@ -61,25 +61,28 @@ std::vector<CellId> CellTree::near(const TetCorners& tet) const {
 }
 
 CellTree::Hit CellTree::closest(const Vec3& p) const {
-  Hit best;
-  best.squared_distance = std::numeric_limits<double>::infinity();
   const auto& tree = index_->tree;
-  const auto all = static_cast<unsigned>(tree.size());
-  for (auto hit = tree.qbegin(bg::index::nearest(point(p), all)); hit != tree.qend(); ++hit) {
-    if (bg::comparable_distance(point(p), hit->first) > best.squared_distance) break;
+  const auto at_cell = [&](CellId c) {
+    const TetPoint at = closest_point(corners(mesh_, c), p);
+    return Hit{c, at, (at.point - p).squaredNorm()};
+  };
+  const auto first = tree.qbegin(bg::index::nearest(point(p), 1));
+  MENISCUS_ASSERT(first != tree.qend());
+  Hit best = at_cell({first->second});
+  const Vec3 reach = Vec3::Constant(std::sqrt(best.squared_distance) * (1.0 + 1e-12));
+  const Box around(point(p - reach), point(p + reach));
+  for (auto hit = tree.qbegin(bg::index::intersects(around)); hit != tree.qend(); ++hit) {
     const CellId c{hit->second};
     const TetCorners x = corners(mesh_, c);
-    const TetPoint at = closest_point(x, p);
-    const double squared = (at.point - p).squaredNorm();
     const auto corner = std::ranges::find(x, p);
     if (corner != x.end()) {
       Hit exact{c, {p, {}}, 0.0};
       exact.at.weights[static_cast<std::size_t>(corner - x.begin())] = 1.0;
       return exact;
     }
-    if (squared < best.squared_distance) best = {c, at, squared};
+    const Hit other = at_cell(c);
+    if (other.squared_distance < best.squared_distance) best = other;
   }
-  MENISCUS_ASSERT(best.cell.is_valid());
   return best;
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 
 #include "meniscus/volume/facets.hpp"
 
