@@ -23,6 +23,17 @@ double corner_value(const TetMesh& mesh, std::span<const double> on_corners, Cel
   return on_corners[4 * static_cast<std::size_t>(c.value) + corner];
 }
 
+/// Fields as arrays, those of one name on all surfaces one after the other.
+template <class IdType>
+void append_fields(const std::vector<CarriedField<IdType>>& fields,
+                   std::vector<io::NamedArray>& arrays) {
+  for (const CarriedField<IdType>& field : fields) {
+    auto found = std::ranges::find(arrays, field.name, &io::NamedArray::name);
+    if (found == arrays.end()) found = arrays.insert(arrays.end(), {field.name, 1, {}});
+    found->values.insert(found->values.end(), field.values.begin(), field.values.end());
+  }
+}
+
 /// p_out − p_in at the vertices of all interfaces; no values where the flow has no pressure.
 std::vector<double> pressure_jump(const Evolution& evolution) {
   std::vector<double> jump;
@@ -70,7 +81,14 @@ void write_surface_frame(const std::filesystem::path& path, const Evolution& evo
     drop.values.insert(drop.values.end(), static_cast<std::size_t>(mesh.num_faces()),
                        scene.interfaces[i].drop);
   }
-  io::MeshData data{{curvature, normal_velocity, velocities, density}, {drop}};
+  io::MeshData data;
+  for (const Interface& interface : scene.interfaces) {
+    append_fields(interface.fields.on_vertices, data.on_vertices);
+    append_fields(interface.fields.on_faces, data.on_cells);
+  }
+  data.on_vertices.insert(data.on_vertices.begin(),
+                          {curvature, normal_velocity, velocities, density});
+  data.on_cells.insert(data.on_cells.begin(), drop);
   const io::NamedArray jump{"pressure_jump", 1, pressure_jump(evolution)};
   if (!jump.values.empty()) data.on_vertices.push_back(jump);
   io::write_vtp(path, surfaces, data, evolution.t());
@@ -87,6 +105,8 @@ void write_volume_frame(const std::filesystem::path& path, const Evolution& evol
   const io::NamedArray pressure{"pressure", 1, flow.corner_pressure};
   io::MeshData data{{}, {region, dihedral}};
   if (!velocity.values.empty()) data.on_vertices.push_back(velocity);
+  append_fields(evolution.state().mesh->fields().on_vertices, data.on_vertices);
+  append_fields(evolution.state().mesh->fields().on_cells, data.on_cells);
   const std::span<const io::NamedArray> corners(&pressure, pressure.values.empty() ? 0 : 1);
   io::write_vtu(path, mesh, data, evolution.t(), corners);
 }

@@ -9,8 +9,10 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
+#include "meniscus/evolve/region_sources.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/carry_fields.hpp"
 #include "meniscus/surface/remesh.hpp"
 #include "meniscus/topology/mend.hpp"
 
@@ -98,12 +100,14 @@ EvolutionReport Evolution::advance() {
   const std::vector<double> volume_shift = state_.volume_shift;
   const std::vector<TopologyEvent> events = state_.events;
   const std::int64_t connectivity = state_.connectivity;
+  const FieldExcess excess = state_.field_excess;
   if (state_.mesh) state_.mesh->begin_step(start);
   state_.iterations = 0;
   EvolutionReport report;
   for (double dt = step_length(); dt >= options_.min_step; dt *= 0.5) {
     report = try_step(dt);
     if (report.ok) {
+      if (state_.mesh) widen(state_.field_excess, state_.mesh->field_excess());
       state_.t += dt;
       state_.dt = dt;
       ++state_.step;
@@ -114,6 +118,7 @@ EvolutionReport Evolution::advance() {
     state_.volume_shift = volume_shift;
     state_.events = events;
     state_.connectivity = connectivity;
+    state_.field_excess = excess;
     if (state_.mesh) state_.mesh->undo();
     if (report.is_final) return report;
     warnings_.push_back(
@@ -155,9 +160,10 @@ EvolutionReport Evolution::finish_step(const Scene& start, const InterfaceMotion
   if (EvolutionReport moved = move_whole_step(start, motion, dt); !moved.ok) return moved;
   if (is_remesh_due()) {
     const Scene moved = scene;
+    carry_fields_of_mesh(start, flow, dt);
     if (EvolutionReport apart = refuse_touching(remesh_interfaces()); !apart.ok) return apart;
     if (EvolutionReport changed = change_topology(moved, motion); !changed.ok) return changed;
-    return follow_interfaces();
+    return follow_interfaces(region_sources(moved, scene, state_.events));
   }
   restore_volumes();
   if (EvolutionReport apart = refuse_touching(false); !apart.ok) return apart;
@@ -174,14 +180,30 @@ EvolutionReport Evolution::move_whole_step(const Scene& start, const InterfaceMo
     return {false, std::move(failure)};
   if (options_.follows_drops)
     translate_interfaces(scene, state_.start_centroid - centroid_of_drops(scene));
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+    carry_fields(scene.interfaces[i], start.interfaces[i].mesh);
   return {};
 }
 
+/// The fields of an interface whose vertices moved.
+void Evolution::carry_fields(Interface& interface, const SurfaceMesh& before) {
+  if (interface.fields.empty()) return;
+  widen(state_.field_excess, move_fields(interface.fields, before, interface.mesh));
+}
+
+/// Fields in the bulk ride to the end of the step before the mesh is made anew. Where cells would
+/// be inverted on the way they are carried from where the mesh stands.
+void Evolution::carry_fields_of_mesh(const Scene& start, const FlowSolution& flow, double dt) {
+  if (!state_.mesh || state_.mesh->fields().empty()) return;
+  const EvolutionReport moved = move_mesh(start, mean_motion(start, state_.scene, dt), flow, dt);
+  if (!moved.ok) log::debug("fields are carried over a longer way: {}", moved.failure);
+}
+
 /// The mesh takes the interfaces as they have become.
-EvolutionReport Evolution::follow_interfaces() {
+EvolutionReport Evolution::follow_interfaces(const RegionSources& sources) {
   state_.connectivity = ++last_connectivity_;
   if (!state_.mesh) return {};
-  const MeshChange change = state_.mesh->follow(state_.scene);
+  const MeshChange change = state_.mesh->follow(state_.scene, sources);
   return {change.ok, change.failure};
 }
 
@@ -234,10 +256,12 @@ bool Evolution::remesh_interfaces() {
       if (j != i) options.neighbours.push_back(&trees[j]);
     options.find_fault = find_self_intersection;
     // Only flows through changes of topology draw creases that nothing will smooth again.
-    const MendReport mended = options_.topology.is_off()
-                                  ? MendReport{.remesh = remesh(interface.mesh, options)}
-                                  : remesh_or_mend(interface.mesh, options);
+    const MendReport mended =
+        options_.topology.is_off()
+            ? MendReport{.remesh = remesh(interface.mesh, options, interface.fields)}
+            : remesh_or_mend(interface.mesh, options, interface.fields);
     const RemeshReport& report = mended.remesh;
+    widen(state_.field_excess, report.field_excess);
     if (mended.is_mended) {
       const std::string what = mended.smoothed_over > 0.0
                                    ? fmt::format("drop {} was smoothed over {:.4g}", interface.drop,
@@ -249,16 +273,14 @@ bool Evolution::remesh_interfaces() {
     }
     state_.volume_shift[i] = report.volume_shift;
     if (report.ok && options_.surface != SurfaceShape::faceted)
-      state_.volume_shift[i] =
-          std::abs(restore_volume(interface.mesh, interface.volume, options_.surface));
+      state_.volume_shift[i] = restore_volume_of(interface);
     if (report.ok && i < trees.size()) trees[i] = SurfaceTree(interface.mesh);
     if (report.ok) continue;
     are_remeshed = false;
     warnings_.push_back(fmt::format("drop {} was not remeshed at t = {:.6g}: {}", interface.drop,
                                     state_.t, report.failure));
     log::warning("{}", warnings_.back());
-    state_.volume_shift[i] =
-        std::abs(restore_volume(interface.mesh, interface.volume, options_.surface));
+    state_.volume_shift[i] = restore_volume_of(interface);
   }
   return are_remeshed;
 }
@@ -286,6 +308,8 @@ EvolutionReport Evolution::change_topology(const Scene& moved, const InterfaceMo
     warnings_.push_back(fmt::format("t = {:.6g}: {}", state_.t, warning));
   if (!changed.refusal.empty()) return {false, std::move(changed.refusal), true};
   if (changed.events.empty()) return {};
+  widen(state_.field_excess, changed.finishing_excess);
+  for (const TopologyEvent& event : changed.events) widen(state_.field_excess, event.field_excess);
   state_.events = std::move(changed.events);
   state_.volume_shift.assign(state_.scene.interfaces.size(), 0.0);
   return refuse_touching(remesh_interfaces());
@@ -294,8 +318,15 @@ EvolutionReport Evolution::change_topology(const Scene& moved, const InterfaceMo
 void Evolution::restore_volumes() {
   const PhaseTimer timer(times_, "move interfaces");
   for (std::size_t i = 0; i < state_.scene.interfaces.size(); ++i)
-    state_.volume_shift[i] = std::abs(restore_volume(
-        state_.scene.interfaces[i].mesh, state_.scene.interfaces[i].volume, options_.surface));
+    state_.volume_shift[i] = restore_volume_of(state_.scene.interfaces[i]);
+}
+
+/// The size of the shift [R0].
+double Evolution::restore_volume_of(Interface& interface) {
+  const SurfaceMesh before = interface.fields.empty() ? SurfaceMesh() : interface.mesh;
+  const double shift = restore_volume(interface.mesh, interface.volume, options_.surface);
+  carry_fields(interface, before);
+  return std::abs(shift);
 }
 
 FlowSolution Evolution::solve_flow(const Instant& instant) {
@@ -320,6 +351,15 @@ std::vector<DropRow> Evolution::drop_rows() const {
 double Evolution::seconds_in(const std::string& phase) const {
   return times_[phase] + solver_->times()[phase] +
          (state_.mesh ? state_.mesh->times()[phase] : 0.0);
+}
+
+void Evolution::set_interface_fields(std::vector<SurfaceFields> fields) {
+  meniscus::set_interface_fields(state_, std::move(fields));
+}
+
+void Evolution::set_bulk_fields(VolumeFields fields) {
+  if (!state_.mesh) reject_input("fields in the bulk need a volume mesh; this solver has none");
+  state_.mesh->set_fields(std::move(fields));
 }
 
 void Evolution::save(Archive& archive) const {

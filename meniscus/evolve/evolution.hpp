@@ -58,6 +58,11 @@ class Evolution {
   [[nodiscard]] HistoryRow history_row() const;
   [[nodiscard]] std::vector<DropRow> drop_rows() const;
 
+  /// Puts fields on every interface, or on the mesh, in place of those there. They ride along from
+  /// then on (docs/fields.md). Throw InvalidInput naming what does not fit.
+  void set_interface_fields(std::vector<SurfaceFields> fields);
+  void set_bulk_fields(VolumeFields fields);
+
   /// The state before the solve at t_k, bit for bit.
   void save(Archive& archive) const;
   void load(const Archive& archive);
@@ -67,7 +72,9 @@ class Evolution {
   EvolutionReport finish_step(const Scene& start, const InterfaceMotion& motion,
                               const FlowSolution& flow, double dt);
   EvolutionReport move_whole_step(const Scene& start, const InterfaceMotion& motion, double dt);
-  EvolutionReport follow_interfaces();
+  void carry_fields(Interface& interface, const SurfaceMesh& before);
+  void carry_fields_of_mesh(const Scene& start, const FlowSolution& flow, double dt);
+  EvolutionReport follow_interfaces(const RegionSources& sources = {});
   [[nodiscard]] EvolutionReport move_mesh(const Scene& start, const InterfaceMotion& motion,
                                           const FlowSolution& flow, double dt);
   [[nodiscard]] bool is_remesh_due() const {
@@ -78,6 +85,7 @@ class Evolution {
   [[nodiscard]] EvolutionReport refuse_touching(bool are_remeshed) const;
   EvolutionReport change_topology(const Scene& moved, const InterfaceMotion& motion);
   void restore_volumes();
+  double restore_volume_of(Interface& interface);
   FlowSolution solve_flow(const Instant& instant);
 
   EvolutionOptions options_;

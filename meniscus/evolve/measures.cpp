@@ -4,26 +4,14 @@
 #include <numbers>
 
 #include "meniscus/evolve/drop_stress.hpp"
-#include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
+#include "meniscus/scene/scene_gap.hpp"
 #include "meniscus/surface/curved_measures.hpp"
 #include "meniscus/topology/necks.hpp"
 #include "meniscus/volume/quality.hpp"
 
 namespace meniscus {
 namespace {
-
-std::optional<double> smallest_gap(const Scene& scene) {
-  double gap = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
-    for (std::size_t j = i + 1; j < scene.interfaces.size(); ++j)
-      gap =
-          std::min(gap, meniscus::smallest_gap(scene.interfaces[i].mesh, scene.interfaces[j].mesh));
-    if (!scene.is_unbounded)
-      gap = std::min(gap, meniscus::smallest_gap(scene.interfaces[i].mesh, scene.boundary.mesh));
-  }
-  return std::isfinite(gap) ? std::optional(gap) : std::nullopt;
-}
 
 /// The radius of the circle of the same area as the section of the thinnest neck, of those thinner
 /// than half of the sphere of the same volume; on the smooth surface where faces are curved.

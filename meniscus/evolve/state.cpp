@@ -8,6 +8,8 @@
 #include "meniscus/core/archive_entries.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/evolve/event_archive.hpp"
+#include "meniscus/mesh/field_archive.hpp"
+#include "meniscus/surface/carry_fields.hpp"
 
 namespace meniscus {
 namespace {
@@ -26,6 +28,7 @@ void save_interface(const Interface& interface, std::size_t i, Archive& archive)
                                                 interface.inside.value, interface.outside.value};
   archive.reals[interface_path(i, "properties")] = {interface.tension, interface.C0,
                                                     interface.volume, interface.initial_volume};
+  save(interface.fields, archive, interface_path(i, "fields"));
 }
 
 Interface load_interface(const Archive& archive, std::size_t i) {
@@ -50,6 +53,7 @@ Interface load_interface(const Archive& archive, std::size_t i) {
   interface.C0 = properties[1];
   interface.volume = properties[2];
   interface.initial_volume = properties[3];
+  interface.fields = load_fields(archive, interface_path(i, "fields"), interface.mesh);
   return interface;
 }
 
@@ -101,6 +105,18 @@ Field<RegionId, Liquid> load_liquids(const Archive& archive, std::size_t num_int
 
 }  // namespace
 
+void set_interface_fields(State& state, std::vector<SurfaceFields> fields) {
+  std::vector<Interface>& interfaces = state.scene.interfaces;
+  if (fields.size() != interfaces.size())
+    reject_input("fields are given for {} interfaces of {}", fields.size(), interfaces.size());
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    check_fields(fields[i], interfaces[i].mesh);
+    if (!have_same_fields(fields[0], fields[i]))
+      reject_input("interface {} has other fields than interface 0", i);
+  }
+  for (std::size_t i = 0; i < fields.size(); ++i) interfaces[i].fields = std::move(fields[i]);
+}
+
 void save(const State& state, Archive& archive) {
   const std::vector<Interface>& interfaces = state.scene.interfaces;
   archive.reals["evolution/time"] = {state.t, state.dt};
@@ -108,6 +124,7 @@ void save(const State& state, Archive& archive) {
   archive.integers["evolution/interfaces"] = {static_cast<std::int64_t>(interfaces.size())};
   archive.reals["evolution/corrections"] = state.volume_shift;
   const Vec3& start = state.start_centroid;
+  archive.reals["evolution/field-excess"] = {state.field_excess.above, state.field_excess.below};
   archive.reals["evolution/centroid"] = {start.x(), start.y(), start.z()};
   for (std::size_t i = 0; i < interfaces.size(); ++i) save_interface(interfaces[i], i, archive);
   save_liquids(state.scene, archive);
@@ -131,6 +148,8 @@ void load(State& state, const Archive& archive) {
   state.scene.liquids = load_liquids(archive, count);
   state.events = load_events(archive);
   state.volume_shift = entry_of_size(archive.reals, "evolution/corrections", count);
+  const auto& excess = entry_of_size(archive.reals, "evolution/field-excess", 2);
+  state.field_excess = {excess[0], excess[1]};
   state.start_centroid = Vec3(entry_of_size(archive.reals, "evolution/centroid", 3).data());
   if (state.mesh) state.mesh->load(archive, state.scene);
 }

@@ -22,12 +22,18 @@ struct State {
   Vec3 start_centroid = Vec3::Zero();  ///< of the drops at step 0
   std::vector<double> volume_shift;    ///< by interface: that by the last restoration of volume
   std::vector<TopologyEvent> events;   ///< of the step that led to t
-  int iterations = 0;                  ///< linear ones since the last solve at the start of a step
+  /// The most that carried fields left the range they had, in any step so far.
+  FieldExcess field_excess;
+  int iterations = 0;  ///< linear ones since the last solve at the start of a step
 
   [[nodiscard]] FlowDomain domain() const {
     return {scene, mesh ? &mesh->tetrahedra() : nullptr, connectivity};
   }
 };
+
+/// Puts fields on the interfaces, one list for each; all lists have the same names. Throws
+/// InvalidInput naming what does not fit (`check_fields`).
+void set_interface_fields(State& state, std::vector<SurfaceFields> fields);
 
 /// Bit for bit. The surroundings (imposed flow, outer boundary) and the mesh's options are no part
 /// of the archive: loading keeps those that the state has.

@@ -1,6 +1,7 @@
 #include "meniscus/volume/moving_mesh.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/mesh/field_archive.hpp"
 #include "meniscus/volume/mesh_archive.hpp"
 
 namespace meniscus {
@@ -34,6 +35,8 @@ void MovingMesh::begin_step(const Scene& scene) {
   const PhaseTimer timer(times_, "move mesh");
   place_interfaces(scene);
   start_ = mesh_;
+  start_fields_ = fields_;
+  excess_ = {};
 }
 
 MeshReport MovingMesh::move(const Scene& start,
@@ -48,12 +51,23 @@ MeshReport MovingMesh::move(const Scene& start,
   if (has_inverted_cell(moved)) return {false, "moving the volume mesh inverts a cell"};
   mesh_ = std::move(moved);
   velocity_ = std::move(velocity.w);
+  if (fields_.empty()) return {};
+  fields_ = start_fields_;
+  excess_ = {};
+  move_fields(fields_, start_, mesh_, excess_);
   return {};
 }
 
 void MovingMesh::undo() {
   const PhaseTimer timer(times_, "move mesh");
   mesh_ = start_;
+  fields_ = start_fields_;
+  excess_ = {};
+}
+
+void MovingMesh::set_fields(VolumeFields fields) {
+  check_fields(fields, mesh_);
+  fields_ = std::move(fields);
 }
 
 void MovingMesh::place_interfaces(const Scene& scene) {
@@ -67,7 +81,7 @@ void MovingMesh::place_interfaces(const Scene& scene) {
   }
 }
 
-MeshChange MovingMesh::follow(const Scene& scene) {
+MeshChange MovingMesh::follow(const Scene& scene, const RegionSources& sources) {
   const PhaseTimer timer(times_, "tetrahedralize");
   MeshChange change;
   TetMesh fitted;
@@ -76,12 +90,16 @@ MeshChange MovingMesh::follow(const Scene& scene) {
   change.failure = made.failure;
   if (!made.ok) return change;
   change.old_to_new = boundary_counterparts(mesh_, fitted);
+  if (!fields_.empty()) fields_ = transfer_fields(fields_, mesh_, fitted, excess_, sources);
   mesh_ = std::move(fitted);
   velocity_ = {};
   return change;
 }
 
-void MovingMesh::save(Archive& archive) const { meniscus::save(mesh_, archive, "mesh"); }
+void MovingMesh::save(Archive& archive) const {
+  meniscus::save(mesh_, archive, "mesh");
+  meniscus::save(fields_, archive, "mesh/fields");
+}
 
 void MovingMesh::load(const Archive& archive, const Scene& scene) {
   mesh_ = load_mesh(archive, "mesh");
@@ -93,7 +111,9 @@ void MovingMesh::load(const Archive& archive, const Scene& scene) {
     if (mesh_.interfaces[i].num_vertices != scene.interfaces[i].mesh.num_vertices())
       reject_input("checkpoint: interface {} has {} vertices in the volume mesh, {} in the scene",
                    i, mesh_.interfaces[i].num_vertices, scene.interfaces[i].mesh.num_vertices());
+  fields_ = load_fields(archive, "mesh/fields", mesh_);
   start_ = mesh_;
+  start_fields_ = fields_;
 }
 
 }  // namespace meniscus

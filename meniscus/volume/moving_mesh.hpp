@@ -6,6 +6,7 @@
 #include "meniscus/core/archive.hpp"
 #include "meniscus/core/timer.hpp"
 #include "meniscus/mesh/carried_fields.hpp"
+#include "meniscus/volume/field_transfer.hpp"
 #include "meniscus/volume/motion.hpp"
 #include "meniscus/volume/tetrahedralize.hpp"
 
@@ -33,7 +34,7 @@ struct [[nodiscard]] MeshChange {
 
 /// The tetrahedra of all regions, which move with the interfaces of a scene. The mesh knows where
 /// its vertices stood when the step began and with what velocity they left; evolution owns it and
-/// lends it to the flow solver.
+/// lends it to the flow solver. Fields that live on the tetrahedra ride on it.
 class MovingMesh {
  public:
   /// Makes the tetrahedra of a scene; `tetrahedralize` but in tests.
@@ -56,8 +57,16 @@ class MovingMesh {
   void undo();
   /// Places the vertices of the interfaces exactly where a scene of the same connectivity has them.
   void place_interfaces(const Scene& scene);
-  /// Fits the mesh to interfaces that were remeshed, or whose topology changed.
-  MeshChange follow(const Scene& scene);
+  /// Fits the mesh to interfaces that were remeshed, or whose topology changed. The fields are
+  /// carried from where the mesh stands; `sources` says which liquid each region took.
+  MeshChange follow(const Scene& scene, const RegionSources& sources = {});
+
+  /// What lives on the mesh: it rides along, and is put back with the mesh (docs/fields.md).
+  [[nodiscard]] const VolumeFields& fields() const { return fields_; }
+  /// Throws InvalidInput naming what does not fit (`check_fields`).
+  void set_fields(VolumeFields fields);
+  /// By how much conserved fields have left the range they had since the step began.
+  [[nodiscard]] const FieldExcess& field_excess() const { return excess_; }
 
   void save(Archive& archive) const;
   /// Throws InvalidInput when the archive's mesh is damaged or does not fit the scene.
@@ -70,6 +79,8 @@ class MovingMesh {
   Mesher mesher_;
   TetMesh mesh_, start_;
   Field<TetVertexId, Vec3> velocity_;
+  VolumeFields fields_, start_fields_;
+  FieldExcess excess_;
   PhaseTimes times_;
 };
 
