@@ -149,8 +149,9 @@ const std::vector<std::string>& timed_phases() {
   return phases;
 }
 
-RunDirectory::RunDirectory(fs::path path, std::optional<std::int64_t> first_step)
-    : path_(std::move(path)),
+RunDirectory::RunDirectory(FolderLock lock, fs::path path, std::optional<std::int64_t> first_step)
+    : lock_(std::move(lock)),
+      path_(std::move(path)),
       kept_steps_(first_step ? steps_around_events(path_ / "events.csv")
                              : std::set<std::int64_t>{}),
       history_(table(path_ / "history.csv", kHistoryColumns, first_step)),
@@ -160,15 +161,16 @@ RunDirectory::RunDirectory(fs::path path, std::optional<std::int64_t> first_step
 
 RunDirectory RunDirectory::create(const fs::path& path, bool overwrite) {
   require_usable(path, overwrite);
-  if (holds_run(path)) remove_run(path);
   std::error_code error;
   fs::create_directories(path, error);
   if (error) reject_input("output folder {} cannot be made: {}", path.string(), error.message());
-  return RunDirectory(path, std::nullopt);
+  FolderLock lock(path);
+  if (holds_run(path)) remove_run(path);
+  return RunDirectory(std::move(lock), path, std::nullopt);
 }
 
 RunDirectory RunDirectory::take_up(const fs::path& path, std::int64_t first_step, double t) {
-  RunDirectory directory(path, first_step);
+  RunDirectory directory(FolderLock(path), path, first_step);
   directory.surface_frames_ = frames_before(path / "surface.pvd", t);
   directory.volume_frames_ = frames_before(path / "volume.pvd", t);
   return directory;

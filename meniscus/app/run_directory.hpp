@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "meniscus/app/folder_lock.hpp"
 #include "meniscus/evolve/evolution.hpp"
 #include "meniscus/io/table.hpp"
 #include "meniscus/io/vtk_file.hpp"
@@ -17,7 +18,8 @@ namespace meniscus {
 class RunDirectory {
  public:
   /// Makes a folder for a new run. Throws InvalidInput when the path cannot be a folder or holds a
-  /// run already; with `overwrite` the files of that run are removed first.
+  /// run already; with `overwrite` the files of that run are removed first. As long as it lives no
+  /// other program can take the folder: here and in `take_up` that throws InvalidInput.
   static RunDirectory create(const std::filesystem::path& path, bool overwrite);
   /// Takes up a run from the state at `first_step`, time t: rows and frames from there on are
   /// dropped, to be made again.
@@ -40,8 +42,9 @@ class RunDirectory {
   void write_text(const std::string& name, const std::string& text) const;
 
  private:
-  RunDirectory(std::filesystem::path path, std::optional<std::int64_t> first_step);
+  RunDirectory(FolderLock lock, std::filesystem::path path, std::optional<std::int64_t> first_step);
 
+  FolderLock lock_;
   std::filesystem::path path_;
   std::set<std::int64_t> kept_steps_;  // of checkpoints around events
   io::TableWriter history_, drops_, events_, timing_;
