@@ -90,17 +90,22 @@ Field<TetVertexId, Vec3> at_vertices(const Field<NodeId, Vec3>& v, std::int32_t 
   return Field<TetVertexId, Vec3>(std::vector<Vec3>(vertices.begin(), vertices.end()));
 }
 
-/// Where no boundary is open the pressure is given relative to its mean over the matrix's nodes.
-void level_pressure(const PressureSpace& space, std::vector<double>& pressure) {
-  double sum = 0.0;
-  int count = 0;
-  for (std::size_t i = 0; i < space.region.size(); ++i)
-    if (space.region[i] == RegionId{0}) {
-      sum += pressure[i];
-      ++count;
-    }
-  if (count == 0) return;
-  for (double& p : pressure) p -= sum / count;
+/// Where no boundary is open the pressure is given relative to its mean ∫p dV / V over the matrix,
+/// which no mesh changes but by its error.
+void level_pressure(const TetMesh& mesh, const PressureSpace& space,
+                    std::vector<double>& pressure) {
+  double integral = 0.0, volume = 0.0;
+  for (const CellId c : mesh.cells.ids()) {
+    if (mesh.region[c] != RegionId{0}) continue;
+    const double of_cell = signed_volume(mesh, c);
+    for (std::size_t k = 0; k < 4; ++k)
+      integral += 0.25 * of_cell *
+                  pressure[static_cast<std::size_t>(
+                      space.nodes.cell_nodes[4 * static_cast<std::size_t>(c.value) + k])];
+    volume += of_cell;
+  }
+  MENISCUS_ASSERT(volume > 0.0, "a scene without a matrix");
+  for (double& p : pressure) p -= integral / volume;
 }
 
 class FiniteElementFlow final : public FlowSolver {
@@ -201,7 +206,7 @@ void FiniteElementFlow::decide_on_preconditioner(const StokesProblem& problem,
 FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const InstantProblem& problem) {
   const TetMesh& mesh = *domain.mesh;
   FlowSolution result;
-  if (!problem.stokes.has_open_boundary) level_pressure(space_.pressure, state_->p);
+  if (!problem.stokes.has_open_boundary) level_pressure(mesh, space_.pressure, state_->p);
   for (std::size_t i = 0; i < mesh.interfaces.size(); ++i) {
     const SurfaceMesh& surface = domain.scene.interfaces[i].mesh;
     const FaceNodeTable faces = face_nodes(space_, mesh, surface, mesh.interfaces[i]);

@@ -183,6 +183,32 @@ TEST(FiniteElementFlow, ADamagedCheckpointIsRefused) {
 // Of the flow in the volume: the interfaces' own velocities have had their net flux taken out. A
 // pressure constant in one drop alone tests its continuity equation, ∫∇·v dV = 0, which needs a
 // pressure that jumps at both interfaces.
+// The mean over the nodes, of which most are near the drop, is another.
+TEST(FiniteElementFlow, PressureIsRelativeToItsMeanOverTheMatrix) {
+  for (const Elements elements : {Elements::p1_p1, Elements::p2_p1}) {
+    Options options;
+    options.elements = elements;
+    const Scene scene = shear_scene();
+    MeshedFlow flow(options);
+    flow.follow(scene);
+    const FlowSolution solution = flow.solve(scene);
+    ASSERT_TRUE(solution.ok) << solution.failure;
+    const TetMesh& mesh = flow.mesh.tetrahedra();
+    const std::vector<double>& p = solution.bulk->corner_pressure;
+    double integral = 0.0, size = 0.0;
+    for (const CellId c : mesh.cells.ids()) {
+      if (mesh.region[c] != RegionId{0}) continue;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const double of_corner = p[4 * static_cast<std::size_t>(c.value) + k];
+        integral += 0.25 * signed_volume(mesh, c) * of_corner;
+        size += 0.25 * signed_volume(mesh, c) * std::abs(of_corner);
+      }
+    }
+    EXPECT_GT(size, 0.0);
+    EXPECT_NEAR(integral, 0.0, 1e-12 * size);
+  }
+}
+
 TEST(FiniteElementFlow, TwoDropsEachKeepTheirVolume) {
   Scene scene = shear_scene();
   scene.liquids.add({0.5, Vec3::Zero()});
