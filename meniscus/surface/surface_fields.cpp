@@ -5,17 +5,14 @@
 #include <cmath>
 #include <optional>
 
-#include <Eigen/Cholesky>
-
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
 #include "meniscus/surface/keep_amounts.hpp"
+#include "meniscus/surface/polynomial_fit.hpp"
 
 namespace meniscus {
 namespace {
-
-/// Smallest over largest pivot of a fit; below, a polynomial of lower degree is used.
-constexpr double kSingularPivot = 1e-3;
 
 struct Range {
   double low, high;
@@ -26,43 +23,35 @@ struct Range {
   [[nodiscard]] double clamped(double value) const { return std::clamp(value, low, high); }
 };
 
-/// value + c0 u + c1 v + c2 u² + c3 uv + c4 v² in the frame of the smooth surface's patch.
+/// The value at a vertex plus monomials in the frame of the smooth surface's patch.
 struct Quadratic {
   double value = 0.0;
-  std::array<double, 5> c{};
-  [[nodiscard]] double at(double u, double v) const {
-    return value + u * (c[0] + c[2] * u + c[3] * v) + v * (c[1] + c[4] * v);
-  }
+  Eigen::Matrix<double, 5, 1> c = Eigen::Matrix<double, 5, 1>::Zero();
+  [[nodiscard]] double at(double u, double v) const { return value + monomials<2>(u, v).dot(c); }
 };
 
 struct Sample {
   double u, v, difference;
 };
 
-/// Weighted least squares of the first Terms terms; false where they are not determined.
-template <int Terms>
+/// Weighted least squares of the monomials up to a degree; false where they are not determined.
+template <int Degree>
 bool fit(std::span<const Sample> samples, Quadratic& quadratic) {
-  if (samples.size() < Terms) return false;
+  constexpr int kTerms = num_monomials(Degree);
+  if (samples.size() < kTerms) return false;
   double squared = 0.0;
   for (const Sample& s : samples) squared += s.u * s.u + s.v * s.v;
   const double h = std::sqrt(squared / static_cast<double>(samples.size()));
-  Eigen::Matrix<double, Terms, Terms> normal = Eigen::Matrix<double, Terms, Terms>::Zero();
-  Eigen::Matrix<double, Terms, 1> rhs = Eigen::Matrix<double, Terms, 1>::Zero();
+  PolynomialFit<kTerms> fit;
+  Eigen::Matrix<double, kTerms, 1> rhs = Eigen::Matrix<double, kTerms, 1>::Zero();
   for (const Sample& s : samples) {
     const double u = s.u / h, v = s.v / h;
-    const std::array<double, 5> all{u, v, u * u, u * v, v * v};
-    const Eigen::Map<const Eigen::Matrix<double, Terms, 1>> m(all.data());
-    const double weight = 1.0 / (u * u + v * v);
-    normal += weight * m * m.transpose();
-    rhs += weight * s.difference * m;
+    rhs += s.difference * fit.add(monomials<Degree>(u, v), 1.0 / (u * u + v * v));
   }
-  const Eigen::LLT<Eigen::Matrix<double, Terms, Terms>> factor(normal);
-  if (factor.info() != Eigen::Success) return false;
-  const auto pivots = factor.matrixLLT().diagonal();
-  if (!(pivots.minCoeff() > kSingularPivot * pivots.maxCoeff())) return false;
-  const Eigen::Matrix<double, Terms, 1> solution = factor.solve(rhs);
-  for (int k = 0; k < Terms; ++k)
-    quadratic.c[static_cast<std::size_t>(k)] = solution[k] / (k < 2 ? h : h * h);
+  const auto factor = fit.factor();
+  if (!factor) return false;
+  const Eigen::Matrix<double, kTerms, 1> solution = factor->solve(rhs);
+  for (int k = 0; k < kTerms; ++k) quadratic.c[k] = solution[k] / (k < 2 ? h : h * h);
   return true;
 }
 
@@ -71,6 +60,8 @@ class VertexInterpolant {
  public:
   VertexInterpolant(const SurfaceChange& change, const VertexField<double>& values)
       : change_(change), patches_(values.size()), ranges_(values.size()) {
+    MENISCUS_ASSERT(values.size() == change.before.num_vertices(), "{} values of {} vertices",
+                    values.size(), change.before.num_vertices());
     std::vector<Sample> samples;
     for (const VertexId v : values.ids()) {
       const HeightPatch& frame = change.surface.patch(v);
@@ -82,7 +73,7 @@ class VertexInterpolant {
         range.include({values[w], values[w]});
       }
       patches_[v].value = values[v];
-      if (!fit<5>(samples, patches_[v])) fit<2>(samples, patches_[v]);
+      if (!fit<2>(samples, patches_[v])) fit<1>(samples, patches_[v]);
       ranges_[v] = range;
     }
   }
@@ -132,6 +123,8 @@ class FaceInterpolant {
   FaceInterpolant(const SurfaceChange& change, const FaceField<double>& values,
                   const FaceField<std::array<FaceId, 3>>& beside)
       : change_(change), values_(values), gradients_(values.size()), ranges_(values.size()) {
+    MENISCUS_ASSERT(values.size() == change.before.num_faces(), "{} values of {} faces",
+                    values.size(), change.before.num_faces());
     for (const FaceId f : values.ids()) {
       const Vec3 here = center(change.before, f);
       const Vec3 normal = face_area_vector(change.before, f).normalized();
@@ -147,7 +140,7 @@ class FaceInterpolant {
                       values[g] - values[f]};
       }
       Quadratic linear;
-      fit<2>(samples, linear);
+      fit<1>(samples, linear);
       gradients_[f] = linear.c[0] * frame.t1 + linear.c[1] * frame.t2;
     }
     find_ranges();
@@ -329,6 +322,8 @@ bool has_conserved(const SurfaceFields& fields) {
 ReplacedFields transferred(const SurfaceFields& fields, const SurfaceChange& change) {
   ReplacedFields result;
   if (fields.empty()) return result;
+  MENISCUS_ASSERT(change.places.size() == change.after.num_vertices(), "{} places of {} vertices",
+                  change.places.size(), change.after.num_vertices());
   std::optional<Conservation> conservation;
   if (has_conserved(fields)) conservation.emplace(change);
   for (const CarriedField<VertexId>& field : fields.on_vertices) {

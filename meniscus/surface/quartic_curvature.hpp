@@ -2,7 +2,7 @@
 
 #include "meniscus/surface/curvature.hpp"
 
-namespace meniscus::bem {
+namespace meniscus {
 
 /// Normals and curvatures at the vertices by a quartic: with z along the osculating fit's normal
 /// and H its half-sum of curvatures, the function
@@ -19,4 +19,4 @@ namespace meniscus::bem {
     const SurfaceMesh& mesh, const SurfaceTopology& topology,
     const VertexField<VertexCurvature>& osculating);
 
-}  // namespace meniscus::bem
+}  // namespace meniscus
