@@ -6,9 +6,9 @@
 #include "meniscus/case/case.hpp"
 #include "meniscus/case/outer_boundary.hpp"
 #include "meniscus/case/surface_source.hpp"
-#include "meniscus/evolve/interface_motion.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/reconstructed_surface.hpp"
 
 namespace meniscus {
 namespace {
@@ -58,7 +58,8 @@ Interface make_interface(const Case& c, int index) {
   result.outside = RegionId{0};
   result.tension = std::isinf(c.Ca) ? 0.0 : drop.tension_ratio / c.Ca;
   result.C0 = drop.nodes / (4.0 * std::numbers::pi);
-  result.volume = result.initial_volume = volume_of(result.mesh, c.evolution.surface);
+  result.volume = result.initial_volume =
+      ReconstructedSurface(result.mesh, c.evolution.surface).volume();
   return result;
 }
 

@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "meniscus/core/log.hpp"
-#include "meniscus/evolve/interface_motion.hpp"
 #include "meniscus/io/archive_file.hpp"
 #include "meniscus/io/surface_file.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/even_out.hpp"
+#include "meniscus/surface/reconstructed_surface.hpp"
 #include "meniscus/surface/remesh.hpp"
+#include "meniscus/surface/restore_volume.hpp"
 
 namespace meniscus {
 namespace {
@@ -105,7 +106,8 @@ void shift(SurfaceMesh& mesh, const Vec3& by) {
 /// What a surface encloses: its faces, or the smooth surface through its vertices where faces are
 /// curved. A rough one (a cube, a scan) stands for no smooth one.
 double given_volume(const SurfaceMesh& mesh, SurfaceShape faces) {
-  return is_rough(mesh, SurfaceTopology(mesh)) ? enclosed_volume(mesh) : volume_of(mesh, faces);
+  const bool is_smooth = !is_rough(mesh, SurfaceTopology(mesh));
+  return ReconstructedSurface(mesh, is_smooth ? faces : SurfaceShape::faceted).volume();
 }
 
 /// Gives a surface the vertex density of its drop and the volume it had. Where faces are curved the

@@ -14,6 +14,7 @@
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/carry_fields.hpp"
 #include "meniscus/surface/remesh.hpp"
+#include "meniscus/surface/restore_volume.hpp"
 #include "meniscus/topology/mend.hpp"
 
 namespace meniscus {

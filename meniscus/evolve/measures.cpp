@@ -6,7 +6,7 @@
 #include "meniscus/evolve/drop_stress.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
 #include "meniscus/scene/scene_gap.hpp"
-#include "meniscus/surface/curved_measures.hpp"
+#include "meniscus/surface/smooth_surface.hpp"
 #include "meniscus/topology/necks.hpp"
 #include "meniscus/volume/quality.hpp"
 
@@ -70,13 +70,7 @@ std::vector<DropRow> drop_rows(const State& state, SurfaceShape surface, double 
     DropRow& row = rows.emplace_back();
     row.drop = interface.drop;
     row.parent = interface.parent;
-    row.shape = drop_shape(interface.mesh, state.scene.flow.family());
-    if (surface != SurfaceShape::faceted) {
-      const CurvedMeasures curved = curved_measures(interface.mesh, surface);
-      row.shape.volume = curved.volume;
-      row.shape.area = curved.area;
-      row.shape.D_inertia = inertial_deformation(curved.second_moments, curved.volume);
-    }
+    row.shape = drop_shape(interface.mesh, state.scene.flow.family(), surface);
     row.volume_drift = row.shape.volume / interface.initial_volume - 1.0;
     row.volume_correction = state.volume_shift[i];
     if (breakup_radius > 0.0) row.neck_radius = thinnest_neck(interface, surface);

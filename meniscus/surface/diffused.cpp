@@ -10,6 +10,7 @@
 #include "meniscus/mesh/surface_tree.hpp"
 #include "meniscus/surface/even_out.hpp"
 #include "meniscus/surface/remesh.hpp"
+#include "meniscus/surface/restore_volume.hpp"
 
 namespace meniscus {
 namespace {

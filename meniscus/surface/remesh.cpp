@@ -9,6 +9,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/restore_volume.hpp"
 #include "meniscus/surface/restructure.hpp"
 #include "meniscus/surface/sizing.hpp"
 #include "meniscus/surface/springs.hpp"

@@ -57,11 +57,4 @@ RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options);
 /// The same, and fields follow; on failure they are unchanged as well.
 RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options, SurfaceFields& fields);
 
-/// Shifts every vertex by the same multiple of its unit area vector A_i/|A_i| so that the enclosed
-/// volume becomes `volume` to 1e-13 relative; returns the size of the shift [R0], signed outward.
-double restore_volume(SurfaceMesh& mesh, double volume);
-/// The same with a shift of its own for each vertex: a common factor, which is returned, times its
-/// weight.
-double restore_volume(SurfaceMesh& mesh, double volume, const VertexField<double>& weights);
-
 }  // namespace meniscus

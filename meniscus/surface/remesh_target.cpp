@@ -18,6 +18,7 @@
 #include "meniscus/surface/diffused.hpp"
 #include "meniscus/surface/even_out.hpp"
 #include "meniscus/surface/remesh.hpp"
+#include "meniscus/surface/restore_volume.hpp"
 #include "meniscus/surface/sizing.hpp"
 #include "meniscus/surface/smooth_surface.hpp"
 #include "meniscus/surface/tessellate.hpp"

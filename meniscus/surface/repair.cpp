@@ -1,6 +1,7 @@
 #include "meniscus/surface/repair.hpp"
 
 #include "meniscus/mesh/surface_check.hpp"
+#include "meniscus/surface/restore_volume.hpp"
 
 namespace meniscus {
 

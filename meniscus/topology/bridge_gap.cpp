@@ -14,6 +14,7 @@
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
 #include "meniscus/surface/remesh.hpp"
+#include "meniscus/surface/restore_volume.hpp"
 #include "meniscus/topology/face_patch.hpp"
 #include "meniscus/topology/smooth_fill.hpp"
 #include "meniscus/topology/zip.hpp"

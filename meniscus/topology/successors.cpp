@@ -10,6 +10,7 @@
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
 #include "meniscus/surface/remesh.hpp"
+#include "meniscus/surface/restore_volume.hpp"
 
 namespace meniscus {
 namespace {

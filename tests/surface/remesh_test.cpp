@@ -7,6 +7,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/restore_volume.hpp"
 #include "meniscus/surface/sizing.hpp"
 #include "tests/surface/shapes.hpp"
 

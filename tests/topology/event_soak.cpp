@@ -14,6 +14,7 @@
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/remesh.hpp"
+#include "meniscus/surface/restore_volume.hpp"
 #include "meniscus/topology/mend.hpp"
 #include "tests/topology/scenes.hpp"
 
