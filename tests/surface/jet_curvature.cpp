@@ -1,4 +1,4 @@
-#include "meniscus/surface/jet_curvature.hpp"
+#include "tests/surface/jet_curvature.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -10,7 +10,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 
-namespace meniscus {
+namespace meniscus::test {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -66,4 +66,4 @@ VertexField<VertexCurvature> jet_curvature(const SurfaceMesh& mesh,
   return result;
 }
 
-}  // namespace meniscus
+}  // namespace meniscus::test

@@ -2,7 +2,7 @@
 
 #include "meniscus/surface/curvature.hpp"
 
-namespace meniscus {
+namespace meniscus::test {
 
 /// An estimate that shares no code with the fits of curvature.hpp, to check them against: CGAL's
 /// jet fitting (cazals2005) of degree 4 to three rings, by singular values, the plane and the
@@ -14,4 +14,4 @@ namespace meniscus {
 [[nodiscard]] VertexField<VertexCurvature> jet_curvature(const SurfaceMesh& mesh,
                                                          const SurfaceTopology& topology);
 
-}  // namespace meniscus
+}  // namespace meniscus::test
