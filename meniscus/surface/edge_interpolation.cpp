@@ -8,6 +8,10 @@
 namespace meniscus {
 namespace {
 
+/// More than other fits ask, so that a second ring takes over sooner. On the stretched faces of a
+/// folded drop of 500 vertices one ring at the usual 1e-3 makes the layers in its film wrong
+/// by 7.7e-3 instead of 4.2e-3.
+constexpr double kLeastStencilPivot = 1e-2;
 constexpr std::size_t kLeastRing = 6;  // five unknowns; a ring of five would leave noise undamped
 
 std::vector<VertexId> with_second_ring(const SurfaceTopology& topology, VertexId v) {
@@ -42,7 +46,7 @@ VertexInterpolation::VertexInterpolation(const SurfaceMesh& mesh, const SurfaceT
       weighted.col(static_cast<Eigen::Index>(j)) =
           fit.add(monomials<2>(d.dot(frame_.t1), d.dot(frame_.t2)), 1.0 / d.squaredNorm());
     }
-    const auto factor = fit.factor();
+    const auto factor = fit.factor(kLeastStencilPivot);
     if (!factor) continue;
     fit_ = factor->solve(weighted);
     scale_ = h;

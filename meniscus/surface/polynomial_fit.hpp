@@ -42,8 +42,8 @@ template <int Degree>
 
 /// A fit is not determined by its points where the smallest pivot of its normal equations is less
 /// than this part of the largest, lengths being in units of the points' distance: it would amplify
-/// the noise of the vertices more than the truncation of a lower degree is worth. For degrees up to
-/// three; rings of even meshes give 0.02 to 0.5 (docs/surfaces-and-curvature.md).
+/// the noise of the vertices more than the truncation of a lower degree is worth. What asks for
+/// another value says why (docs/surfaces-and-curvature.md).
 inline constexpr double kLeastPivot = 1e-3;
 
 /// Weighted least squares of a function c·m about a vertex by its normal equations,
