@@ -2,26 +2,13 @@
 
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
 
-#include "meniscus/volume/facets.hpp"
+#include "meniscus/geometry/tetrahedron.hpp"
 
 namespace meniscus {
 namespace {
-
-/// Gradients of the four linear shape functions of a cell.
-std::array<Vec3, 4> shape_gradients(const TetMesh& mesh, CellId c) {
-  const double six_volumes = 6.0 * signed_volume(mesh, c);
-  std::array<Vec3, 4> gradients;
-  for (std::size_t k = 0; k < 4; ++k) {
-    // Twice the outward area vector of the facet opposite corner k, over −6|K|.
-    const FacetVertices f = facet(mesh.cells[c], k);
-    gradients[k] = (mesh.x[f[2]] - mesh.x[f[0]]).cross(mesh.x[f[1]] - mesh.x[f[0]]) / six_volumes;
-  }
-  return gradients;
-}
 
 using Matrix = Eigen::SparseMatrix<double>;
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
@@ -39,7 +26,8 @@ LinearSystem assemble(const TetMesh& mesh, std::int32_t first_free,
   entries.reserve(16 * static_cast<std::size_t>(mesh.num_cells()));
   for (const CellId c : mesh.cells.ids()) {
     const CellVertices& v = mesh.cells[c];
-    const std::array<Vec3, 4> gradients = shape_gradients(mesh, c);
+    const std::array<Vec3, 4> gradients =
+        linear_tetrahedron({mesh.x[v[0]], mesh.x[v[1]], mesh.x[v[2]], mesh.x[v[3]]}).gradient;
     for (std::size_t i = 0; i < 4; ++i) {
       const std::int32_t row = v[i].value - first_free;
       if (row < 0) continue;
