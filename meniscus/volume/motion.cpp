@@ -28,30 +28,29 @@ TetVertexId first_free_vertex(const TetMesh& mesh) {
 
 }  // namespace
 
-VolumeVelocity volume_velocity(const Scene& scene, const TetMesh& mesh,
-                               std::span<const VertexField<Vec3>> interface_motion,
-                               const Field<TetVertexId, Vec3>& fluid, VolumeMotion motion) {
-  VolumeVelocity result{surface_motion(mesh, interface_motion), motion};
+Field<TetVertexId, Vec3> volume_velocity(const Scene& scene, const TetMesh& mesh,
+                                         std::span<const VertexField<Vec3>> interface_motion,
+                                         const Field<TetVertexId, Vec3>& fluid,
+                                         VolumeMotion motion) {
+  Field<TetVertexId, Vec3> w = surface_motion(mesh, interface_motion);
   const TetVertexId first_free = first_free_vertex(mesh);
   MENISCUS_ASSERT(first_free.is_valid(), "a mesh without an outer boundary");
   if (motion == VolumeMotion::lagrangian) {
     MENISCUS_ASSERT(fluid.size() == mesh.num_vertices(), "{} velocities for {} vertices",
                     fluid.size(), mesh.num_vertices());
-    for (TetVertexId v = first_free; v.value < mesh.num_vertices(); ++v.value)
-      result.w[v] = fluid[v];
-    return result;
+    for (TetVertexId v = first_free; v.value < mesh.num_vertices(); ++v.value) w[v] = fluid[v];
+    return w;
   }
   if (motion == VolumeMotion::spines && scene.interfaces.size() == 1) {
     const Spines spines(scene.interfaces[0].mesh, scene.boundary.mesh);
     if (spines.exist()) {
       for (TetVertexId v = first_free; v.value < mesh.num_vertices(); ++v.value)
-        result.w[v] = spines.velocity(mesh.x[v], interface_motion[0]);
-      return result;
+        w[v] = spines.velocity(mesh.x[v], interface_motion[0]);
+      return w;
     }
   }
-  extend_harmonically(mesh, first_free, result.w);
-  result.used = VolumeMotion::harmonic;
-  return result;
+  extend_harmonically(mesh, first_free, w);
+  return w;
 }
 
 }  // namespace meniscus

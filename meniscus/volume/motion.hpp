@@ -14,14 +14,8 @@ enum class VolumeMotion { spines, lagrangian, harmonic };
 ///  * spines: along the ray from the drop's centre (one star-shaped drop; elsewhere harmonic),
 ///  * lagrangian: the fluid's velocity `fluid`,
 ///  * harmonic: the solution of ∇·(|K|⁻¹∇w) = 0.
-/// `used` says which was taken.
-struct VolumeVelocity {
-  Field<TetVertexId, Vec3> w;
-  VolumeMotion used = VolumeMotion::spines;
-};
-[[nodiscard]] VolumeVelocity volume_velocity(const Scene& scene, const TetMesh& mesh,
-                                             std::span<const VertexField<Vec3>> interface_motion,
-                                             const Field<TetVertexId, Vec3>& fluid,
-                                             VolumeMotion motion);
+[[nodiscard]] Field<TetVertexId, Vec3> volume_velocity(
+    const Scene& scene, const TetMesh& mesh, std::span<const VertexField<Vec3>> interface_motion,
+    const Field<TetVertexId, Vec3>& fluid, VolumeMotion motion);
 
 }  // namespace meniscus

@@ -44,13 +44,13 @@ MeshReport MovingMesh::move(const Scene& start,
                             const Field<TetVertexId, Vec3>& liquid_velocity, double dt) {
   const PhaseTimer timer(times_, "move mesh");
   MENISCUS_ASSERT(start_.num_vertices() == mesh_.num_vertices(), "a step that was not begun");
-  VolumeVelocity velocity =
+  Field<TetVertexId, Vec3> velocity =
       volume_velocity(start, start_, interface_velocity, liquid_velocity, motion_);
   TetMesh moved = start_;
-  for (const TetVertexId v : moved.x.ids()) moved.x[v] += dt * velocity.w[v];
+  for (const TetVertexId v : moved.x.ids()) moved.x[v] += dt * velocity[v];
   if (has_inverted_cell(moved)) return {false, "moving the volume mesh inverts a cell"};
   mesh_ = std::move(moved);
-  velocity_ = std::move(velocity.w);
+  velocity_ = std::move(velocity);
   if (fields_.empty()) return {};
   fields_ = start_fields_;
   excess_ = {};
