@@ -19,20 +19,6 @@ constexpr int most_newton_steps = 6;
 // the residual at rest; and not below what a residual's roundoff leaves, where there are no drops.
 constexpr double kMostOfDisturbance = 50.0, kLeastOfRest = 1e-6;
 
-linear::SaddleMethod method(LinearSolver which) {
-  switch (which) {
-    case LinearSolver::block:
-      return linear::SaddleMethod::block;
-    case LinearSolver::paper_gmres:
-      return linear::SaddleMethod::paper_gmres;
-    case LinearSolver::minres:
-      return linear::SaddleMethod::minres;
-    case LinearSolver::mumps:
-      break;
-  }
-  return linear::SaddleMethod::mumps;
-}
-
 /// The chosen solver, then the others that the elements and their number allow: quadratic ones have
 /// no stabilisation on the diagonal, by which the paper's solver scales.
 std::vector<LinearSolver> solvers_in_order(LinearSolver first, const FlowSpace& space) {
@@ -116,7 +102,7 @@ double reference_residual(const StokesProblem& problem) {
 
 linear::SaddleSolver make_linear_solver(LinearSolver which, const Options& options) {
   return {linear::Communicator::of(options.processes),
-          {.method = method(which),
+          {.method = which,
            .max_iterations = options.max_iterations,
            .multigrid_by_degree = options.elements == Elements::p2_p1,
            .petsc_options = options.petsc_options}};
@@ -200,7 +186,7 @@ StokesReport StokesSolver::solve_part(const StokesProblem& problem, StokesState&
     }
     before = report;
     before.failed_solvers.push_back(
-        fmt::format("linear solver {}: {}", linear::name(method(which)), report.failure));
+        fmt::format("linear solver {}: {}", linear::name(which), report.failure));
     log::warning("{}; trying another way", before.failed_solvers.back());
   }
   return report;
@@ -265,7 +251,7 @@ bool StokesSolver::linear_step(const StokesProblem& problem, const StokesResidua
       return true;
     }
     report.failed_solvers.push_back(
-        fmt::format("linear solver {}: {}", linear::name(method(which)), linear_report.reason));
+        fmt::format("linear solver {}: {}", linear::name(which), linear_report.reason));
     log::warning("{}; trying another way", report.failed_solvers.back());
   }
   return false;
