@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/linear/petsc_objects.hpp"
 
 namespace meniscus::linear {
@@ -100,6 +101,11 @@ void gather(Communicator communicator, std::span<const double> own,
     starts.push_back(next);
     next += count;
   }
+  MENISCUS_ASSERT(
+      counts.size() == std::size_t(communicator.size()) && std::size_t(next) == all.size(),
+      "{} counts, {} of {} values", counts.size(), next, all.size());
+  MENISCUS_ASSERT(own.size() == std::size_t(counts[std::size_t(communicator.rank())]), "{}",
+                  own.size());
   MPI_Allgatherv(own.data(), static_cast<int>(own.size()), MPI_DOUBLE, all.data(), counts.data(),
                  starts.data(), MPI_DOUBLE, handle_of(communicator));
 }

@@ -109,6 +109,11 @@ class SaddleSolver::Implementation {
 
   LinearReport solve(const SaddleSystem& system, std::span<const double> right_hand_side,
                      std::span<double> solution, double rtol, Preconditioner preconditioner) {
+    MENISCUS_ASSERT(right_hand_side.size() == std::size_t(system.size()) &&
+                        solution.size() == right_hand_side.size(),
+                    "{} unknowns, {} and {} given", system.size(), right_hand_side.size(),
+                    solution.size());
+    MENISCUS_ASSERT(rtol > 0.0, "{}", rtol);
     LinearReport report;
     const OptionScope scope(table_.get());
     try {
