@@ -204,6 +204,7 @@ EvolutionReport Evolution::follow_interfaces(const RegionSources& sources) {
   state_.connectivity = ++last_connectivity_;
   if (!state_.mesh) return {};
   const MeshChange change = state_.mesh->follow(state_.scene, sources);
+  if (change.ok) solver_->follow(change, state_.domain());
   return {change.ok, change.failure};
 }
 

@@ -1,5 +1,7 @@
 #include "meniscus/volume/moving_mesh.hpp"
 
+#include <utility>
+
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/field_archive.hpp"
 #include "meniscus/volume/mesh_archive.hpp"
@@ -91,7 +93,8 @@ MeshChange MovingMesh::follow(const Scene& scene, const RegionSources& sources) 
   if (!made.ok) return change;
   change.old_to_new = boundary_counterparts(mesh_, fitted);
   if (!fields_.empty()) fields_ = transfer_fields(fields_, mesh_, fitted, excess_, sources);
-  mesh_ = std::move(fitted);
+  change.before = std::exchange(mesh_, std::move(fitted));
+  change.sources = sources;
   velocity_ = {};
   return change;
 }

@@ -30,6 +30,8 @@ struct [[nodiscard]] MeshChange {
   std::string failure;
   /// Where the vertices of the mesh before are now; invalid for those without a counterpart.
   Field<TetVertexId, TetVertexId> old_to_new;
+  TetMesh before;         ///< the mesh as it stood
+  RegionSources sources;  ///< which liquid each region of the new mesh took
 };
 
 /// The tetrahedra of all regions, which move with the interfaces of a scene. The mesh knows where

@@ -19,6 +19,7 @@ class MeshedFlow {
     const MeshChange change = mesh.follow(scene);
     ASSERT_TRUE(change.ok) << change.failure;
     ++connectivity;
+    solver->follow(change, domain(scene));
   }
   [[nodiscard]] FlowDomain domain(const Scene& scene) const {
     return {scene, &mesh.tetrahedra(), connectivity};

@@ -10,6 +10,7 @@
 #include "meniscus/flow/fem/capillary_force.hpp"
 #include "meniscus/flow/fem/excess_stress.hpp"
 #include "meniscus/flow/fem/face_elements.hpp"
+#include "meniscus/flow/fem/interpolated_state.hpp"
 #include "meniscus/flow/fem/solver_archive.hpp"
 #include "meniscus/flow/fem/stokes_residual.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
@@ -119,6 +120,7 @@ class FiniteElementFlow final : public FlowSolver {
   }
 
   FlowSolution solve(const FlowDomain& domain, const Instant& instant) override;
+  void follow(const MeshChange& change, const FlowDomain& domain) override;
 
   void save(Archive& archive, const FlowDomain& domain) const override;
   void load(const Archive& archive, const FlowDomain& domain) override;
@@ -132,15 +134,18 @@ class FiniteElementFlow final : public FlowSolver {
   }
   void decide_on_preconditioner(const StokesProblem& problem, const StokesReport& report,
                                 bool is_kept);
-  [[nodiscard]] FlowSolution solution(const FlowDomain& domain, const InstantProblem& problem);
+  [[nodiscard]] StokesState first_guess(const StokesProblem& problem) const;
+  void keep_guess(const StokesProblem& problem, StokesState state);
+  [[nodiscard]] FlowSolution solution(const FlowDomain& domain, const InstantProblem& problem,
+                                      const StokesState& state);
   void restore_preconditioner(const Archive& archive, const FlowDomain& domain);
 
   Options options_;
   std::int64_t connectivity_ = 0;  // that all below is made for
   FlowSpace space_;
   std::optional<StokesSolver> stokes_;
-  /// The last solution: the next solve's first guess.
-  std::optional<StokesState> state_;
+  /// The last solution less the undisturbed flow: the next solve's first guess.
+  std::optional<StokesState> guess_;
   /// Where the nodes were when the preconditioner was made that the next solve will keep, and the
   /// iterations of the solve that made it; none when the next is to make its own.
   std::optional<NodePositions> prepared_at_;
@@ -152,9 +157,33 @@ void FiniteElementFlow::use_connectivity(const FlowDomain& domain) {
   stokes_.reset();
   space_ = flow_space(*domain.mesh, options_.elements);
   stokes_.emplace(space_, options_);
-  state_.reset();
+  guess_.reset();
   prepared_at_.reset();
   connectivity_ = domain.connectivity;
+}
+
+void FiniteElementFlow::follow(const MeshChange& change, const FlowDomain& domain) {
+  if (!guess_) return;
+  const RemainderTimer timer(times_, "assemble");
+  const StokesState guess = *std::move(guess_);
+  stokes_.reset();  // refers to the space
+  const FlowSpace before = std::move(space_);
+  use_connectivity(domain);
+  guess_ =
+      interpolated_state(guess, {change.before, before}, {*domain.mesh, space_}, change.sources);
+}
+
+/// Undisturbed flow and drops change on their own: the one is known at once, what the drops add to
+/// it is taken from the last solution.
+StokesState FiniteElementFlow::first_guess(const StokesProblem& problem) const {
+  StokesState state = guess_ ? *guess_ : stokes_->state_at_rest();
+  for (const NodeId i : state.v.ids()) state.v[i] += problem.undisturbed[i];
+  return state;
+}
+
+void FiniteElementFlow::keep_guess(const StokesProblem& problem, StokesState state) {
+  for (const NodeId i : state.v.ids()) state.v[i] -= problem.undisturbed[i];
+  guess_ = std::move(state);
 }
 
 FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& instant) {
@@ -169,16 +198,16 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
       instant_problem(domain.scene, mesh, space_, node_positions(domain.scene, mesh, space_),
                       options_.capillary, instant.t);
   if (!problem.failure.empty()) return failed_flow(problem.failure);
-  if (!state_) {
-    state_ = stokes_->state_at_rest();
-    state_->v = problem.stokes.undisturbed;
-  }
+  StokesState state = first_guess(problem.stokes);
   const bool is_kept = prepared_at_.has_value();
   const StokesReport report = stokes_->solve(
-      problem.stokes, *state_,
-      is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh, times_);
+      problem.stokes, state, is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh,
+      times_);
   decide_on_preconditioner(problem.stokes, report, is_kept);
-  FlowSolution result = report.ok ? solution(domain, problem) : failed_flow(report.failure);
+  if (report.ok && !problem.stokes.has_open_boundary)
+    level_pressure(mesh, space_.pressure, state.p);
+  FlowSolution result = report.ok ? solution(domain, problem, state) : failed_flow(report.failure);
+  if (report.ok) keep_guess(problem.stokes, std::move(state));
   result.iterations = report.iterations;
   if (const int straight = problem.stokes.positions.num_straightened; straight > 0)
     result.warnings.push_back(
@@ -203,33 +232,33 @@ void FiniteElementFlow::decide_on_preconditioner(const StokesProblem& problem,
   iterations_then_ = report.iterations;
 }
 
-FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const InstantProblem& problem) {
+FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const InstantProblem& problem,
+                                         const StokesState& state) {
   const TetMesh& mesh = *domain.mesh;
   FlowSolution result;
-  if (!problem.stokes.has_open_boundary) level_pressure(mesh, space_.pressure, state_->p);
   for (std::size_t i = 0; i < mesh.interfaces.size(); ++i) {
     const SurfaceMesh& surface = domain.scene.interfaces[i].mesh;
     const FaceNodeTable faces = face_nodes(space_, mesh, surface, mesh.interfaces[i]);
     const NodePositions& positions = problem.stokes.positions;
-    VertexField<Vec3> v = vertex_velocity(surface, faces, positions, state_->v);
-    remove_net_flux(surface, net_flux(faces, positions, state_->v), v);
+    VertexField<Vec3> v = vertex_velocity(surface, faces, positions, state.v);
+    remove_net_flux(surface, net_flux(faces, positions, state.v), v);
     result.velocity.push_back(std::move(v));
   }
-  const StokesPower power = stokes_->power(problem.stokes, *state_);
+  const StokesPower power = stokes_->power(problem.stokes, state);
   double traction = 0.0;
-  for (const NodeId i : problem.traction.ids()) traction += problem.traction[i].dot(state_->v[i]);
+  for (const NodeId i : problem.traction.ids()) traction += problem.traction[i].dot(state.v[i]);
   result.power = {power.reaction + traction + power.body_force, power.dissipation};
-  result.excess_stress = fem::excess_stress(problem.stokes, *state_);
-  BulkFlow bulk{at_vertices(state_->v, mesh.num_vertices()), {}};
+  result.excess_stress = fem::excess_stress(problem.stokes, state);
+  BulkFlow bulk{at_vertices(state.v, mesh.num_vertices()), {}};
   for (const std::int32_t node : space_.pressure.nodes.cell_nodes)
-    bulk.corner_pressure.push_back(state_->p[static_cast<std::size_t>(node)]);
+    bulk.corner_pressure.push_back(state.p[static_cast<std::size_t>(node)]);
   result.bulk = std::move(bulk);
   return result;
 }
 
 void FiniteElementFlow::save(Archive& archive, const FlowDomain& domain) const {
   if (!has_connectivity_of(domain)) return;
-  if (state_) fem::save(*state_, archive, "flow/guess");
+  if (guess_) fem::save(*guess_, archive, "flow/guess");
   if (!prepared_at_) return;
   save_positions(*prepared_at_, archive, "flow/preconditioner");
   archive.integers["flow/preconditioner/iterations"] = {iterations_then_};
@@ -254,9 +283,9 @@ void FiniteElementFlow::load(const Archive& archive, const FlowDomain& domain) {
   use_connectivity(domain);
   restore_preconditioner(archive, domain);
   if (!archive.reals.contains("flow/guess/velocity")) return;
-  state_ = load_state(archive, "flow/guess");
+  guess_ = load_state(archive, "flow/guess");
   const StokesState rest = stokes_->state_at_rest();
-  if (state_->v.size() != rest.v.size() || state_->p.size() != rest.p.size())
+  if (guess_->v.size() != rest.v.size() || guess_->p.size() != rest.p.size())
     reject_input("checkpoint: flow/guess does not fit the volume mesh");
 }
 

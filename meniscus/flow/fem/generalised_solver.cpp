@@ -103,7 +103,7 @@ StokesReport StokesSolver::solve_generalised(const StokesProblem& problem, Stoke
   for (;;) {
     report.residuals.push_back(at.norm);
     report.residual = at.norm;
-    if (at.norm <= 2.0 * target) break;
+    if (at.norm <= (report.residuals.size() == 1 ? 1.0 : 2.0) * target) break;
     if (report.newton_steps + report.picard_steps >= most_steps)
       return fail("the viscosity's iteration does not converge");
     const Linearization about{at.state, picard_left > 0 ? Kind::picard : Kind::newton};
