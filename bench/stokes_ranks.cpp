@@ -15,7 +15,7 @@
 
 #include <fmt/format.h>
 
-#include "meniscus/flow/fem/share.hpp"
+#include "meniscus/flow/fem/partition.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
 #include "meniscus/linear/collective.hpp"
 #include "meniscus/volume/tetrahedralize.hpp"
@@ -41,7 +41,7 @@ using Times = std::array<double, num_phases>;
 
 Times measured(const StokesProblem& problem, const Options& options, int& iterations) {
   Times times{};
-  times[share] = seconds([&] { (void)make_share(problem.space, world()); });
+  times[share] = seconds([&] { (void)make_partition(problem.space, world()); });
   std::optional<StokesSolver> solver;
   times[share_and_sparsity] = seconds([&] { solver.emplace(problem.space, options); });
   PhaseTimes ignored;

@@ -52,7 +52,7 @@ struct SplitRows {
     take_values(csr);
   }
 
-  /// Of a matrix on the same sparsity.
+  /// Copies the values of a matrix on the same sparsity.
   void take_values(const CsrView& csr) {
     MENISCUS_ASSERT(std::size_t(csr.num_rows) + 1 == own.start.size(), "{} rows of {}",
                     csr.num_rows, own.start.size() - 1);
@@ -120,7 +120,7 @@ void keep_with(Mat matrix, std::unique_ptr<SplitRows> rows) {
               "PetscObjectCompose");
 }
 
-/// Of a shared matrix; what PETSc made of the old values it does not know to be stale.
+/// Copies values into a shared matrix. PETSc is not told: what it derived from old values is stale.
 void take_values(Mat matrix, const CsrView& csr) {
   PetscObject container = nullptr;
   void* rows = nullptr;

@@ -10,7 +10,7 @@ using PerCell = CellBatch::PerCell<double>;
 using PerCell3 = std::array<PerCell, 3>;
 using OfCells = std::array<EdgeIntegrals<PerCell>, 6>;
 
-/// Of plain numbers: compilers make vectors across cells of these, and not of Eigen's.
+/// A vector of plain numbers, which compilers vectorise across cells; they do not with Eigen's.
 struct Vector {
   double x, y, z;
   friend Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }

@@ -60,16 +60,16 @@ InstantProblem instant_problem(const Scene& scene, const TetMesh& mesh, const Fl
   problem.stokes.constraints = std::move(conditions.constraints);
   problem.stokes.has_open_boundary = conditions.has_open_patch;
   problem.traction = std::move(conditions.traction);
-  problem.stokes.load = problem.traction;
+  problem.stokes.force = problem.traction;
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
     if (scene.interfaces[i].tension != 0.0)
-      add_capillary_force(scene.interfaces[i], form, nodes.interfaces[i], at, problem.stokes.load);
+      add_capillary_force(scene.interfaces[i], form, nodes.interfaces[i], at, problem.stokes.force);
   return problem;
 }
 
-/// The pressures of its inside let no liquid through an interface, Σ A_i·v_i = 0 over its nodes,
-/// exactly but for the linear solver's residual: what that leaves goes along the area vectors of
-/// the faces, so that no volume is lost to a loose tolerance.
+/// Takes a net flux out of the velocity of an interface, along its area vectors. The pressures
+/// inside keep Σ A_i·v_i at zero but for the linear solver's residual; this removes the rest, so
+/// that no volume is lost to a loose tolerance.
 void remove_net_flux(const SurfaceMesh& surface, double flux, VertexField<Vec3>& velocity) {
   const VertexField<Vec3> area = vertex_area_vectors(surface);
   double squared = 0.0;
@@ -217,8 +217,8 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
   return result;
 }
 
-/// A preconditioner is kept while the topology stands and it saves more than it costs: to make one
-/// takes as long as three or four iterations (docs/benchmark-stokes.md).
+/// Keeps a preconditioner while the connectivity stands and it saves more than it costs: to make
+/// one takes as long as three or four iterations (docs/benchmark-stokes.md).
 void FiniteElementFlow::decide_on_preconditioner(const StokesProblem& problem,
                                                  const StokesReport& report, bool is_kept) {
   constexpr int kWorthOfOne = 3;
@@ -264,7 +264,7 @@ void FiniteElementFlow::save(Archive& archive, const FlowDomain& domain) const {
   archive.integers["flow/preconditioner/iterations"] = {iterations_then_};
 }
 
-/// A resumed run must do the same arithmetic: it gets the preconditioner that the saved one had.
+/// Makes the preconditioner that the saved run had, so that a resumed run does the same arithmetic.
 void FiniteElementFlow::restore_preconditioner(const Archive& archive, const FlowDomain& domain) {
   if (!archive.reals.contains("flow/preconditioner/x")) return;
   prepared_at_ = load_positions(archive, "flow/preconditioner");

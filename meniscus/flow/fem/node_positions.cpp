@@ -10,8 +10,8 @@
 namespace meniscus::fem {
 namespace {
 
-// Of the straight cell's determinant. Quadratic maps of cells that pass are one to one in practice,
-// and their gradients at most some ten times those of the straight cell.
+// The least Jacobian allowed, over the straight cell's. Quadratic maps of cells that pass are one
+// to one in practice, and their gradients at most some ten times those of the straight cell.
 constexpr double kLeastJacobian = 0.1;
 
 Vec3 straight_middle(const TetMesh& mesh, const std::array<TetVertexId, 2>& edge) {

@@ -5,7 +5,8 @@
 
 namespace meniscus::fem {
 
-RegionWeights::RegionWeights(const PressureSpace& pressure, const Share* share) : share_(share) {
+RegionWeights::RegionWeights(const PressureSpace& pressure, const Partition* partition)
+    : partition_(partition) {
   region_of_pressure_.reserve(pressure.region.size());
   for (const RegionId region : pressure.region) region_of_pressure_.push_back(region.value);
 }
@@ -23,7 +24,8 @@ void RegionWeights::update(std::span<const double> pressure_mass) {
   }
   weights_.clear();
   for (std::size_t r = 0; r < mass.size(); ++r) {
-    const double whole = share_ == nullptr ? mass[r] : linear::sum(share_->communicator, mass[r]);
+    const double whole =
+        partition_ == nullptr ? mass[r] : linear::sum(partition_->communicator, mass[r]);
     MENISCUS_ASSERT(shares_[r] == 0.0 || whole > 0.0, "region {}", r);
     weights_.push_back(shares_[r] / whole);
   }

@@ -3,25 +3,25 @@
 #include <span>
 #include <vector>
 
-#include "meniscus/flow/fem/share.hpp"
+#include "meniscus/flow/fem/partition.hpp"
 #include "meniscus/linear/saddle_system.hpp"
 
 namespace meniscus::fem {
 
 /// The weights that preconditioners give to pressures constant in a region (region_pressures.hpp):
-/// χ share/(∫χ/μ) χᵀ is the share of μM⁻¹ between them.
+/// χ w/(∫χ/μ) χᵀ, w being the region's fraction, is w μM⁻¹ for such a pressure.
 class RegionWeights {
  public:
-  RegionWeights(const PressureSpace& pressure, const Share* share);
+  RegionWeights(const PressureSpace& pressure, const Partition* partition);
 
-  /// By region; they hold for the assemblies to come.
+  /// Sets the fractions by region, for all later updates.
   void set_shares(const Field<RegionId, double>& shares);
   /// Computes the weights from the lumped mass ∫ψ/μ of this rank's pressures. Collective.
   void update(std::span<const double> pressure_mass);
   void put_into(linear::SaddleSystem& system) const;
 
  private:
-  const Share* share_;
+  const Partition* partition_;
   std::vector<std::int32_t> region_of_pressure_;
   std::vector<double> shares_, weights_;
 };

@@ -15,7 +15,7 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 linear::CsrMatrix interpolation_from_linear(const LinearFunctions& coarse, std::int32_t num_rows,
                                             const std::vector<bool>& is_fixed) {
   linear::CsrMatrix matrix;
-  matrix.num_columns = coarse.num_own;
+  matrix.num_columns = coarse.num_owned;
   matrix.row_start.push_back(0);
   for (std::size_t i = 0; i < at(num_rows); ++i) {
     const auto& [a, b] = coarse.ends[i];
@@ -36,15 +36,16 @@ linear::CsrMatrix interpolation_from_linear(const LinearFunctions& coarse, std::
 
 }  // namespace
 
-ScalarLaplacians::ScalarLaplacians(const FlowSpace& space, const Share* share)
-    : share_(share),
+ScalarLaplacians::ScalarLaplacians(const FlowSpace& space, const Partition* partition)
+    : partition_(partition),
       num_nodes_(space.velocity.num_nodes),
-      num_own_nodes_(share != nullptr ? share->own.num_nodes : space.velocity.num_nodes),
-      coarse_(share != nullptr ? share->coarse : linear_functions(space)) {}
+      num_owned_nodes_(partition != nullptr ? partition->owned.num_nodes
+                                            : space.velocity.num_nodes),
+      coarse_(partition != nullptr ? partition->coarse : linear_functions(space)) {}
 
-/// Whether all ranks agree that the same nodes are fixed in two components.
+/// Whether two sets of fixed nodes are equal on every rank.
 bool ScalarLaplacians::is_same(const std::vector<bool>& a, const std::vector<bool>& b) const {
-  return share_ == nullptr ? a == b : !linear::any(share_->communicator, a != b);
+  return partition_ == nullptr ? a == b : !linear::any(partition_->communicator, a != b);
 }
 
 void ScalarLaplacians::choose(const Constraints& constraints, std::size_t num_values) {
@@ -60,7 +61,7 @@ void ScalarLaplacians::choose(const Constraints& constraints, std::size_t num_va
     if (same != laplacians_.end()) continue;
     linear::CsrMatrix from_linear;
     if (!coarse_.ends.empty())
-      from_linear = interpolation_from_linear(coarse_, num_own_nodes_, is_fixed);
+      from_linear = interpolation_from_linear(coarse_, num_owned_nodes_, is_fixed);
     laplacians_.push_back(
         {std::move(is_fixed), std::vector<double>(num_values), std::move(from_linear)});
   }
@@ -71,7 +72,7 @@ void ScalarLaplacians::put_into(linear::SaddleSystem& system, const NodeGraph& g
     MENISCUS_ASSERT(laplacian.values.size() == graph.num_entries(), "{} {}",
                     laplacian.values.size(), graph.num_entries());
     system.laplacians.push_back(
-        {num_own_nodes_, num_own_nodes_, graph.row_start, graph.columns, laplacian.values});
+        {num_owned_nodes_, num_owned_nodes_, graph.row_start, graph.columns, laplacian.values});
     if (!coarse_.ends.empty()) system.interpolations.push_back(laplacian.from_linear.view());
   }
   system.laplacian_of = laplacian_of_;

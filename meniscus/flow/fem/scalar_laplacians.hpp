@@ -6,7 +6,7 @@
 
 #include "meniscus/flow/fem/constraints.hpp"
 #include "meniscus/flow/fem/node_graph.hpp"
-#include "meniscus/flow/fem/share.hpp"
+#include "meniscus/flow/fem/partition.hpp"
 #include "meniscus/linear/saddle_system.hpp"
 
 namespace meniscus::fem {
@@ -23,7 +23,7 @@ struct ScalarLaplacian {
 /// have one in common.
 class ScalarLaplacians {
  public:
-  ScalarLaplacians(const FlowSpace& space, const Share* share);
+  ScalarLaplacians(const FlowSpace& space, const Partition* partition);
 
   /// Makes those that the constraints ask for, with room for so many values. Collective.
   void choose(const Constraints& constraints, std::size_t num_values);
@@ -34,8 +34,8 @@ class ScalarLaplacians {
  private:
   [[nodiscard]] bool is_same(const std::vector<bool>& a, const std::vector<bool>& b) const;
 
-  const Share* share_;
-  std::int32_t num_nodes_, num_own_nodes_;
+  const Partition* partition_;
+  std::int32_t num_nodes_, num_owned_nodes_;
   LinearFunctions coarse_;
   std::vector<ScalarLaplacian> laplacians_;
   std::array<int, 3> laplacian_of_ = {0, 0, 0};

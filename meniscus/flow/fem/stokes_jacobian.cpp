@@ -32,17 +32,17 @@ void add_cells(const StokesProblem& problem, const Linearization* about,
 
 }  // namespace
 
-StokesJacobian::StokesJacobian(const FlowSpace& space, const Share* share)
+StokesJacobian::StokesJacobian(const FlowSpace& space, const Partition* partition)
     : space_(space),
-      own_(share != nullptr ? share->own : all_of(space)),
+      owned_(partition != nullptr ? partition->owned : all_owned(space)),
       sparsity_(space),
-      laplacians_(space, share),
-      region_weights_(space.pressure, share) {
+      laplacians_(space, partition),
+      region_weights_(space.pressure, partition) {
   if (space.elements == Elements::p1_p1) {
     edge_sums_.emplace(space, sparsity_.velocity(), sparsity_.coupling(), sparsity_.pressure());
     sparsity_.forget_positions();
   }
-  sparsity_.number_columns(share);
+  sparsity_.number_columns(partition);
 }
 
 void StokesJacobian::clear_values(bool has_lower_left) {
@@ -67,7 +67,7 @@ void StokesJacobian::assemble(const StokesProblem& problem, const Linearization*
   CellAssembly assembly(space_, sparsity_, problem.constraints, values_, laplacians_.all());
   with_element(space_, problem.positions,
                [&](auto& element) { add_cells(problem, about, others, element, assembly); });
-  region_weights_.update(std::span(values_.pressure_mass).first(at(own_.num_pressures)));
+  region_weights_.update(std::span(values_.pressure_mass).first(at(owned_.num_pressures)));
 }
 
 /// Sets A, B, C and the Laplacians to what plain cells, whose matrices are summed by edges, make of
@@ -90,12 +90,12 @@ std::vector<CellId> StokesJacobian::assemble_plain_cells(const StokesProblem& pr
       values_.pressure_mass};
   for (ScalarLaplacian& laplacian : laplacians_.all())
     matrices.laplacians.push_back({&laplacian.is_fixed, laplacian.values});
-  edge_sums_->assemble(problem, plain, own_.num_pressures, matrices);
+  edge_sums_->assemble(problem, plain, owned_.num_pressures, matrices);
   return others;
 }
 
 linear::SaddleSystem StokesJacobian::system() const {
-  const std::int32_t num_velocities = 3 * own_.num_nodes, num_pressures = own_.num_pressures;
+  const std::int32_t num_velocities = 3 * owned_.num_nodes, num_pressures = owned_.num_pressures;
   const ScalarPattern &A = sparsity_.A(), &B = sparsity_.B();
   const NodeGraph& C = sparsity_.pressure();
   linear::SaddleSystem system;

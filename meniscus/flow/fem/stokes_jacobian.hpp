@@ -15,15 +15,16 @@ namespace meniscus::fem {
 /// mesh topology. At constrained nodes the unknowns are in the constraint's frame.
 class StokesJacobian {
  public:
-  /// Of a rank's share of the space, the rows of its own nodes, columns numbered as all do.
-  explicit StokesJacobian(const FlowSpace& space, const Share* share = nullptr);
+  /// With a partition `space` is its local space: the matrices have the rows of the owned nodes,
+  /// and columns as the index maps number them.
+  explicit StokesJacobian(const FlowSpace& space, const Partition* partition = nullptr);
 
   /// Fills the matrices for the geometry, viscosities and constraints of the problem. Linear cost.
   /// Where a liquid is generalised-Newtonian it is linearised about a state, or where none is given
   /// taken for a Newtonian one.
   void assemble(const StokesProblem& problem, const Linearization* about = nullptr);
-  /// What preconditioners shall add for constant pressures, by region (region_pressures.hpp).
-  /// Holds for the assemblies to come.
+  /// Sets the weights of constant pressures in preconditioners, by region (region_pressures.hpp),
+  /// for all later assemblies.
   void weigh_constant_pressures(const Field<RegionId, double>& shares) {
     region_weights_.set_shares(shares);
   }
@@ -36,7 +37,7 @@ class StokesJacobian {
                                            const Linearization* about);
 
   const FlowSpace& space_;
-  OwnPart own_;
+  OwnedCounts owned_;
   StokesSparsity sparsity_;
   std::optional<EdgeSums> edge_sums_;  ///< of P1-P1 alone
   ScalarLaplacians laplacians_;

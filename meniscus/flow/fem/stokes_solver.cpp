@@ -33,7 +33,7 @@ std::vector<LinearSolver> solvers_in_order(LinearSolver first, const FlowSpace& 
   return order;
 }
 
-/// What every solver tried adds to the books.
+/// Adds iterations and times of one linear solve to the report.
 void add_cost(StokesReport& report, const linear::LinearReport& linear_report) {
   report.iterations += linear_report.iterations;
   report.setup_seconds += linear_report.setup_seconds;
@@ -42,17 +42,17 @@ void add_cost(StokesReport& report, const linear::LinearReport& linear_report) {
 
 /// −R with the fixed components zero, in the frames of the unknowns.
 std::vector<double> right_hand_side(const StokesResidual& residual, const StokesProblem& problem) {
-  const OwnPart own = own_part(problem);
+  const OwnedCounts owned = owned_counts(problem);
   std::vector<double> values;
-  values.reserve(static_cast<std::size_t>(3 * own.num_nodes + own.num_pressures));
-  for (const NodeId i : ids<NodeId>(own.num_nodes)) {
+  values.reserve(static_cast<std::size_t>(3 * owned.num_nodes + owned.num_pressures));
+  for (const NodeId i : ids<NodeId>(owned.num_nodes)) {
     const Vec3& r = residual.momentum[i];
     values.insert(values.end(), {-r[0], -r[1], -r[2]});
   }
-  for (std::size_t i = 0; i < static_cast<std::size_t>(own.num_pressures); ++i)
+  for (std::size_t i = 0; i < static_cast<std::size_t>(owned.num_pressures); ++i)
     values.push_back(-residual.continuity[i]);
   for (const NodeConstraint& constraint : problem.constraints.all()) {
-    if (constraint.node.value >= own.num_nodes) continue;
+    if (constraint.node.value >= owned.num_nodes) continue;
     const Vec3 local = constraint.frame.transpose() * residual.momentum[constraint.node];
     for (std::size_t k = 0; k < 3; ++k)
       values[3 * static_cast<std::size_t>(constraint.node.value) + k] =
@@ -61,11 +61,12 @@ std::vector<double> right_hand_side(const StokesResidual& residual, const Stokes
   return values;
 }
 
-/// u + δ, δ being in the frames of the unknowns; that of other ranks' nodes is asked of them.
-void add_step(StokesState& state, const StokesProblem& problem, std::span<const double> own_step) {
-  std::vector<double> here;
-  if (problem.share != nullptr) here = completed(own_step, *problem.share);
-  const std::span<const double> step = problem.share != nullptr ? here : own_step;
+/// Adds δ, given in the frames of the owned unknowns, to the local state. Collective.
+void add_step(StokesState& state, const StokesProblem& problem,
+              std::span<const double> owned_step) {
+  std::vector<double> local;
+  if (problem.partition != nullptr) local = with_ghosts(owned_step, *problem.partition);
+  const std::span<const double> step = problem.partition != nullptr ? local : owned_step;
   const Constraints& constraints = problem.constraints;
   const auto step_at = [&](NodeId i) {
     const std::size_t k = 3 * static_cast<std::size_t>(i.value);
@@ -82,7 +83,7 @@ void add_step(StokesState& state, const StokesProblem& problem, std::span<const 
   for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] += step[first + i];
 }
 
-/// The residual of a state with the fixed velocities given and no pressure.
+/// The residual of a velocity without pressure, once the fixed velocities are imposed.
 double residual_at(const StokesProblem& problem, Field<NodeId, Vec3> v) {
   StokesState state{std::move(v), std::vector<double>(problem.space.pressure.vertex.size(), 0.0)};
   problem.constraints.impose(state.v);
@@ -117,8 +118,8 @@ void check_linear_options(const Options& options) {
 StokesSolver::StokesSolver(const FlowSpace& space, const Options& options)
     : options_(options),
       space_(space),
-      share_(make_share(space, linear::Communicator::of(options.processes))),
-      jacobian_(share_ ? share_->space : space, share_.get()) {}
+      partition_(make_partition(space, linear::Communicator::of(options.processes))),
+      jacobian_(partition_ ? partition_->space : space, partition_.get()) {}
 
 StokesState StokesSolver::state_at_rest() const { return fem::state_at_rest(space_); }
 
@@ -130,8 +131,8 @@ linear::SaddleSolver& StokesSolver::linear_solver(LinearSolver which) {
 
 void StokesSolver::prepare(const StokesProblem& problem) {
   jacobian_.weigh_constant_pressures(constant_pressure_shares(problem));
-  if (share_)
-    jacobian_.assemble(restricted(problem, *share_));
+  if (partition_)
+    jacobian_.assemble(local_part(problem, *partition_));
   else
     jacobian_.assemble(problem);
   linear_solver(options_.linear).prepare(jacobian_.system());
@@ -141,20 +142,20 @@ StokesReport StokesSolver::solve(const StokesProblem& problem, StokesState& stat
                                  linear::Preconditioner preconditioner, PhaseTimes& times) {
   problem.constraints.impose(state.v);
   jacobian_.weigh_constant_pressures(constant_pressure_shares(problem));
-  if (!share_) return solve_part(problem, state, preconditioner, times);
-  StokesState part = restricted(state, *share_);
-  StokesReport report = solve_part(restricted(problem, *share_), part, preconditioner, times);
-  if (report.ok) assemble_whole(part, *share_, state);
+  if (!partition_) return solve_local(problem, state, preconditioner, times);
+  StokesState part = local_part(state, *partition_);
+  StokesReport report = solve_local(local_part(problem, *partition_), part, preconditioner, times);
+  if (report.ok) gather_state(part, *partition_, state);
   return report;
 }
 
 StokesPower StokesSolver::power(const StokesProblem& problem, const StokesState& state) const {
-  return share_ ? fem::power(restricted(problem, *share_), restricted(state, *share_))
-                : fem::power(problem, state);
+  return partition_ ? fem::power(local_part(problem, *partition_), local_part(state, *partition_))
+                    : fem::power(problem, state);
 }
 
-StokesReport StokesSolver::solve_part(const StokesProblem& problem, StokesState& state,
-                                      linear::Preconditioner preconditioner, PhaseTimes& times) {
+StokesReport StokesSolver::solve_local(const StokesProblem& problem, StokesState& state,
+                                       linear::Preconditioner preconditioner, PhaseTimes& times) {
   double reference = 0.0;
   {
     const PhaseTimer timer(times, "assemble");
@@ -199,8 +200,8 @@ StokesReport StokesSolver::solve_with(LinearSolver which, const StokesProblem& p
   report.solver = which;
   report.reference = reference;
   const double target = options_.rtol * reference;
-  const OwnPart own = own_part(problem);
-  std::vector<double> step(static_cast<std::size_t>(3 * own.num_nodes + own.num_pressures));
+  const OwnedCounts owned = owned_counts(problem);
+  std::vector<double> step(static_cast<std::size_t>(3 * owned.num_nodes + owned.num_pressures));
   for (; report.newton_steps <= most_newton_steps; ++report.newton_steps) {
     const StokesResidual now = residual(problem, state);
     report.residual = free_norm(now, problem);

@@ -16,15 +16,15 @@ StokesSparsity::StokesSparsity(const FlowSpace& space)
       coupling_(node_graph(space.pressure.nodes, space.velocity)),
       pressure_(node_graph(space.pressure.nodes, space.pressure.nodes)) {}
 
-void StokesSparsity::number_columns(const Share* share) {
+void StokesSparsity::number_columns(const Partition* partition) {
   MENISCUS_ASSERT(A_.row_start.empty(), "columns are numbered once");
-  if (share != nullptr) {
-    renumber(velocity_, share->node_number);
-    renumber(coupling_, share->node_number);
-    renumber(pressure_, share->pressure_number);
+  if (partition != nullptr) {
+    renumber(velocity_, partition->node_number);
+    renumber(coupling_, partition->node_number);
+    renumber(pressure_, partition->pressure_number);
   }
-  A_ = expanded(velocity_, 3, 3);
-  B_ = expanded(coupling_, 1, 3);
+  A_ = scalar_pattern(velocity_, 3, 3);
+  B_ = scalar_pattern(coupling_, 1, 3);
 }
 
 void StokesSparsity::forget_positions() {

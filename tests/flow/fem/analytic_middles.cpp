@@ -33,7 +33,7 @@ VertexField<Vec3> velocity_with_middles(const Scene& scene, const Method& method
                           face_nodes(space, mesh, scene.boundary.mesh, mesh.boundary), positions,
                           0.0)
           .constraints;
-  if (drop.tension != 0.0) add_capillary_force(drop, method.form, faces, positions, problem.load);
+  if (drop.tension != 0.0) add_capillary_force(drop, method.form, faces, positions, problem.force);
   Options options;
   options.elements = method.elements;
   options.rtol = method.rtol;

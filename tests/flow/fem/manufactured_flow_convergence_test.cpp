@@ -122,7 +122,7 @@ void add_body_force(StokesProblem& problem) {
       for (std::size_t i = 0; i < nodes.size(); ++i)
         x += point.value[i] * positions.x[NodeId{nodes[i]}];
       for (std::size_t i = 0; i < nodes.size(); ++i)
-        problem.load[NodeId{nodes[i]}] += point.weight * point.value[i] * force(x, region);
+        problem.force[NodeId{nodes[i]}] += point.weight * point.value[i] * force(x, region);
     }
   }
 }

@@ -42,7 +42,7 @@ struct ShearedDrop {
                             problem.positions, 0.0)
             .constraints;
     add_capillary_force(scene.interfaces[0], CapillaryForm::weak, drop_faces(), problem.positions,
-                        problem.load);
+                        problem.force);
     return problem;
   }
   FaceNodeTable drop_faces() const {

@@ -39,7 +39,7 @@ void set_boundary(StokesProblem& problem, const TestSpace& test, const OuterBoun
   ASSERT_EQ(conditions.failure, "");
   problem.constraints = conditions.constraints;
   problem.has_open_boundary = conditions.has_open_patch;
-  for (const NodeId v : problem.load.ids()) problem.load[v] += conditions.traction[v];
+  for (const NodeId v : problem.force.ids()) problem.force[v] += conditions.traction[v];
 }
 
 StokesReport solve(const StokesProblem& problem, StokesSolver& solver, StokesState& state) {
@@ -163,7 +163,7 @@ TEST_P(StokesPatch, ConstantCurvatureInTheBalancedFormMovesNothing) {
   const FaceNodeTable faces =
       face_nodes(test.space, mesh, scene.interfaces[0].mesh, mesh.interfaces[0]);
   add_balanced_force(1.0, Field<NodeId, double>(test.space.velocity.num_nodes, 2.0), faces,
-                     test.positions, problem.load);
+                     test.positions, problem.force);
   StokesSolver solver(test.space, direct(GetParam()));
   StokesState state = solver.state_at_rest();
   ASSERT_TRUE(solve(problem, solver, state).ok);

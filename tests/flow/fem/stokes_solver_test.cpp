@@ -62,15 +62,15 @@ TEST_P(EitherElement, EnergyIsBalancedToTheSolversTolerance) {
   const StokesPower books = power(problem, state);
   EXPECT_GT(books.dissipation, 1.0);
   EXPECT_GT(std::abs(books.body_force), 1e-3);
-  EXPECT_GT(std::abs(books.load), 1e-2);
-  EXPECT_NEAR(books.reaction + books.body_force + books.load, books.dissipation,
+  EXPECT_GT(std::abs(books.force), 1e-2);
+  EXPECT_NEAR(books.reaction + books.body_force + books.force, books.dissipation,
               1e-8 * books.dissipation);
   if (GetParam() != Elements::p1_p1) return;
   const VertexField<Vec3> gradient = area_gradient(drop.scene.interfaces[0].mesh);
   double growth = 0.0;
   for (const VertexId v : gradient.ids())
     growth += gradient[v].dot(state.v[node_at(drop.mesh.interfaces[0].vertex(v))]);
-  EXPECT_NEAR(books.load, -growth / 0.3, 1e-10 * std::abs(books.load));
+  EXPECT_NEAR(books.force, -growth / 0.3, 1e-10 * std::abs(books.force));
 }
 
 // Each region's volume is kept: the discrete flux through the drop's surface is zero.
@@ -170,7 +170,7 @@ TEST(StokesSolver, FailureOfAllIsReported) {
   const FlowSpace space = flow_space(mesh, Elements::p2_p1);
   ASSERT_GT(space.velocity.num_nodes, 20000);
   StokesProblem problem(mesh, space, node_positions(scene, mesh, space));
-  for (const NodeId i : problem.load.ids()) problem.load[i] = problem.positions.x[i];
+  for (const NodeId i : problem.force.ids()) problem.force[i] = problem.positions.x[i];
   problem.has_open_boundary = true;
   Options options;
   options.max_iterations = 2;
@@ -191,7 +191,7 @@ TEST(StokesSolver, FailureOfAllIsReported) {
 TEST(StokesSolver, DataThatAreNotFiniteAreReported) {
   const ShearedDrop drop;
   StokesProblem problem = drop.problem();
-  problem.load[NodeId{3}][1] = std::nan("");
+  problem.force[NodeId{3}][1] = std::nan("");
   StokesSolver solver(drop.space, with(drop.space.elements));
   StokesState state = solver.state_at_rest();
   const StokesReport report = solve(problem, solver, state);

@@ -72,7 +72,7 @@ StokesProblem instant(const Scene& scene, const TetMesh& mesh, const FlowSpace& 
           .constraints;
   add_capillary_force(scene.interfaces[0], CapillaryForm::weak,
                       face_nodes(space, mesh, scene.interfaces[0].mesh, mesh.interfaces[0]),
-                      problem.positions, problem.load);
+                      problem.positions, problem.force);
   return problem;
 }
 
