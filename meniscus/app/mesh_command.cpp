@@ -50,8 +50,8 @@ int mesh_command(const MeshArguments& arguments) {
   if (c.method == FlowMethod::boundary_integral && !arguments.output.empty())
     reject_input("--output {}: boundary integrals need no volume mesh", arguments.output);
   Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c), make_moving_mesh(c));
-  if (const EvolutionReport prepared = evolution.prepare(); !prepared.ok)
-    throw RunFailure(fmt::format("the mesh could not be made: {}", prepared.failure));
+  if (const Report prepared = evolution.prepare(); !prepared.ok())
+    throw RunFailure(fmt::format("the mesh could not be made: {}", prepared.text()));
   print_surfaces(evolution.scene());
   if (evolution.state().mesh) print_quality(evolution.state().mesh->tetrahedra());
   if (!arguments.output.empty()) write_volume_frame(arguments.output, evolution);

@@ -177,8 +177,8 @@ int run(const RunArguments& arguments) {
   const fs::path folder = arguments.output.empty() ? file.stem() : fs::path(arguments.output);
   require_usable(folder, arguments.is_overwrite);
   Evolution evolution = make_evolution(c, std::move(scene));
-  if (const EvolutionReport prepared = evolution.prepare(); !prepared.ok)
-    throw RunFailure(fmt::format("the initial mesh could not be made: {}", prepared.failure));
+  if (const Report prepared = evolution.prepare(); !prepared.ok())
+    throw RunFailure(fmt::format("the initial mesh could not be made: {}", prepared.text()));
   require_first_step(evolution, c);
   const std::unique_ptr<LiveView> view = make_live_view(arguments.watch);
   // Only now that the run can begin is anything written.

@@ -44,16 +44,16 @@ Outcome Simulation::run(Progress& progress) {
         evolution_.step() % output_.checkpoint_every == 0)
       write_checkpoint(state);
     if (is_stopped) return Outcome::stopped;
-    if (const EvolutionReport solved = evolution_.solve(); !solved.ok) {
+    if (const Report solved = evolution_.solve(); !solved.ok()) {
       write_checkpoint(state);
       throw RunFailure(fmt::format("the flow at t = {:.6g} could not be solved: {}", evolution_.t(),
-                                   solved.failure));
+                                   solved.text()));
     }
     on_first_rank([&] { record(progress, is_last); });
     if (is_last) return Outcome::done;
-    if (const EvolutionReport advanced = evolution_.advance(); !advanced.ok) {
+    if (const Report advanced = evolution_.advance(); !advanced.ok()) {
       write_checkpoint(state);
-      throw RunFailure(advanced.failure);
+      throw RunFailure(advanced.text());
     }
     // Around an event: the state before the step in which it happened, and the one after.
     is_after_event = !evolution_.events().empty();

@@ -90,13 +90,13 @@ std::size_t drop_in_conflict(const Scene& scene) {
   const auto& interfaces = scene.interfaces;
   for (std::size_t i = 0; i < interfaces.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (!find_intersection(interfaces[j].mesh, interfaces[i].mesh).empty()) return i;
+      if (find_intersection(interfaces[j].mesh, interfaces[i].mesh)) return i;
   const auto is_first_to = [&](const auto& is_in_fault) {
     return static_cast<std::size_t>(std::ranges::find_if(interfaces, is_in_fault) -
                                     interfaces.begin());
   };
   const std::size_t touching = is_first_to([&](const Interface& interface) {
-    return !find_intersection(interface.mesh, scene.boundary.mesh).empty();
+    return find_intersection(interface.mesh, scene.boundary.mesh).has_value();
   });
   if (touching < interfaces.size()) return touching;
   return is_first_to([&](const Interface& interface) {
@@ -105,10 +105,10 @@ std::size_t drop_in_conflict(const Scene& scene) {
 }
 
 void require_no_conflict(const Case& c, const Scene& scene) {
-  const std::string conflict = find_conflict(scene);
-  if (conflict.empty()) return;
+  const auto conflict = find_conflict(scene);
+  if (!conflict) return;
   reject_input("{}: {}", c.settings.place(fmt::format("drop[{}]", drop_in_conflict(scene))),
-               conflict);
+               conflict->text);
 }
 
 /// ∮|v·n| dS of the imposed velocities, the yardstick of their net flux [G R0³].

@@ -23,8 +23,7 @@ void require_existence(const Case& c, const std::string& path, const std::filesy
 }
 
 void require_fit(const Case& c, const std::string& path, const SurfaceMesh& mesh) {
-  const std::string defect = find_defect(mesh);
-  if (!defect.empty()) c.settings.reject(path, "is unfit: {}", defect);
+  if (const auto defect = find_defect(mesh)) c.settings.reject(path, "is unfit: {}", defect->text);
 }
 
 /// The step in "checkpoint-<step>.h5"; none for another name.
@@ -114,13 +113,11 @@ double given_volume(const SurfaceMesh& mesh, SurfaceShape faces) {
 /// is still sound, and said to be coarse or fine in the log.
 void resolve(SurfaceMesh& mesh, const DropCase& drop, SurfaceShape faces, int index) {
   const double volume = given_volume(mesh, faces);
-  RemeshOptions options;
-  options.C0 = drop.nodes / (4.0 * std::numbers::pi);
+  RemeshOptions options = sound_remeshing(drop.nodes / (4.0 * std::numbers::pi));
   options.restores_volume = faces == SurfaceShape::faceted;
   const RemeshReport report = remesh(mesh, options);
-  if (!report.ok)
-    log::warning("drop {}: its surface stays as given, remeshing failed: {}", index,
-                 report.failure);
+  if (!report.ok())
+    log::warning("drop {}: its surface stays as given, remeshing failed: {}", index, report.text());
   if (faces != SurfaceShape::faceted) restore_volume(mesh, volume, faces);
 }
 

@@ -14,7 +14,7 @@
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/carry_fields.hpp"
 #include "meniscus/surface/remesh.hpp"
-#include "meniscus/topology/mend.hpp"
+#include "meniscus/surface/repair/mend.hpp"
 
 namespace meniscus {
 namespace {
@@ -32,15 +32,17 @@ InterfaceMotion mean_motion(const Scene& start, const Scene& end, double dt) {
 
 /// A flow that is solved keeps volumes to a thousandth or so. One that is not may throw vertices
 /// about; remeshing or mending what that leaves would hide it.
-std::string find_wild_motion(const Scene& start, const Scene& end) {
+std::optional<Fault> find_wild_motion(const Scene& start, const Scene& end) {
   for (std::size_t i = 0; i < end.interfaces.size(); ++i) {
     const Interface& interface = end.interfaces[i];
-    if (!is_finite(interface.mesh)) return "an interface vertex left all bounds";
+    if (!is_finite(interface.mesh))
+      return Fault{FaultKind::not_finite, "an interface vertex left all bounds"};
     const double ratio =
         enclosed_volume(interface.mesh) / enclosed_volume(start.interfaces[i].mesh);
     if (!(ratio > 0.5 && ratio < 2.0))
-      return fmt::format("the step takes drop {} to {:.3g} times its volume", interface.drop,
-                         ratio);
+      return Fault{
+          FaultKind::wrong_volume,
+          fmt::format("the step takes drop {} to {:.3g} times its volume", interface.drop, ratio)};
   }
   return {};
 }
@@ -82,20 +84,20 @@ Evolution::Evolution(Scene scene, const EvolutionOptions& options, std::unique_p
   state_.volume_shift.assign(state_.scene.interfaces.size(), 0.0);
 }
 
-EvolutionReport Evolution::prepare() {
+Report Evolution::prepare() {
   remesh_interfaces();
   return follow_interfaces();
 }
 
-EvolutionReport Evolution::solve() {
+Report Evolution::solve() {
   flow_ = solve_flow({.t = state_.t});
-  if (!flow_.ok) return {false, flow_.failure};
+  if (!flow_.ok()) return flow_;
   const PhaseTimer timer(times_, "move interfaces");
   motion_ = normal_motion(state_.scene, flow_.velocity, options_.motion_normal);
   return {};
 }
 
-EvolutionReport Evolution::advance() {
+Report Evolution::advance() {
   const Scene start = state_.scene;
   const std::vector<double> volume_shift = state_.volume_shift;
   const std::vector<TopologyEvent> events = state_.events;
@@ -103,10 +105,10 @@ EvolutionReport Evolution::advance() {
   const FieldExcess excess = state_.field_excess;
   if (state_.mesh) state_.mesh->begin_step(start);
   state_.iterations = 0;
-  EvolutionReport report;
+  Report report;
   for (double dt = step_length(); dt >= options_.min_step; dt *= 0.5) {
     report = try_step(dt);
-    if (report.ok) {
+    if (report.ok()) {
       if (state_.mesh) widen(state_.field_excess, state_.mesh->field_excess());
       state_.t += dt;
       state_.dt = dt;
@@ -120,32 +122,31 @@ EvolutionReport Evolution::advance() {
     state_.connectivity = connectivity;
     state_.field_excess = excess;
     if (state_.mesh) state_.mesh->undo();
-    if (report.is_final) return report;
+    if (report.fault->kind == FaultKind::unlike_liquids) return report;
     warnings_.push_back(
-        fmt::format("step {} of length {:.3g} failed: {}", state_.step + 1, dt, report.failure));
+        fmt::format("step {} of length {:.3g} failed: {}", state_.step + 1, dt, report.text()));
     log::warning("{}; trying a shorter one", warnings_.back());
-    if (const FlowSolution again = solve_flow({.t = state_.t}); !again.ok)
-      return {false, again.failure};
+    if (const FlowSolution again = solve_flow({.t = state_.t}); !again.ok()) return again;
   }
-  report.failure = fmt::format(
-      "no step of length {:.3g} or more can be taken at t = {:.6g}: {}", options_.min_step,
-      state_.t,
-      report.failure.empty() ? "the interface's edges ask for a shorter one" : report.failure);
-  report.ok = false;
-  return report;
+  const Fault last = report.fault.value_or(
+      Fault{FaultKind::no_step, "the interface's edges ask for a shorter one"});
+  return {Fault{FaultKind::no_step,
+                fmt::format("no step of length {:.3g} or more can be taken at t = {:.6g}: {}",
+                            options_.min_step, state_.t, last.text),
+                last.position}};
 }
 
 /// Table 1 of hooper2001, the flow at t_k being known: move to the half time, solve there, move the
 /// whole step with that velocity, remesh. Explicit Euler leaves the half time out.
-EvolutionReport Evolution::try_step(double dt) {
+Report Evolution::try_step(double dt) {
   const Scene start = state_.scene;
   if (options_.scheme == TimeScheme::euler) return finish_step(start, motion_, flow_, dt);
 
   timed(times_, "move interfaces", [&] { move_interfaces(state_.scene, motion_, 0.5 * dt); });
-  if (EvolutionReport moved = move_mesh(start, motion_, flow_, 0.5 * dt); !moved.ok) return moved;
+  if (Report moved = move_mesh(start, motion_, flow_, 0.5 * dt); !moved.ok()) return moved;
   const FlowSolution middle =
       solve_flow({.t = state_.t + 0.5 * dt, .dt = dt, .stage = Stage::middle});
-  if (!middle.ok) return {false, middle.failure};
+  if (!middle.ok()) return middle;
   const InterfaceMotion motion = timed(times_, "move interfaces", [&] {
     return normal_motion(state_.scene, middle.velocity, options_.motion_normal);
   });
@@ -153,31 +154,29 @@ EvolutionReport Evolution::try_step(double dt) {
 }
 
 /// Moves the interfaces of `start` the whole step, then makes them and the mesh fit for the next.
-EvolutionReport Evolution::finish_step(const Scene& start, const InterfaceMotion& motion,
-                                       const FlowSolution& flow, double dt) {
+Report Evolution::finish_step(const Scene& start, const InterfaceMotion& motion,
+                              const FlowSolution& flow, double dt) {
   Scene& scene = state_.scene;
   state_.events.clear();
-  if (EvolutionReport moved = move_whole_step(start, motion, dt); !moved.ok) return moved;
+  if (Report moved = move_whole_step(start, motion, dt); !moved.ok()) return moved;
   if (is_remesh_due()) {
     const Scene moved = scene;
     carry_fields_of_mesh(start, flow, dt);
-    if (EvolutionReport apart = refuse_touching(remesh_interfaces()); !apart.ok) return apart;
-    if (EvolutionReport changed = change_topology(moved, motion); !changed.ok) return changed;
+    if (Report apart = refuse_touching(remesh_interfaces()); !apart.ok()) return apart;
+    if (Report changed = change_topology(moved, motion); !changed.ok()) return changed;
     return follow_interfaces(region_sources(moved, scene, state_.events));
   }
   restore_volumes();
-  if (EvolutionReport apart = refuse_touching(false); !apart.ok) return apart;
+  if (Report apart = refuse_touching(false); !apart.ok()) return apart;
   return move_mesh(start, mean_motion(start, scene, dt), flow, dt);
 }
 
-EvolutionReport Evolution::move_whole_step(const Scene& start, const InterfaceMotion& motion,
-                                           double dt) {
+Report Evolution::move_whole_step(const Scene& start, const InterfaceMotion& motion, double dt) {
   const PhaseTimer timer(times_, "move interfaces");
   Scene& scene = state_.scene;
   scene = start;
   move_interfaces(scene, motion, dt);
-  if (std::string failure = find_wild_motion(start, scene); !failure.empty())
-    return {false, std::move(failure)};
+  if (auto fault = find_wild_motion(start, scene)) return {std::move(fault)};
   if (options_.follows_drops)
     translate_interfaces(scene, state_.start_centroid - centroid_of_drops(scene));
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
@@ -195,24 +194,22 @@ void Evolution::carry_fields(Interface& interface, const SurfaceMesh& before) {
 /// be inverted on the way they are carried from where the mesh stands.
 void Evolution::carry_fields_of_mesh(const Scene& start, const FlowSolution& flow, double dt) {
   if (!state_.mesh || state_.mesh->fields().empty()) return;
-  const EvolutionReport moved = move_mesh(start, mean_motion(start, state_.scene, dt), flow, dt);
-  if (!moved.ok) log::debug("fields are carried over a longer way: {}", moved.failure);
+  const Report moved = move_mesh(start, mean_motion(start, state_.scene, dt), flow, dt);
+  if (!moved.ok()) log::debug("fields are carried over a longer way: {}", moved.text());
 }
 
 /// The mesh takes the interfaces as they have become.
-EvolutionReport Evolution::follow_interfaces(const RegionSources& sources) {
+Report Evolution::follow_interfaces(const RegionSources& sources) {
   state_.connectivity = ++last_connectivity_;
   if (!state_.mesh) return {};
-  const MeshChange change = state_.mesh->follow(state_.scene, sources);
-  return {change.ok, change.failure};
+  return state_.mesh->follow(state_.scene, sources);
 }
 
-EvolutionReport Evolution::move_mesh(const Scene& start, const InterfaceMotion& motion,
-                                     const FlowSolution& flow, double dt) {
+Report Evolution::move_mesh(const Scene& start, const InterfaceMotion& motion,
+                            const FlowSolution& flow, double dt) {
   if (!state_.mesh) return {};
-  const MeshReport moved =
-      state_.mesh->move(start, motion, flow.bulk ? flow.bulk->v : Field<TetVertexId, Vec3>(), dt);
-  return {moved.ok, moved.failure};
+  return state_.mesh->move(start, motion, flow.bulk ? flow.bulk->v : Field<TetVertexId, Vec3>(),
+                           dt);
 }
 
 double Evolution::step_length() const {
@@ -245,16 +242,13 @@ bool Evolution::remesh_interfaces() {
   std::vector<SurfaceTree> trees = trees_for_gaps();
   for (std::size_t i = 0; i < state_.scene.interfaces.size(); ++i) {
     Interface& interface = state_.scene.interfaces[i];
-    RemeshOptions options;
-    options.C0 = interface.C0;
+    RemeshOptions options = sound_remeshing(interface.C0, options_.edge_floor);
     options.restores_volume = options_.surface == SurfaceShape::faceted;
     if (options.restores_volume) options.volume = interface.volume;
     options.equilibrium = options_.equilibrium;
-    options.edge_floor = options_.edge_floor;
     options.gap_layers = options_.gap_layers;
     for (std::size_t j = 0; j < trees.size(); ++j)
       if (j != i) options.neighbours.push_back(&trees[j]);
-    options.find_fault = find_self_intersection;
     // Only flows through changes of topology draw creases that nothing will smooth again.
     const MendReport mended =
         options_.topology.is_off()
@@ -272,13 +266,13 @@ bool Evolution::remesh_interfaces() {
       log::warning("{}", warnings_.back());
     }
     state_.volume_shift[i] = report.volume_shift;
-    if (report.ok && options_.surface != SurfaceShape::faceted)
+    if (report.ok() && options_.surface != SurfaceShape::faceted)
       state_.volume_shift[i] = restore_volume_of(interface);
-    if (report.ok && i < trees.size()) trees[i] = SurfaceTree(interface.mesh);
-    if (report.ok) continue;
+    if (report.ok() && i < trees.size()) trees[i] = SurfaceTree(interface.mesh);
+    if (report.ok()) continue;
     are_remeshed = false;
     warnings_.push_back(fmt::format("drop {} was not remeshed at t = {:.6g}: {}", interface.drop,
-                                    state_.t, report.failure));
+                                    state_.t, report.text()));
     log::warning("{}", warnings_.back());
     state_.volume_shift[i] = restore_volume_of(interface);
   }
@@ -288,25 +282,24 @@ bool Evolution::remesh_interfaces() {
 /// A step that makes drops touch, or one itself, is refused: with coalescence a shorter one lets
 /// them come close first, without it drops stay apart. A surface that could be remeshed is known
 /// not to touch itself.
-EvolutionReport Evolution::refuse_touching(bool are_remeshed) const {
+Report Evolution::refuse_touching(bool are_remeshed) const {
   const PhaseTimer timer(times_, "topology");
-  std::string touching = find_touching_drops(state_.scene);
-  if (touching.empty() && !are_remeshed) touching = find_folded_drop(state_.scene);
-  if (touching.empty()) return {};
-  if (!options_.topology.coalescence)
-    touching += "; topology.coalescence = \"off\" keeps them apart";
-  return {false, std::move(touching)};
+  std::optional<Fault> touching = find_touching_drops(state_.scene);
+  if (!touching && !are_remeshed) touching = find_folded_drop(state_.scene);
+  if (touching && !options_.topology.coalescence)
+    touching->text += "; topology.coalescence = \"off\" keeps them apart";
+  return {std::move(touching)};
 }
 
 /// Cuts and bridges what is due in the interfaces as remeshed; `moved` with `motion` says how they
 /// came there.
-EvolutionReport Evolution::change_topology(const Scene& moved, const InterfaceMotion& motion) {
+Report Evolution::change_topology(const Scene& moved, const InterfaceMotion& motion) {
   TopologyReport changed = timed(times_, "topology", [&] {
     return apply_topology(state_.scene, options_.topology, surface_motion(moved, motion));
   });
   for (std::string& warning : changed.warnings)
     warnings_.push_back(fmt::format("t = {:.6g}: {}", state_.t, warning));
-  if (!changed.refusal.empty()) return {false, std::move(changed.refusal), true};
+  if (changed.refusal) return {std::move(changed.refusal)};
   if (changed.events.empty()) return {};
   widen(state_.field_excess, changed.finishing_excess);
   for (const TopologyEvent& event : changed.events) widen(state_.field_excess, event.field_excess);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "meniscus/core/fault.hpp"
 #include "meniscus/evolve/interface_motion.hpp"
 #include "meniscus/evolve/measures.hpp"
 #include "meniscus/evolve/options.hpp"
@@ -13,16 +14,10 @@
 
 namespace meniscus {
 
-/// How a part of the evolution ended; a failure has already been retried with less ambition.
-struct [[nodiscard]] EvolutionReport {
-  bool ok = true;
-  std::string failure;
-  bool is_final = false;  ///< no shorter step would do: what comes must not happen
-};
-
 /// A state that evolves in time: its interfaces move with the velocity a flow solver gives, and are
 /// kept fit for the next step. Between calls it stands at t_k with interfaces remeshed and the
-/// mesh made; the order of calls is prepare (or load), then solve, advance, solve, advance…
+/// mesh made; the order of calls is prepare (or load), then solve, advance, solve, advance… A fault
+/// that a call reports has already been answered with less ambition.
 class Evolution {
  public:
   /// `mesh` is given where the flow solver needs one.
@@ -30,12 +25,12 @@ class Evolution {
             std::optional<MovingMesh> mesh = std::nullopt);
 
   /// Remeshes the initial interfaces and makes the mesh: step 0.
-  EvolutionReport prepare();
+  Report prepare();
   /// The flow at t_k (first line of the paper's Table 1).
-  EvolutionReport solve();
+  Report solve();
   /// From t_k to t_{k+1}: the rest of Table 1. A step that fails is undone and tried at half the
   /// length, down to `min_step`.
-  EvolutionReport advance();
+  Report advance();
 
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] double t() const { return state_.t; }
@@ -68,22 +63,22 @@ class Evolution {
   void load(const Archive& archive);
 
  private:
-  EvolutionReport try_step(double dt);
-  EvolutionReport finish_step(const Scene& start, const InterfaceMotion& motion,
-                              const FlowSolution& flow, double dt);
-  EvolutionReport move_whole_step(const Scene& start, const InterfaceMotion& motion, double dt);
+  Report try_step(double dt);
+  Report finish_step(const Scene& start, const InterfaceMotion& motion, const FlowSolution& flow,
+                     double dt);
+  Report move_whole_step(const Scene& start, const InterfaceMotion& motion, double dt);
   void carry_fields(Interface& interface, const SurfaceMesh& before);
   void carry_fields_of_mesh(const Scene& start, const FlowSolution& flow, double dt);
-  EvolutionReport follow_interfaces(const RegionSources& sources = {});
-  [[nodiscard]] EvolutionReport move_mesh(const Scene& start, const InterfaceMotion& motion,
-                                          const FlowSolution& flow, double dt);
+  Report follow_interfaces(const RegionSources& sources = {});
+  [[nodiscard]] Report move_mesh(const Scene& start, const InterfaceMotion& motion,
+                                 const FlowSolution& flow, double dt);
   [[nodiscard]] bool is_remesh_due() const {
     return (state_.step + 1) % options_.remesh_every == 0;
   }
   [[nodiscard]] std::vector<SurfaceTree> trees_for_gaps() const;
   bool remesh_interfaces();
-  [[nodiscard]] EvolutionReport refuse_touching(bool are_remeshed) const;
-  EvolutionReport change_topology(const Scene& moved, const InterfaceMotion& motion);
+  [[nodiscard]] Report refuse_touching(bool are_remeshed) const;
+  Report change_topology(const Scene& moved, const InterfaceMotion& motion);
   void restore_volumes();
   double restore_volume_of(Interface& interface);
   FlowSolution solve_flow(const Instant& instant);

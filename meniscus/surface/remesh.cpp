@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_check.hpp"
@@ -104,27 +105,64 @@ void correct_volume(SurfaceMesh& mesh, double volume_before, const RemeshOptions
   report.volume_shift = std::abs(fraction) * *std::ranges::max_element(edges);
 }
 
-/// Whether a face looks inward. Edits and springs keep faces within 60° of the surface; a surface
-/// that came with sharper places than that may keep them.
-bool has_fold(const RemeshState& state) {
+/// A face that looks inward. Edits and springs keep faces within 60° of the surface; a surface that
+/// came with sharper places than that may keep them.
+std::optional<Fault> find_fold(const RemeshState& state) {
   for (std::int32_t i = 0; i < state.mesh.num_halfedge_slots(); i += 3) {
     const HalfedgeId h{i};
     if (!state.mesh.is_alive(h)) continue;
     const RemeshVertex &a = state.vertices[state.mesh.from(h)],
                        &b = state.vertices[state.mesh.to(h)],
                        &c = state.vertices[state.mesh.opposite(h)];
-    if ((b.x - a.x).cross(c.x - a.x).dot(a.n + b.n + c.n) <= 0.0) return true;
+    if ((b.x - a.x).cross(c.x - a.x).dot(a.n + b.n + c.n) <= 0.0)
+      return Fault{FaultKind::folded_face, "a face is folded over", (a.x + b.x + c.x) / 3.0};
   }
-  return false;
+  return {};
 }
 
-std::string find_fault(const SurfaceMesh& mesh, double angle_before, const RemeshOptions& options,
-                       const RemeshReport& report) {
-  if (!is_finite(mesh)) return "a vertex is not finite";
-  static_cast<void>(SurfaceTopology(mesh));  // throws unless closed, manifold and oriented
+std::optional<Fault> find_fault(const SurfaceMesh& mesh, double angle_before,
+                                const RemeshOptions& options, const RemeshReport& report) {
+  if (!is_finite(mesh)) return Fault{FaultKind::not_finite, "a vertex is not finite"};
+  if (auto fault = find_broken_connectivity(mesh)) return fault;
   if (report.min_angle_deg < std::min(kLeastAngleDeg, angle_before))
-    return fmt::format("a face has an angle of {:.3g} degrees", report.min_angle_deg);
-  return options.find_fault ? options.find_fault(mesh) : std::string();
+    return Fault{FaultKind::degenerate_face,
+                 fmt::format("a face has an angle of {:.3g} degrees", report.min_angle_deg)};
+  return options.find_fault ? options.find_fault(mesh) : std::nullopt;
+}
+
+std::optional<Fault> find_unfit_start(const SurfaceMesh& mesh) {
+  if (!is_finite(mesh))
+    return Fault{FaultKind::not_finite, "a vertex of the given surface is not finite"};
+  if (const double volume = enclosed_volume(mesh); !(volume > 0.0))
+    return Fault{FaultKind::no_volume,
+                 fmt::format("the given surface encloses a volume of {:g}", volume)};
+  return {};
+}
+
+/// Rebuilds the surface and its fields, or leaves both and says why.
+std::optional<Fault> rebuild(SurfaceMesh& mesh, const RemeshOptions& options, SurfaceFields& fields,
+                             RemeshReport& report) {
+  if (auto fault = find_unfit_start(mesh)) return fault;
+  const auto built = SurfaceTopology::try_build(mesh);
+  if (const Fault* fault = std::get_if<Fault>(&built)) return *fault;
+  const auto& topology = std::get<SurfaceTopology>(built);
+  const RemeshReference reference = reference_surface(mesh, topology, options);
+  RemeshState state = start_state(reference, mesh, topology);
+  equilibrate(state, options, report);
+  lift_to_surface(state);
+  report.expected_vertices = expected_vertices(state);
+  if (auto fault = find_fold(state)) return fault;
+
+  auto [result, places] = assembled(state);
+  correct_volume(result, enclosed_volume(mesh), options, report);
+  report.min_angle_deg = smallest_angle_deg(result);
+  if (auto fault = find_fault(result, smallest_angle_deg(mesh), options, report)) return fault;
+  auto [carried, excess] =
+      transferred(fields, {mesh, topology, reference.surface, reference.walk, result, places});
+  fields = std::move(carried);
+  report.field_excess = excess;
+  mesh = std::move(result);
+  return {};
 }
 
 }  // namespace
@@ -161,38 +199,7 @@ RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options) {
 RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options, SurfaceFields& fields) {
   options.validate();
   RemeshReport report;
-  const auto fail = [&](std::string why) {
-    report.ok = false;
-    report.failure = std::move(why);
-    return report;
-  };
-  if (!is_finite(mesh)) return fail("a vertex of the given surface is not finite");
-  const double volume = enclosed_volume(mesh);
-  if (!(volume > 0.0))
-    return fail(fmt::format("the given surface encloses a volume of {:g}", volume));
-
-  try {
-    const SurfaceTopology topology(mesh);
-    const RemeshReference reference = reference_surface(mesh, topology, options);
-    RemeshState state = start_state(reference, mesh, topology);
-    equilibrate(state, options, report);
-    lift_to_surface(state);
-    report.expected_vertices = expected_vertices(state);
-    if (has_fold(state)) return fail("a face is folded over");
-
-    auto [result, places] = assembled(state);
-    correct_volume(result, volume, options, report);
-    report.min_angle_deg = smallest_angle_deg(result);
-    std::string fault = find_fault(result, smallest_angle_deg(mesh), options, report);
-    if (!fault.empty()) return fail(std::move(fault));
-    auto [carried, excess] =
-        transferred(fields, {mesh, topology, reference.surface, reference.walk, result, places});
-    fields = std::move(carried);
-    report.field_excess = excess;
-    mesh = std::move(result);
-  } catch (const InvalidInput& invalid) {  // from the topology check, before or after
-    return fail(invalid.what());
-  }
+  report.fault = rebuild(mesh, options, fields, report);
   return report;
 }
 

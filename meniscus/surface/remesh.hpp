@@ -1,9 +1,10 @@
 #pragma once
 
 #include <functional>
-#include <string>
+#include <optional>
 #include <vector>
 
+#include "meniscus/core/fault.hpp"
 #include "meniscus/mesh/surface_mesh.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
 #include "meniscus/surface/surface_fields.hpp"
@@ -25,9 +26,8 @@ struct RemeshOptions {
   double equilibrium = 0.0;
   /// Further upper bound on the rest length at a point (gaps, user sizes) [R0]; may be empty.
   std::function<double(const Vec3& x)> size_bound = {};
-  /// What else makes the result unfit, in one line, else empty text (such as
-  /// `find_self_intersection`); may be empty.
-  std::function<std::string(const SurfaceMesh&)> find_fault = {};
+  /// What else makes the result unfit (such as `find_self_intersection`); may be empty.
+  std::function<std::optional<Fault>(const SurfaceMesh&)> find_fault = {};
   double gap_layers = 0.0;  ///< layers of tetrahedra asked for where sheets are close; 0: none
   /// Other surfaces that may be close; they must outlive the call.
   std::vector<const SurfaceTree*> neighbours = {};
@@ -35,12 +35,11 @@ struct RemeshOptions {
 };
 
 /// Options for a density of C0 = N0/4π vertices, edges of `edge_floor` [R0] or more, and a result
-/// that does not meet itself; the rest as `RemeshOptions` has it.
+/// that does not meet itself. All options of the program start from these.
 [[nodiscard]] RemeshOptions sound_remeshing(double C0, double edge_floor = 0.0);
 
-struct [[nodiscard]] RemeshReport {
-  bool ok = true;
-  std::string failure;  ///< why the surface was left as it was
+/// On failure the surface was left as it was.
+struct [[nodiscard]] RemeshReport : Report {
   int splits = 0, collapses = 0, flips = 0, sweeps = 0;
   double volume_change = 0.0;           ///< relative, by remeshing, before the correction
   double volume_shift = 0.0;            ///< largest shift of a vertex by the correction [R0]
@@ -54,14 +53,13 @@ struct [[nodiscard]] RemeshReport {
 /// vertex addition and removal, Delaunay reconnection and spring equilibration (cristini2001), and
 /// restores its volume. Transactional: on failure the mesh is unchanged and the report says why.
 RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options);
-/// The same, and fields follow; on failure they are unchanged as well.
+/// Remeshes a surface with its fields; on failure both are unchanged.
 RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options, SurfaceFields& fields);
 
 /// Shifts every vertex by the same multiple of its unit area vector A_i/|A_i| so that the enclosed
 /// volume becomes `volume` to 1e-13 relative; returns the size of the shift [R0], signed outward.
 double restore_volume(SurfaceMesh& mesh, double volume);
-/// The same with a shift of its own for each vertex: a common factor, which is returned, times its
-/// weight.
+/// Shifts each vertex along A_i/|A_i| by a common factor, which is returned, times its weight.
 double restore_volume(SurfaceMesh& mesh, double volume, const VertexField<double>& weights);
 
 }  // namespace meniscus

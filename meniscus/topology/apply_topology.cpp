@@ -15,11 +15,10 @@
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/even_out.hpp"
-#include "meniscus/surface/repair.hpp"
+#include "meniscus/surface/repair/mend.hpp"
 #include "meniscus/surface/sizing.hpp"
 #include "meniscus/topology/bridge_gap.hpp"
 #include "meniscus/topology/cut_neck.hpp"
-#include "meniscus/topology/mend.hpp"
 #include "meniscus/topology/successors.hpp"
 
 namespace meniscus {
@@ -34,10 +33,6 @@ constexpr double kWaiting = 4.0;
 constexpr double kMostAddedArea = 1e-3;
 /// Far beyond what one step can bring about: ends a scene of events that make each other.
 constexpr int kMaxEvents = 1000;
-
-std::string text_of(const Vec3& x) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", x.x(), x.y(), x.z());
-}
 
 /// The places that a call has dealt with.
 class DonePlaces {
@@ -118,17 +113,18 @@ double most_added_area(const Scene& scene, std::span<const std::size_t> parents)
 }
 
 /// `succeed`, all or nothing in what it does to the area too.
-std::string succeed_with_little_area(Scene& scene, Succession succession, TopologyEvent& event) {
+std::optional<Fault> succeed_with_little_area(Scene& scene, Succession succession,
+                                              TopologyEvent& event) {
   const double most_added = most_added_area(scene, succession.parents);
   Scene after = scene;
-  if (std::string failure = succeed(after, std::move(succession), event); !failure.empty())
-    return failure;
-  if (event.area_after - event.area_before > most_added) return "it would add area";
+  if (auto fault = succeed(after, std::move(succession), event)) return fault;
+  if (event.area_after - event.area_before > most_added)
+    return Fault{FaultKind::added_area, "it would add area", event.place};
   scene = std::move(after);
   return {};
 }
 
-std::string cut(Scene& scene, const DueNeck& due, Surgery surgery, TopologyEvent& event) {
+std::optional<Fault> cut(Scene& scene, const DueNeck& due, Surgery surgery, TopologyEvent& event) {
   event.place = due.neck.center;
   if (due.side == Side::inside) {
     event.kind = EventKind::breakup;
@@ -137,7 +133,7 @@ std::string cut(Scene& scene, const DueNeck& due, Surgery surgery, TopologyEvent
     event.kind = EventKind::coalescence;
     event.gap = 2.0 * due.neck.radius;
   }
-  if (!surgery.failure.empty()) return surgery.failure;
+  if (surgery.fault) return std::move(surgery.fault);
   return succeed_with_little_area(
       scene, {{due.interface}, std::move(surgery.pieces), std::move(surgery.refined)}, event);
 }
@@ -153,13 +149,12 @@ void cut_necks(Scene& scene, const TopologyOptions& options, const SurfaceMotion
     Surgery surgery = cut_neck(scene.interfaces[due->interface].mesh, due->neck);
     if (clips_an_end(surgery, due->neck.radius)) continue;
     TopologyEvent event;
-    const std::string failure = cut(scene, *due, std::move(surgery), event);
-    if (failure.empty()) {
-      report.events.push_back(std::move(event));
-    } else {
+    if (const auto fault = cut(scene, *due, std::move(surgery), event)) {
       report.warnings.push_back(fmt::format(
           "the neck of radius {:.4g} of drop {} at {} was not cut: {}", due->neck.radius,
-          scene.interfaces[due->interface].drop, text_of(due->neck.center), failure));
+          scene.interfaces[due->interface].drop, text_of(due->neck.center), fault->text));
+    } else {
+      report.events.push_back(std::move(event));
     }
   }
 }
@@ -180,13 +175,13 @@ std::string unlikeness(const Scene& scene, const Gap& gap) {
   return {};
 }
 
-std::string open_gap(Scene& scene, const Gap& gap, const TopologyOptions& options,
-                     TopologyEvent& event) {
+std::optional<Fault> open_gap(Scene& scene, const Gap& gap, const TopologyOptions& options,
+                              TopologyEvent& event) {
   event.kind = EventKind::coalescence;
   event.place = gap.middle();
   event.gap = gap.width;
   Surgery surgery = bridge_gap(scene, gap, {options.coalescence_gap, options.edge_floor});
-  if (!surgery.failure.empty()) return surgery.failure;
+  if (surgery.fault) return std::move(surgery.fault);
   Succession succession{{gap.a}, std::move(surgery.pieces), std::move(surgery.refined)};
   if (gap.b != gap.a) succession.parents.push_back(gap.b);
   return succeed_with_little_area(scene, std::move(succession), event);
@@ -202,20 +197,21 @@ void open_gaps(Scene& scene, const TopologyOptions& options, const SurfaceMotion
     done.add(due->middle(), options.coalescence_gap);
     const int a = scene.interfaces[due->a].drop, b = scene.interfaces[due->b].drop;
     if (const std::string why = unlikeness(scene, *due); !why.empty()) {
-      report.refusal = fmt::format(
-          "drops {} and {} have come within {:.4g} of each other at {} and would merge, but their "
-          "liquids are unlike ({})",
-          a, b, due->width, text_of(due->middle()), why);
+      report.refusal =
+          Fault{FaultKind::unlike_liquids,
+                fmt::format("drops {} and {} have come within {:.4g} of each other at {} and would "
+                            "merge, but their liquids are unlike ({})",
+                            a, b, due->width, text_of(due->middle()), why),
+                due->middle()};
       return;
     }
     TopologyEvent event;
-    const std::string failure = open_gap(scene, *due, options, event);
-    if (failure.empty()) {
-      report.events.push_back(std::move(event));
-    } else {
+    if (const auto fault = open_gap(scene, *due, options, event)) {
       report.warnings.push_back(
           fmt::format("the gap of {:.4g} between drops {} and {} at {} was not bridged: {}",
-                      due->width, a, b, text_of(due->middle()), failure));
+                      due->width, a, b, text_of(due->middle()), fault->text));
+    } else {
+      report.events.push_back(std::move(event));
     }
   }
 }
@@ -231,8 +227,8 @@ int next_id(const Scene& scene) {
 void give_vertices(Interface& interface, const RemeshOptions& options, FieldExcess& excess) {
   const double area = surface_area(interface.mesh), volume = enclosed_volume(interface.mesh);
   const double edge = length_of_density(1.5 * static_cast<double>(options.min_vertices) / area);
-  std::optional<Repaired> even =
-      repaired(interface.mesh, interface.fields, evened_out(interface.mesh, edge), volume);
+  std::optional<Replacement> even =
+      sound_replacement(interface.mesh, interface.fields, evened_out(interface.mesh, edge), volume);
   if (!even) return;
   interface.mesh = std::move(even->surface.mesh);
   interface.fields = std::move(even->surface.fields);
@@ -254,12 +250,12 @@ FieldExcess finish_new_interfaces(Scene& scene, int first_id, const TopologyOpti
     for (int i = 0; i < kRemeshings; ++i) {
       const RemeshReport report = remesh_or_mend(interface.mesh, options, interface.fields).remesh;
       widen(excess, report.field_excess);
-      if (!report.ok) break;
+      if (!report.ok()) break;
     }
     if (interface.mesh.num_vertices() < options.min_vertices)
       give_vertices(interface, options, excess);
   }
-  if (find_conflict(scene).empty()) return excess;
+  if (!find_conflict(scene)) return excess;
   scene = before;
   return {};
 }
@@ -276,7 +272,7 @@ TopologyReport apply_topology(Scene& scene, const TopologyOptions& options,
   cut_necks(scene, options, motion, done, report);
   if (options.coalescence && options.coalescence_gap > 0.0)
     open_gaps(scene, options, motion, done, report);
-  if (!report.refusal.empty()) {
+  if (report.refusal) {
     scene = before;
     report.events.clear();
   }
@@ -285,7 +281,7 @@ TopologyReport apply_topology(Scene& scene, const TopologyOptions& options,
   return report;
 }
 
-std::string find_touching_drops(const Scene& scene) {
+std::optional<Fault> find_touching_drops(const Scene& scene) {
   std::vector<Box> bounds;
   for (const Interface& interface : scene.interfaces)
     bounds.push_back(bounding_box(interface.mesh));
@@ -293,17 +289,18 @@ std::string find_touching_drops(const Scene& scene) {
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
     for (const std::size_t j : boxes.earlier_within(i, 0.0)) {
       const Interface &a = scene.interfaces[j], &b = scene.interfaces[i];
-      const std::string meeting = find_intersection(a.mesh, b.mesh);
-      if (!meeting.empty())
-        return fmt::format("drops {} and {} touch: {}", a.drop, b.drop, meeting);
+      if (auto meeting = find_intersection(a.mesh, b.mesh))
+        return with_context(fmt::format("drops {} and {} touch", a.drop, b.drop),
+                            *std::move(meeting));
     }
   return {};
 }
 
-std::string find_folded_drop(const Scene& scene) {
+std::optional<Fault> find_folded_drop(const Scene& scene) {
   for (const Interface& interface : scene.interfaces)
-    if (const std::string meeting = find_self_intersection(interface.mesh); !meeting.empty())
-      return fmt::format("drop {} touches itself: {}", interface.drop, meeting);
+    if (auto meeting = find_self_intersection(interface.mesh))
+      return with_context(fmt::format("drop {} touches itself", interface.drop),
+                          *std::move(meeting));
   return {};
 }
 

@@ -14,9 +14,9 @@
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
 #include "meniscus/surface/remesh.hpp"
-#include "meniscus/topology/face_patch.hpp"
-#include "meniscus/topology/smooth_fill.hpp"
-#include "meniscus/topology/zip.hpp"
+#include "meniscus/surface/repair/face_patch.hpp"
+#include "meniscus/surface/repair/smooth_fill.hpp"
+#include "meniscus/surface/repair/zip.hpp"
 
 namespace meniscus {
 namespace {
@@ -64,7 +64,7 @@ CarryingSurface refined(const Interface& interface, const Gap& gap, double edge)
   options.size_bound = [&](const Vec3& x) { return edge + options.gradation * distance(x); };
   for (int i = 0; i < kRefinements; ++i) {
     const RemeshReport report = remesh(surface.mesh, options, surface.fields);
-    if (!report.ok || (report.splits == 0 && report.collapses == 0)) break;
+    if (!report.ok() || (report.splits == 0 && report.collapses == 0)) break;
   }
   return surface;
 }
@@ -193,8 +193,8 @@ std::optional<Holes> holes(const Film& film, const std::array<VertexId, 2>& at, 
   return patches;
 }
 
-/// The surface with a tube between two holes in it.
-std::string join(const SurfaceMesh& mesh, const Holes& patches, SurfaceMesh& result) {
+/// Makes `result` the surface with a tube between two holes in it, unless that is unsound.
+std::optional<Fault> join(const SurfaceMesh& mesh, const Holes& patches, SurfaceMesh& result) {
   const auto first = boundary_curves(mesh, patches[0]), second = boundary_curves(mesh, patches[1]);
   FacePatch both = patches[0];
   for (const FaceId f : both.ids()) both[f] = both[f] || patches[1][f];
@@ -204,7 +204,7 @@ std::string join(const SurfaceMesh& mesh, const Holes& patches, SurfaceMesh& res
   FacePatch tube(result.num_faces(), false);
   for (std::int32_t f = num_kept; f < result.num_faces(); ++f) tube[FaceId{f}] = true;
   SurfaceMesh smooth = result;
-  if (smooth_part(smooth, tube, kSmoothRings) && find_self_intersection(smooth).empty()) {
+  if (smooth_part(smooth, tube, kSmoothRings) && !find_self_intersection(smooth)) {
     result = std::move(smooth);
     return {};
   }
@@ -213,10 +213,11 @@ std::string join(const SurfaceMesh& mesh, const Holes& patches, SurfaceMesh& res
 
 /// Why an opening is not to be taken although its surface is sound: with the volume restored it
 /// has more area, or meets itself.
-std::string find_harm(const SurfaceMesh& before, SurfaceMesh after, double most_added_area) {
+std::optional<Fault> find_harm(const SurfaceMesh& before, SurfaceMesh after,
+                               double most_added_area) {
   restore_volume(after, enclosed_volume(before));
   if (surface_area(after) - surface_area(before) > most_added_area)
-    return "the bridge would add area";
+    return Fault{FaultKind::added_area, "the bridge would add area"};
   return find_self_intersection(after);
 }
 
@@ -229,13 +230,12 @@ struct Opening {
 /// One opening; why it is none, else.
 Opening opening(const Film& film, const Holes& patches, double unit) {
   SurfaceMesh result;
-  std::string failure = join(film.mesh, patches, result);
-  if (!failure.empty()) return {{{}, std::move(failure)}};
+  if (auto fault = join(film.mesh, patches, result)) return {{{}, std::move(fault)}};
   std::vector<SurfaceMesh> pieces = connected_pieces(result);  // without the vertices taken out
   SurfaceMesh whole = joined(pieces);
   const double moved = std::abs(enclosed_volume(whole) / enclosed_volume(film.mesh) - 1.0);
-  failure = find_harm(film.mesh, std::move(whole), kMostAddedArea * unit * unit);
-  if (!failure.empty()) return {{{}, std::move(failure)}};
+  if (auto fault = find_harm(film.mesh, std::move(whole), kMostAddedArea * unit * unit))
+    return {{{}, std::move(fault)}};
   return {{std::move(pieces), {}}, moved};
 }
 
@@ -244,7 +244,7 @@ Opening opening(const Film& film, const Holes& patches, double unit) {
 Opening opened(const Film& film, const std::array<VertexId, 2>& at, double edge,
                const BridgeOptions& options) {
   const double unit = edge / kEdge;  // the limit, but for patches too large for its edges
-  Opening best{{{}, "no two discs can be opened there"}};
+  Opening best{{{}, Fault{FaultKind::no_surgery, "no two discs can be opened there"}}};
   for (const auto& [radius, takes_film] : kHoles) {
     const auto patches = holes(film, at, radius * unit, takes_film ? options.limit : 0.0, options);
     if (!patches) continue;
@@ -288,7 +288,8 @@ Opening bridged(const Scene& scene, const Gap& gap, const BridgeOptions& options
   const Vec3 across = gap.to - gap.from;
   const std::array<VertexId, 2> at{nearest_vertex(film, gap.from, across),
                                    nearest_vertex(film, gap.to, -across)};
-  if (!at[0].is_valid() || !at[1].is_valid()) return {{{}, "the two sides are not to be found"}};
+  if (!at[0].is_valid() || !at[1].is_valid())
+    return {{{}, Fault{FaultKind::no_surgery, "the two sides are not to be found", gap.middle()}}};
   Opening result = opened(film, at, edge, options);
   result.surgery.refined = std::move(surface);
   return result;

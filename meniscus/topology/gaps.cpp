@@ -12,7 +12,7 @@
 #include "meniscus/mesh/box_tree.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
-#include "meniscus/topology/face_patch.hpp"
+#include "meniscus/surface/repair/face_patch.hpp"
 
 namespace meniscus {
 namespace {

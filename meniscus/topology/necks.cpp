@@ -11,8 +11,8 @@
 #include <Eigen/Geometry>
 
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/repair/face_patch.hpp"
 #include "meniscus/topology/cut_off.hpp"
-#include "meniscus/topology/face_patch.hpp"
 #include "meniscus/topology/thread.hpp"
 
 namespace meniscus {

@@ -185,25 +185,26 @@ Scene with_children(const Scene& scene, std::span<const std::size_t> parents,
 
 }  // namespace
 
-std::string succeed(Scene& scene, Succession succession, TopologyEvent& event) {
+std::optional<Fault> succeed(Scene& scene, Succession succession, TopologyEvent& event) {
   std::vector<Interface> parents;
   for (const std::size_t i : succession.parents) parents.push_back(scene.interfaces[i]);
   const LiquidVolume volume = liquid_volume(scene, succession.parents);
   std::vector<Child> children = children_of(scene, succession);
-  if (children.empty()) return "nothing is left";
+  if (children.empty()) return Fault{FaultKind::no_volume, "nothing is left"};
   event.volume_moved = std::abs(volume.of_faces - enclosed_liquid(children));
   share_volume(children, volume.of_faces);
   std::vector<SurfaceMesh> cut;
   for (Child& child : children) {
-    if (!(child.interface.volume > 0.0)) return "a fragment encloses nothing";
+    if (!(child.interface.volume > 0.0))
+      return Fault{FaultKind::no_volume, "a fragment encloses nothing"};
     cut.push_back(child.interface.mesh);
     restore_volume(child.interface.mesh, child.interface.volume);
-    if (std::string defect = find_defect(child.interface.mesh); !defect.empty()) return defect;
+    if (auto defect = find_defect(child.interface.mesh)) return defect;
   }
   add_curved_part(children, volume);
   const FieldExcess excess = give_fields(scene, succession, cut, children);
   Scene after = with_children(scene, succession.parents, children);
-  if (std::string conflict = find_conflict(after); !conflict.empty()) return conflict;
+  if (auto conflict = find_conflict(after)) return conflict;
 
   std::vector<Interface> born;
   for (const Interface& parent : parents) event.parents.push_back(parent.drop);

@@ -17,10 +17,12 @@ Field<TetVertexId, TetVertexId> boundary_counterparts(const TetMesh& before, con
   return old_to_new;
 }
 
-bool has_inverted_cell(const TetMesh& mesh) {
+std::optional<Fault> find_inverted_cell(const TetMesh& mesh) {
   for (const CellId c : mesh.cells.ids())
-    if (!(signed_volume(mesh, c) > 0.0)) return true;
-  return false;
+    if (!(signed_volume(mesh, c) > 0.0))
+      return Fault{FaultKind::inverted_cell, "moving the volume mesh inverts a cell",
+                   mesh.x[mesh.cells[c][0]]};
+  return {};
 }
 
 }  // namespace
@@ -39,16 +41,15 @@ void MovingMesh::begin_step(const Scene& scene) {
   excess_ = {};
 }
 
-MeshReport MovingMesh::move(const Scene& start,
-                            std::span<const VertexField<Vec3>> interface_velocity,
-                            const Field<TetVertexId, Vec3>& liquid_velocity, double dt) {
+Report MovingMesh::move(const Scene& start, std::span<const VertexField<Vec3>> interface_velocity,
+                        const Field<TetVertexId, Vec3>& liquid_velocity, double dt) {
   const PhaseTimer timer(times_, "move mesh");
   MENISCUS_ASSERT(start_.num_vertices() == mesh_.num_vertices(), "a step that was not begun");
   VolumeVelocity velocity =
       volume_velocity(start, start_, interface_velocity, liquid_velocity, motion_);
   TetMesh moved = start_;
   for (const TetVertexId v : moved.x.ids()) moved.x[v] += dt * velocity.w[v];
-  if (has_inverted_cell(moved)) return {false, "moving the volume mesh inverts a cell"};
+  if (auto fault = find_inverted_cell(moved)) return {std::move(fault)};
   mesh_ = std::move(moved);
   velocity_ = std::move(velocity.w);
   if (fields_.empty()) return {};
@@ -83,12 +84,9 @@ void MovingMesh::place_interfaces(const Scene& scene) {
 
 MeshChange MovingMesh::follow(const Scene& scene, const RegionSources& sources) {
   const PhaseTimer timer(times_, "tetrahedralize");
-  MeshChange change;
   TetMesh fitted;
-  const VolumeMeshReport made = mesher_(scene, fitted);
-  change.ok = made.ok;
-  change.failure = made.failure;
-  if (!made.ok) return change;
+  MeshChange change{mesher_(scene, fitted), {}};
+  if (!change.ok()) return change;
   change.old_to_new = boundary_counterparts(mesh_, fitted);
   if (!fields_.empty()) fields_ = transfer_fields(fields_, mesh_, fitted, excess_, sources);
   mesh_ = std::move(fitted);

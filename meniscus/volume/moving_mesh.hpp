@@ -1,9 +1,9 @@
 #pragma once
 
 #include <functional>
-#include <string>
 
 #include "meniscus/core/archive.hpp"
+#include "meniscus/core/fault.hpp"
 #include "meniscus/core/timer.hpp"
 #include "meniscus/mesh/carried_fields.hpp"
 #include "meniscus/volume/field_transfer.hpp"
@@ -17,19 +17,10 @@ struct MovingMeshOptions {
   VolumeMotion motion = VolumeMotion::spines;
 };
 
-/// How a motion of the mesh, or its following of the interfaces, ended. On failure the mesh is as
-/// it was.
-struct [[nodiscard]] MeshReport {
-  bool ok = true;
-  std::string failure;
-};
-
-/// What following the interfaces made of the mesh.
-struct [[nodiscard]] MeshChange {
-  bool ok = true;
-  std::string failure;
+/// What following the interfaces made of the mesh; on failure it is as it was.
+struct [[nodiscard]] MeshChange : Report {
   /// Where the vertices of the mesh before are now; invalid for those without a counterpart.
-  Field<TetVertexId, TetVertexId> old_to_new;
+  Field<TetVertexId, TetVertexId> old_to_new = {};
 };
 
 /// The tetrahedra of all regions, which move with the interfaces of a scene. The mesh knows where
@@ -50,9 +41,10 @@ class MovingMesh {
   void begin_step(const Scene& scene);
   /// Places the vertices at x_start + dt w. On interfaces w is `interface_velocity`; between them
   /// it follows the options (`volume_velocity`), with the liquid's velocity for Lagrangian motion.
-  /// `start` is the scene where the step began. Fails when a cell would be inverted.
-  MeshReport move(const Scene& start, std::span<const VertexField<Vec3>> interface_velocity,
-                  const Field<TetVertexId, Vec3>& liquid_velocity, double dt);
+  /// `start` is the scene where the step began. Fails, and leaves the mesh as it was, when a cell
+  /// would be inverted.
+  Report move(const Scene& start, std::span<const VertexField<Vec3>> interface_velocity,
+              const Field<TetVertexId, Vec3>& liquid_velocity, double dt);
   /// Puts everything back where it stood when the step began.
   void undo();
   /// Places the vertices of the interfaces exactly where a scene of the same connectivity has them.

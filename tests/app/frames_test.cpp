@@ -17,8 +17,8 @@ io::SurfaceFrame resting_drop(const std::string& more) {
   const Case c = parse_case(
       "[flow]\nkind = \"quiescent\"\n[[drop]]\nradius = 1.0\nnodes = 110\n" + more, "case.toml");
   Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c), make_moving_mesh(c));
-  EXPECT_TRUE(evolution.prepare().ok);
-  EXPECT_TRUE(evolution.solve().ok);
+  EXPECT_TRUE(evolution.prepare().ok());
+  EXPECT_TRUE(evolution.solve().ok());
   const test::TemporaryFolder folder;
   write_surface_frame(folder / "frame.vtp", evolution);
   return io::read_vtp(folder / "frame.vtp");

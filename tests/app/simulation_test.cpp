@@ -23,7 +23,7 @@ Spent spent_between_rows(const std::string& text) {
   const test::TemporaryFolder folder;
   const Case c = parse_case(text, "case.toml");
   Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c), make_moving_mesh(c));
-  EXPECT_TRUE(evolution.prepare().ok);
+  EXPECT_TRUE(evolution.prepare().ok());
   Simulation simulation(std::move(evolution), RunDirectory::create(folder / "run", false), c.output,
                         [](Archive&) {});
   const auto in_phases = [&] {

@@ -17,7 +17,7 @@ class MeshedFlow {
   /// Makes the tetrahedra of a scene, of another connectivity than all before.
   void follow(const Scene& scene) {
     const MeshChange change = mesh.follow(scene);
-    ASSERT_TRUE(change.ok) << change.failure;
+    ASSERT_TRUE(change.ok()) << change.text();
     ++connectivity;
   }
   [[nodiscard]] FlowDomain domain(const Scene& scene) const {
@@ -51,7 +51,7 @@ class MeshedFlow {
   MeshedFlow flow(options, mesh_options);
   flow.follow(scene);
   FlowSolution solution = flow.solve(scene);
-  EXPECT_TRUE(solution.ok) << solution.failure;
+  EXPECT_TRUE(solution.ok()) << solution.text();
   return solution;
 }
 

@@ -54,21 +54,21 @@ bool volume_is_right(const Scene& scene) {
 bool mesh_conforms(const Scene& scene) {
   TetMesh mesh;
   const VolumeMeshReport report = tetrahedralize(scene, {}, mesh);
-  if (!report.ok) std::fprintf(stderr, "%s\n", report.failure.c_str());
+  if (!report.ok()) std::fprintf(stderr, "%s\n", report.text().c_str());
   double inside = 0.0;
   for (const CellId c : mesh.cells.ids())
     if (mesh.region[c] == RegionId{1}) inside += signed_volume(mesh, c);
   std::printf("volume of its tetrahedra: %.6f\n", inside);
   // Equal up to round-off of some 1e3 terms.
-  return report.ok && std::abs(inside - scene.interfaces[0].volume) < 1e-11;
+  return report.ok() && std::abs(inside - scene.interfaces[0].volume) < 1e-11;
 }
 
 bool flow_is_right(const Scene& scene) {
   MovingMesh mesh{MovingMeshOptions{}};
-  if (!mesh.follow(scene).ok) return false;
+  if (!mesh.follow(scene).ok()) return false;
   const std::unique_ptr<FlowSolver> solver = fem::make_finite_element_flow({});
   const FlowSolution flow = solver->solve({.scene = scene, .mesh = &mesh.tetrahedra()}, {});
-  if (!flow.ok) return false;
+  if (!flow.ok()) return false;
   // On a sphere n·v = c n·E·n; c by least squares over the vertices.
   double product = 0.0, square = 0.0;
   for (const VertexId v : scene.interfaces[0].mesh.x.ids()) {

@@ -88,7 +88,7 @@ TEST(CarryFields, GoThroughTwoHundredRemeshedSteps) {
     const SurfaceMesh before = mesh;
     test::advect(mesh, step * kStep, kStep, kPeriod);
     static_cast<void>(move_fields(fields, before, mesh));
-    remeshed += remesh(mesh, options, fields).ok ? 1 : 0;
+    remeshed += remesh(mesh, options, fields).ok() ? 1 : 0;
   }
   EXPECT_EQ(remeshed, kSteps);
   const Amounts end = amounts_of(mesh, fields);
@@ -104,7 +104,7 @@ TEST(CarryFields, ConservedOnesConvergeThroughARemesh) {
   for (const int n : {400, 1600, 6400}) {
     SurfaceMesh mesh = stretched_sphere(n, Vec3(2, 1, 1));
     SurfaceFields fields = sampled(mesh, smooth);
-    ASSERT_TRUE(remesh(mesh, {.C0 = n / (4.0 * std::numbers::pi)}, fields).ok);
+    ASSERT_TRUE(remesh(mesh, {.C0 = n / (4.0 * std::numbers::pi)}, fields).ok());
     double on_vertices = 0.0, on_faces = 0.0;
     for (const VertexId v : mesh.x.ids())
       on_vertices += std::pow(fields.on_vertices[1].values[v] - smooth(mesh.x[v]), 2);

@@ -10,9 +10,9 @@
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/solids/tessellate.hpp"
 #include "meniscus/surface/remesh.hpp"
 #include "meniscus/surface/smooth_surface.hpp"
-#include "meniscus/surface/tessellate.hpp"
 
 namespace meniscus::test {
 
@@ -98,9 +98,9 @@ inline DeformationResult deform_and_return(const DeformationOptions& options) {
   for (int step = 0; step < num_steps; ++step) {
     advect(mesh, step * dt, dt, options.period);
     const RemeshReport report = remesh(mesh, remeshing);
-    if (!report.ok) {
+    if (!report.ok()) {
       ++result.failed_steps;
-      result.failure = report.failure;
+      result.failure = report.text();
     } else {
       result.smallest_angle_deg = std::min(result.smallest_angle_deg, report.min_angle_deg);
     }

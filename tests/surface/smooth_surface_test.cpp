@@ -50,7 +50,7 @@ TEST(SmoothSurface, ConvergesOnATorusMadeByRemeshing) {
   std::vector<double> vertices, position;
   for (const double C0 : {15.0, 30.0, 60.0, 120.0}) {
     SurfaceMesh mesh = test::torus(160, 64, major, minor);
-    ASSERT_TRUE(remesh(mesh, {.C0 = C0}).ok);
+    ASSERT_TRUE(remesh(mesh, {.C0 = C0}).ok());
     // Onto the torus again, so that only this fit is measured.
     for (Vec3& x : mesh.x) {
       const Vec3 n = test::torus_curvature(x, major, minor).n.normalized();

@@ -7,7 +7,7 @@
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/carry_fields.hpp"
-#include "meniscus/topology/mend.hpp"
+#include "meniscus/surface/repair/mend.hpp"
 #include "tests/topology/scenes.hpp"
 
 namespace meniscus {
@@ -109,7 +109,7 @@ Scene two_spheres(double gap) {
   std::vector<SurfaceMesh> meshes;
   for (const double side : {-1.0, 1.0}) {
     meshes.push_back(sphere(400, 1.0, Vec3(side * (1.0 + gap / 2.0), 0, 0)));
-    EXPECT_TRUE(remesh(meshes.back(), {.C0 = kDensity}).ok);
+    EXPECT_TRUE(remesh(meshes.back(), {.C0 = kDensity}).ok());
   }
   return test::scene_of(meshes, kDensity);
 }
@@ -155,7 +155,7 @@ TEST(CarriedFields, GoThroughMendedCreases) {
   const RemeshOptions options = sound_remeshing(10.0, 0.05);
   ASSERT_TRUE(remesh_or_mend(bare, options).is_mended);
   const MendReport report = remesh_or_mend(mesh, options, fields);
-  ASSERT_TRUE(report.remesh.ok && report.is_mended) << report.remesh.failure;
+  ASSERT_TRUE(report.remesh.ok() && report.is_mended) << report.remesh.text();
   EXPECT_EQ(mesh, bare);
   add_amounts(mesh, fields, after);
   expect_same(after, before);

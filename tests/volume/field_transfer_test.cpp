@@ -20,7 +20,8 @@ double wave(const Vec3& x) { return 1.5 + std::cos(1.3 * x.x() + 0.7 * x.y() - 0
 
 TetMesh meshed(const Scene& scene, double cell_volume = 2.0) {
   TetMesh mesh;
-  EXPECT_TRUE(tetrahedralize(scene, {.interior_growth = 0.0, .cell_volume = cell_volume}, mesh).ok);
+  EXPECT_TRUE(
+      tetrahedralize(scene, {.interior_growth = 0.0, .cell_volume = cell_volume}, mesh).ok());
   return mesh;
 }
 

@@ -21,7 +21,7 @@ struct Meshed {
 Meshed meshed(Scene scene) {
   Meshed result{std::move(scene), {}};
   const VolumeMeshReport report = tetrahedralize(result.scene, {}, result.mesh);
-  EXPECT_TRUE(report.ok) << report.failure;
+  EXPECT_TRUE(report.ok()) << report.text();
   return result;
 }
 

@@ -23,7 +23,7 @@ namespace {
 struct InstantProblem {
   StokesProblem stokes;
   Field<NodeId, Vec3> traction;
-  std::string failure;
+  std::optional<Fault> fault = {};
 };
 
 /// The nodes of the faces of every embedded surface.
@@ -55,7 +55,7 @@ InstantProblem instant_problem(const Scene& scene, const TetMesh& mesh, const Fl
     for (const Liquid& liquid : scene.liquids) problem.stokes.laws.add(liquid.law);
   for (const Vec3& x : at.x) problem.stokes.undisturbed.add(scene.flow.velocity(x, t));
   BoundaryConditions conditions = boundary_conditions(scene.boundary, nodes.boundary, at, t);
-  problem.failure = std::move(conditions.failure);
+  problem.fault = std::move(conditions.fault);
   problem.stokes.constraints = std::move(conditions.constraints);
   problem.stokes.has_open_boundary = conditions.has_open_patch;
   problem.traction = std::move(conditions.traction);
@@ -164,11 +164,12 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
   if (!has_connectivity_of(domain)) use_connectivity(domain);
   for (const CellId c : mesh.cells.ids())
     if (!(signed_volume(mesh, c) > 0.0))
-      return failed_flow("a cell of the volume mesh is inverted");
+      return failed_flow({FaultKind::inverted_cell, "a cell of the volume mesh is inverted",
+                          mesh.x[mesh.cells[c][0]]});
   const InstantProblem problem =
       instant_problem(domain.scene, mesh, space_, node_positions(domain.scene, mesh, space_),
                       options_.capillary, instant.t);
-  if (!problem.failure.empty()) return failed_flow(problem.failure);
+  if (problem.fault) return failed_flow(*problem.fault);
   if (!state_) {
     state_ = stokes_->state_at_rest();
     state_->v = problem.stokes.undisturbed;
@@ -178,7 +179,7 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
       problem.stokes, *state_,
       is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh, times_);
   decide_on_preconditioner(problem.stokes, report, is_kept);
-  FlowSolution result = report.ok ? solution(domain, problem) : failed_flow(report.failure);
+  FlowSolution result = report.ok() ? solution(domain, problem) : failed_flow(*report.fault);
   result.iterations = report.iterations;
   if (const int straight = problem.stokes.positions.num_straightened; straight > 0)
     result.warnings.push_back(
@@ -193,9 +194,9 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
 void FiniteElementFlow::decide_on_preconditioner(const StokesProblem& problem,
                                                  const StokesReport& report, bool is_kept) {
   constexpr int kWorthOfOne = 3;
-  const bool is_own = report.ok && report.failed_solvers.empty() && report.iterations > 0 &&
+  const bool is_own = report.ok() && report.failed_solvers.empty() && report.iterations > 0 &&
                       !problem.is_generalised();  // whose steps make their own
-  if (is_kept && report.ok && report.iterations == 0) return;
+  if (is_kept && report.ok() && report.iterations == 0) return;
   if (is_kept && is_own && report.iterations <= iterations_then_ + kWorthOfOne) return;
   prepared_at_.reset();
   if (is_kept || !is_own) return;

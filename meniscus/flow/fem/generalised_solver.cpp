@@ -83,10 +83,10 @@ StokesReport StokesSolver::solve_generalised(const StokesProblem& problem, Stoke
   Iterate at(problem, state);
   StokesState step;
   const auto fail = [&](std::string_view why) {
-    report.ok = false;
-    report.failure = fmt::format("{}; residuals of the {} steps:{}", why,
-                                 report.newton_steps + report.picard_steps,
-                                 text_of(report.residuals, reference));
+    report.fault =
+        Fault{FaultKind::not_converged, fmt::format("{}; residuals of the {} steps:{}", why,
+                                                    report.newton_steps + report.picard_steps,
+                                                    text_of(report.residuals, reference))};
     return report;
   };
 

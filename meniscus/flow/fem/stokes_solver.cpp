@@ -158,7 +158,7 @@ StokesReport StokesSolver::solve(const StokesProblem& problem, StokesState& stat
   if (!share_) return solve_part(problem, state, preconditioner, times);
   StokesState part = restricted(state, *share_);
   StokesReport report = solve_part(restricted(problem, *share_), part, preconditioner, times);
-  if (report.ok) assemble_whole(part, *share_, state);
+  if (report.ok()) assemble_whole(part, *share_, state);
   return report;
 }
 
@@ -178,8 +178,7 @@ StokesReport StokesSolver::solve_part(const StokesProblem& problem, StokesState&
   StokesReport report;
   report.reference = reference;
   if (!std::isfinite(reference)) {
-    report.ok = false;
-    report.failure = "the data of the flow problem are not finite";
+    report.fault = Fault{FaultKind::not_finite, "the data of the flow problem are not finite"};
     return report;
   }
   if (problem.is_generalised()) return solve_generalised(problem, state, reference, times);
@@ -194,13 +193,13 @@ StokesReport StokesSolver::solve_part(const StokesProblem& problem, StokesState&
     report.setup_seconds += before.setup_seconds;
     report.krylov_seconds += before.krylov_seconds;
     report.failed_solvers = before.failed_solvers;
-    if (report.ok) {
+    if (report.ok()) {
       state = std::move(attempt);
       return report;
     }
     before = report;
     before.failed_solvers.push_back(
-        fmt::format("linear solver {}: {}", linear::name(method(which)), report.failure));
+        fmt::format("linear solver {}: {}", linear::name(method(which)), report.text()));
     log::warning("{}; trying another way", before.failed_solvers.back());
   }
   return report;
@@ -229,16 +228,15 @@ StokesReport StokesSolver::solve_with(LinearSolver which, const StokesProblem& p
     add_cost(report, linear_report);
     report.linear_residuals = linear_report.residuals;
     if (!linear_report.converged) {
-      report.ok = false;
-      report.failure = linear_report.reason;
+      report.fault = Fault{FaultKind::not_converged, linear_report.reason};
       return report;
     }
     add_step(state, problem, step);
     preconditioner = linear::Preconditioner::kept;
   }
-  report.ok = false;
-  report.failure = fmt::format("residual {:.1e} of {:.1e} after {} steps", report.residual,
-                               reference, most_newton_steps);
+  report.fault =
+      Fault{FaultKind::not_converged, fmt::format("residual {:.1e} of {:.1e} after {} steps",
+                                                  report.residual, reference, most_newton_steps)};
   return report;
 }
 

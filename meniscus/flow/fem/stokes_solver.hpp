@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "meniscus/core/fault.hpp"
 #include "meniscus/core/timer.hpp"
 #include "meniscus/flow/fem/options.hpp"
 #include "meniscus/flow/fem/share.hpp"
@@ -16,9 +17,7 @@ namespace meniscus::fem {
 /// Throws InvalidInput when PETSc cannot read the options given for the linear solver.
 void check_linear_options(const Options& options);
 
-struct [[nodiscard]] StokesReport {
-  bool ok = true;
-  std::string failure;
+struct [[nodiscard]] StokesReport : Report {
   int iterations = 0;  ///< linear iterations of all steps and all solvers tried
   int newton_steps = 0;
   int picard_steps = 0;    ///< those of generalised-Newtonian liquids with the viscosity held fixed

@@ -23,17 +23,17 @@ std::vector<Shape> stretched(int num_vertices, double lambda, double Ca, double 
   EvolutionOptions options;
   options.end = end;
   Evolution evolution(scene, options, make_boundary_integral_flow({}));
-  EvolutionReport report = evolution.prepare();
+  Report report = evolution.prepare();
   std::vector<Shape> shapes;
   for (;;) {
-    if (report.ok) report = evolution.solve();
-    if (!report.ok) break;
+    if (report.ok()) report = evolution.solve();
+    if (!report.ok()) break;
     const DropShape shape = evolution.drop_rows()[0].shape;
     shapes.push_back({evolution.t(), shape.L, shape.B});
     if (evolution.is_finished()) break;
     report = evolution.advance();
   }
-  EXPECT_TRUE(report.ok) << report.failure;
+  EXPECT_TRUE(report.ok()) << report.text();
   return shapes;
 }
 

@@ -23,7 +23,7 @@ void PrintTo(const Case& each, std::ostream* out) {
 class LinearIterations : public testing::TestWithParam<Case> {
  protected:
   LinearIterations() : scene_(stretched_drop(GetParam().shape, GetParam().N0, 1.0)) {
-    EXPECT_TRUE(tetrahedralize(scene_, suited_volume_mesh(GetParam().elements), mesh_).ok);
+    EXPECT_TRUE(tetrahedralize(scene_, suited_volume_mesh(GetParam().elements), mesh_).ok());
     space_ = flow_space(mesh_, GetParam().elements);
     problem_.emplace(instant(scene_, mesh_, space_));
   }
@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, LinearIterations,
 TEST_P(LinearIterations, AreFew) {
   for (const double lambda : {0.01, 0.1, 10.0, 100.0}) {
     const StokesReport report = solved(lambda, {});
-    ASSERT_TRUE(report.ok) << report.failure;
+    ASSERT_TRUE(report.ok()) << report.text();
     EXPECT_EQ(report.solver, LinearSolver::block);
     const int few = is_quadratic() ? 40 : 30;
     EXPECT_LE(report.iterations, lambda < 0.1 || lambda > 10.0 ? 50 : few) << "lambda " << lambda;
@@ -87,7 +87,7 @@ TEST_P(OnTheSphere, AreFewWithoutHypre) {
       linear::default_options(linear::SaddleMethod::block, is_quadratic(), false);
   for (const double lambda : {0.1, 10.0}) {
     const StokesReport report = solved(lambda, options);
-    ASSERT_TRUE(report.ok) << report.failure;
+    ASSERT_TRUE(report.ok()) << report.text();
     EXPECT_EQ(report.solver, LinearSolver::block);
     EXPECT_LE(report.iterations, is_quadratic() ? 40 : 30) << "lambda " << lambda;
   }

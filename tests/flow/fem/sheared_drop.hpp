@@ -27,7 +27,7 @@ struct ShearedDrop {
          .is_linear_flow = true,
          .drop_force = Vec3(0.0, 0.4, -0.7)});
     for (Vec3& x : scene.interfaces[0].mesh.x) x = x.cwiseProduct(Vec3(1.2, 1.0, 0.8));
-    EXPECT_TRUE(tetrahedralize(scene, {}, mesh).ok);
+    EXPECT_TRUE(tetrahedralize(scene, {}, mesh).ok());
     space = flow_space(mesh, elements);
   }
   StokesProblem problem() const {

@@ -44,7 +44,7 @@ SurfaceMesh graded_surface(DropShape shape, int N0) {
   SurfaceMesh mesh = smooth_surface(shape, std::max(4 * N0, 4000));
   const RemeshReport report =
       remesh(mesh, {.C0 = N0 / (4.0 * std::numbers::pi), .volume = 4.0 / 3.0 * std::numbers::pi});
-  if (!report.ok) throw RunFailure(report.failure);
+  if (!report.ok()) throw RunFailure(report.text());
   return mesh;
 }
 

@@ -1,4 +1,4 @@
-#include "meniscus/surface/tessellate.hpp"
+#include "meniscus/solids/tessellate.hpp"
 
 #include <algorithm>
 #include <cmath>

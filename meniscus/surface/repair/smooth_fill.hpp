@@ -1,7 +1,7 @@
 #pragma once
 
 #include "meniscus/mesh/surface_mesh.hpp"
-#include "meniscus/topology/face_patch.hpp"
+#include "meniscus/surface/repair/face_patch.hpp"
 
 namespace meniscus {
 

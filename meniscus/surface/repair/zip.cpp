@@ -1,4 +1,4 @@
-#include "meniscus/topology/zip.hpp"
+#include "meniscus/surface/repair/zip.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <string>
+#include <optional>
 
+#include "meniscus/core/fault.hpp"
 #include "meniscus/mesh/surface_mesh.hpp"
 
 namespace meniscus {
@@ -21,9 +22,8 @@ struct RemeshTarget {
   void validate() const;    ///< Throws InvalidInput naming option, value, range.
 };
 
-struct [[nodiscard]] TargetReport {
-  bool ok = true;
-  std::string failure;   ///< why the surface was left as it was
+/// On failure the surface was left as it was.
+struct [[nodiscard]] TargetReport : Report {
   int passes = 0;        ///< remeshings from the given surface, until the target was met
   double reached = 0.0;  ///< vertices, mean edge or largest distance of the result
   bool is_met = false;   ///< within the bands below; shapes have fewest vertices they need

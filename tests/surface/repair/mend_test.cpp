@@ -1,4 +1,4 @@
-#include "meniscus/topology/mend.hpp"
+#include "meniscus/surface/repair/mend.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -10,6 +10,7 @@
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/mesh/surface_pieces.hpp"
 #include "tests/topology/scenes.hpp"
 
 namespace meniscus {
@@ -31,9 +32,9 @@ SurfaceMesh slit_sphere(double depth) {
 TEST(Mend, LeavesWhatCanBeRemeshedToTheRemesher) {
   SurfaceMesh mended = sphere(400, 1.0), remeshed = mended;
   const MendReport report = remesh_or_mend(mended, coarse());
-  EXPECT_TRUE(report.remesh.ok);
+  EXPECT_TRUE(report.remesh.ok());
   EXPECT_FALSE(report.is_mended);
-  ASSERT_TRUE(remesh(remeshed, coarse()).ok);
+  ASSERT_TRUE(remesh(remeshed, coarse()).ok());
   EXPECT_EQ(mended, remeshed);
 }
 
@@ -45,10 +46,10 @@ TEST(Mend, LeavesASoundSurfaceOfTheSameVolumeWhereCreasesAreSharp) {
     SurfaceMesh mesh = slit_sphere(depth);
     const double volume = enclosed_volume(mesh);
     const MendReport report = remesh_or_mend(mesh, options);
-    ASSERT_TRUE(report.remesh.ok) << depth << ": " << report.remesh.failure;
+    ASSERT_TRUE(report.remesh.ok()) << depth << ": " << report.remesh.text();
     was_mended = was_mended || report.is_mended;
-    EXPECT_EQ(find_defect(mesh), "");
-    EXPECT_EQ(test::euler_characteristic(mesh), 2);
+    EXPECT_EQ(text_of(find_defect(mesh)), "");
+    EXPECT_EQ(euler_characteristic(mesh), 2);
     EXPECT_NEAR(enclosed_volume(mesh), volume, 1e-12 * volume);
   }
   EXPECT_TRUE(was_mended) << "no slit was too sharp for the remesher";
@@ -57,12 +58,12 @@ TEST(Mend, LeavesASoundSurfaceOfTheSameVolumeWhereCreasesAreSharp) {
 /// What `remesh_or_mend` has to leave of a surface, whatever it takes.
 void expect_mended(SurfaceMesh mesh, RemeshOptions options, const std::string& what) {
   options.find_fault = find_self_intersection;
-  ASSERT_EQ(find_defect(mesh), "") << what;
+  ASSERT_EQ(text_of(find_defect(mesh)), "") << what;
   const double volume = enclosed_volume(mesh);
   const MendReport report = remesh_or_mend(mesh, options);
-  EXPECT_TRUE(report.remesh.ok) << what << ": " << report.remesh.failure;
-  EXPECT_EQ(find_defect(mesh), "") << what;
-  EXPECT_EQ(test::euler_characteristic(mesh), 2) << what;
+  EXPECT_TRUE(report.remesh.ok()) << what << ": " << report.remesh.text();
+  EXPECT_EQ(text_of(find_defect(mesh)), "") << what;
+  EXPECT_EQ(euler_characteristic(mesh), 2) << what;
   EXPECT_NEAR(enclosed_volume(mesh), volume, 1e-12 * volume) << what;
 }
 

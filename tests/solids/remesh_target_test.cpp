@@ -1,4 +1,4 @@
-#include "meniscus/surface/remesh_target.hpp"
+#include "meniscus/solids/remesh_target.hpp"
 
 #include <array>
 #include <cmath>
@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "meniscus/core/error.hpp"
-#include "meniscus/mesh/solid_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
 #include "meniscus/mesh/surface_quality.hpp"
+#include "meniscus/solids/solid_check.hpp"
 #include "tests/surface/shapes.hpp"
 
 namespace meniscus {
@@ -25,7 +25,7 @@ TEST(RemeshTarget, MeetsTheNumberOfNodesOnEveryShapeAndScale) {
       for (Vec3& x : mesh.x) x = scale * (x + Vec3(7, 0, -3));
       const double volume = enclosed_volume(mesh);
       const TargetReport report = remesh_to(mesh, {.by = By::nodes, .value = 800});
-      ASSERT_TRUE(report.ok) << report.failure;
+      ASSERT_TRUE(report.ok()) << report.text();
       EXPECT_TRUE(report.is_met);
       EXPECT_NEAR(mesh.num_vertices(), 800, 16);  // the band of 2 %
       EXPECT_EQ(report.reached, mesh.num_vertices());
@@ -37,7 +37,7 @@ TEST(RemeshTarget, MeetsTheMeanEdge) {
   for (const double edge : {0.08, 0.15, 0.3}) {
     SurfaceMesh mesh = stretched_sphere(600, Vec3(2, 1, 1));
     const TargetReport report = remesh_to(mesh, {.by = By::edge_length, .value = edge});
-    ASSERT_TRUE(report.ok) << report.failure;
+    ASSERT_TRUE(report.ok()) << report.text();
     EXPECT_NEAR(mean_edge(mesh), edge, 0.01 * edge);
     const SurfaceQuality q = surface_quality(mesh, SurfaceTopology(mesh));
     EXPECT_GT(q.min_edge, 0.5 * edge);
@@ -54,7 +54,7 @@ TEST(RemeshTarget, KeepsTheChordalErrorToTheTrueSurface) {
   for (const double error : {0.02, 0.01, 0.005}) {
     SurfaceMesh mesh = test::torus(80, 32, major, minor);
     const TargetReport report = remesh_to(mesh, {.by = By::chordal_error, .value = error});
-    ASSERT_TRUE(report.ok) << report.failure;
+    ASSERT_TRUE(report.ok()) << report.text();
     EXPECT_TRUE(report.is_met);
     double largest = 0.0;
     constexpr int kCuts = 6;
@@ -80,8 +80,8 @@ TEST(RemeshTarget, RemeshesEveryPieceAndTurnsCavitiesBack) {
   SurfaceMesh mesh = joined(std::array{sphere(400), cavity, sphere(300, 0.3, Vec3(4, 0, 0))});
   const double volume = enclosed_volume(mesh);
   const TargetReport report = remesh_to(mesh, {.by = By::nodes, .value = 600});
-  ASSERT_TRUE(report.ok) << report.failure;
-  EXPECT_EQ(find_solid_defect(mesh), "");
+  ASSERT_TRUE(report.ok()) << report.text();
+  EXPECT_EQ(text_of(find_solid_defect(mesh)), "");
   const std::vector<SurfaceMesh> pieces = connected_pieces(mesh);
   ASSERT_EQ(pieces.size(), 3U);
   EXPECT_LT(enclosed_volume(pieces[1]), 0.0);
@@ -94,9 +94,9 @@ TEST(RemeshTarget, RoundsCreasesAndSaysSo) {
   SurfaceMesh mesh = box(8, Vec3(1, 1, 2)).mesh;
   const double volume = enclosed_volume(mesh);
   const TargetReport report = remesh_to(mesh, {.by = By::edge_length, .value = 0.25});
-  ASSERT_TRUE(report.ok) << report.failure;
+  ASSERT_TRUE(report.ok()) << report.text();
   EXPECT_TRUE(report.are_creases_rounded);
-  EXPECT_EQ(find_solid_defect(mesh), "");
+  EXPECT_EQ(text_of(find_solid_defect(mesh)), "");
   EXPECT_NEAR(enclosed_volume(mesh), volume, 1e-10);
   EXPECT_NEAR(mean_edge(mesh), 0.25, 0.0025);
   EXPECT_LT(mesh.x[VertexId{0}].cwiseAbs().maxCoeff(), 2.1);

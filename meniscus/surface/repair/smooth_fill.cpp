@@ -1,4 +1,4 @@
-#include "meniscus/topology/smooth_fill.hpp"
+#include "meniscus/surface/repair/smooth_fill.hpp"
 
 #include <set>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "meniscus/topology/face_patch.hpp"
+#include "meniscus/surface/repair/face_patch.hpp"
 
 #include <algorithm>
 #include <array>
