@@ -8,6 +8,8 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus {
 namespace {
 
@@ -59,6 +61,7 @@ class Contour {
     const auto [found, is_new] = known_.try_emplace(key);
     if (!is_new) return found->second;
     const double a = lattice_.values[index(in)], b = lattice_.values[index(out)];
+    MENISCUS_ASSERT(a < level_ && b >= level_, "{} and {} about {}", a, b, level_);
     const double t = std::clamp((level_ - a) / (b - a), kClearance, 1.0 - kClearance);
     const Vec3 from = lattice_.place(in[0], in[1], in[2]),
                to = lattice_.place(out[0], out[1], out[2]);
@@ -87,6 +90,8 @@ constexpr std::array<std::array<std::size_t, 3>, 6> kPaths{
 }  // namespace
 
 SurfaceMesh contour(const Lattice& lattice, double level) {
+  MENISCUS_ASSERT(lattice.values.size() == lattice.index(0, 0, lattice.size[2]), "{} values",
+                  lattice.values.size());
   Contour surface(lattice, level);
   for (int k = 0; k + 1 < lattice.size[2]; ++k)
     for (int j = 0; j + 1 < lattice.size[1]; ++j)

@@ -29,6 +29,8 @@ std::vector<DirectedEdge> directed_edges(const SurfaceMesh& mesh) {
   std::partial_sum(first.begin(), first.end(), first.begin());
 
   std::vector<DirectedEdge> edges(3 * static_cast<std::size_t>(mesh.num_faces()));
+  MENISCUS_ASSERT(static_cast<std::size_t>(first.back()) == edges.size(), "{} {}", first.back(),
+                  edges.size());
   std::vector<std::int32_t> next(first.begin(), first.end() - 1);
   for (const FaceId f : mesh.faces.ids()) {
     const FaceVertices& v = mesh.faces[f];
@@ -71,6 +73,7 @@ struct Corner {
 /// The corners at each vertex v, from first[v] on, in the order of their faces.
 std::vector<Corner> corners_by_vertex(const SurfaceMesh& mesh,
                                       const std::vector<std::int32_t>& first) {
+  MENISCUS_ASSERT(first.back() == 3 * mesh.num_faces(), "{} {}", first.back(), mesh.num_faces());
   std::vector<Corner> corners(static_cast<std::size_t>(first.back()));
   std::vector<std::int32_t> filled(first.begin(), first.end() - 1);
   for (const FaceId f : mesh.faces.ids()) {
@@ -139,6 +142,7 @@ std::optional<Fault> SurfaceTopology::add_rings(const SurfaceMesh& mesh) {
     const auto i = static_cast<std::size_t>(v.value);
     const auto begin = static_cast<std::size_t>(first_[i]);
     const auto count = static_cast<std::size_t>(first_[i + 1]) - begin;
+    MENISCUS_ASSERT(begin + count <= corners.size(), "{} {} {}", begin, count, corners.size());
     if (!order_fan(std::span(corners).subspan(begin, count))) return vertex_fault(mesh, v);
   }
   ring_.reserve(corners.size());
@@ -158,12 +162,14 @@ std::optional<Fault> find_broken_connectivity(const SurfaceMesh& mesh) {
 
 std::span<const VertexId> SurfaceTopology::ring(VertexId v) const {
   const auto i = static_cast<std::size_t>(v.value);
+  MENISCUS_ASSERT(i + 1 < first_.size(), "vertex {}", v.value);
   return std::span(ring_).subspan(static_cast<std::size_t>(first_[i]),
                                   static_cast<std::size_t>(first_[i + 1] - first_[i]));
 }
 
 std::span<const FaceId> SurfaceTopology::faces_around(VertexId v) const {
   const auto i = static_cast<std::size_t>(v.value);
+  MENISCUS_ASSERT(i + 1 < first_.size(), "vertex {}", v.value);
   return std::span(around_).subspan(static_cast<std::size_t>(first_[i]),
                                     static_cast<std::size_t>(first_[i + 1] - first_[i]));
 }

@@ -68,6 +68,7 @@ std::optional<Fault> find_outside(const Scene& scene) {
 /// The innermost interface around each interface: the enclosing one that is itself enclosed most.
 std::vector<RegionId> surrounding_regions(const Scene& scene, const std::vector<Bounds>& bounds) {
   const std::size_t n = scene.interfaces.size();
+  MENISCUS_ASSERT(bounds.size() == n, "{} {}", bounds.size(), n);
   std::vector<std::vector<std::size_t>> enclosing(n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j)
@@ -108,11 +109,14 @@ std::optional<Fault> find_wrong_nesting(const Scene& scene, const std::vector<Bo
 
 double imposed_flux(const Scene& scene, double t) {
   const OuterBoundary& boundary = scene.boundary;
+  MENISCUS_ASSERT(boundary.patch.size() == boundary.mesh.num_faces(), "{} {}",
+                  boundary.patch.size(), boundary.mesh.num_faces());
   double flux = 0.0;
   for (const FaceId f : boundary.mesh.faces.ids()) {
     const auto* imposed =
         std::get_if<ImposedVelocity>(&boundary.patches[boundary.patch[f]].condition);
     if (imposed == nullptr) continue;
+    MENISCUS_ASSERT(bool(imposed->velocity), "patch {}", boundary.patch[f].value);
     Vec3 mean = Vec3::Zero();
     for (const VertexId v : boundary.mesh.faces[f])
       mean += imposed->velocity(boundary.mesh.x[v], t) / 3.0;

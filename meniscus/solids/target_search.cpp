@@ -55,6 +55,7 @@ double band(RemeshTarget::By by) {
 
 double corrected(double setting, double measure, double last_setting, double last_measure,
                  double aim) {
+  MENISCUS_ASSERT(setting > 0.0 && aim > 0.0, "{} {}", setting, aim);
   double slope = 1.0;
   if (last_setting > 0.0 && last_setting != setting)
     slope =

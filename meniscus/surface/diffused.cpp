@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
@@ -53,6 +54,7 @@ void diffuse_along(Lattice& lattice, std::size_t axis, double weight) {
                                          : lattice.index(0, 0, 1);
   const std::size_t num = static_cast<std::size_t>(lattice.size[axis]);
   std::vector<double>& v = lattice.values;
+  MENISCUS_ASSERT(v.size() == lattice.index(0, 0, lattice.size[2]), "{} values", v.size());
   for (std::size_t first = 0; first < v.size(); ++first) {
     if (first / stride % num != 0) continue;
     double before = v[first];
@@ -69,7 +71,9 @@ void diffuse_along(Lattice& lattice, std::size_t axis, double weight) {
 }  // namespace
 
 DiffusedSurface::DiffusedSurface(const SurfaceMesh& mesh, double edge)
-    : volume_(enclosed_volume(mesh)), edge_(edge), distance_(signed_distance(mesh, edge)) {}
+    : volume_(enclosed_volume(mesh)), edge_(edge), distance_(signed_distance(mesh, edge)) {
+  MENISCUS_ASSERT(edge > 0.0 && volume_ > 0.0, "edge {}, volume {}", edge, volume_);
+}
 
 void DiffusedSurface::smooth_by(double variance) {
   const double step = 0.5 * distance_.spacing * distance_.spacing;
@@ -93,6 +97,7 @@ SurfaceMesh DiffusedSurface::contour_of_volume() const {
 }
 
 std::optional<SurfaceMesh> DiffusedSurface::smoothed(double length, double most_lost) {
+  MENISCUS_ASSERT(length >= 0.0 && most_lost > 0.0, "{} {}", length, most_lost);
   smooth_by(length * length - variance_);
   variance_ = std::max(variance_, length * length);
   std::vector<SurfaceMesh> pieces = connected_pieces(contour_of_volume());

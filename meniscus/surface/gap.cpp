@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus {
 namespace {
 
@@ -47,6 +49,9 @@ OwnGaps own_gaps(const SurfaceMesh& mesh, const SurfaceTree& tree, const VertexF
 void bound_by_gaps(VertexField<double>& length, const SurfaceMesh& mesh,
                    const VertexField<Vec3>& normals, double layers,
                    std::span<const SurfaceTree* const> neighbours) {
+  MENISCUS_ASSERT(layers > 0.0, "layers = {}", layers);
+  MENISCUS_ASSERT(length.size() == mesh.num_vertices() && normals.size() == mesh.num_vertices(),
+                  "{} {} {}", length.size(), normals.size(), mesh.num_vertices());
   const double edges_per_width = kGapEdge / layers;
   VertexField<double> reach = length;  // beyond, a gap asks for no shorter an edge
   for (double& r : reach) r /= edges_per_width;

@@ -30,6 +30,8 @@ RemeshReference reference_surface(const SurfaceMesh& mesh, const SurfaceTopology
                                   const RemeshOptions& options) {
   SmoothSurface surface(mesh, topology);
   const VertexField<double> lengths = rest_lengths(mesh, topology, surface, options);
+  MENISCUS_ASSERT(lengths.size() == mesh.num_vertices(), "{} {}", lengths.size(),
+                  mesh.num_vertices());
   const VertexField<Vec3> slopes = length_slopes(lengths, mesh, topology, surface.vertex_normals());
   VertexField<RemeshReference::Corner> corners;
   for (const VertexId v : mesh.x.ids())
@@ -68,6 +70,8 @@ struct Assembled {
 };
 Assembled assembled(const RemeshState& state) {
   const EditMesh::Compacted compacted = state.mesh.compacted();
+  MENISCUS_ASSERT(state.vertices.size() == state.mesh.num_vertex_slots(), "{} {}",
+                  state.vertices.size(), state.mesh.num_vertex_slots());
   Assembled result;
   result.mesh.faces = compacted.faces;
   result.mesh.x.reserve(static_cast<std::int32_t>(compacted.vertices.size()));
@@ -88,6 +92,7 @@ VertexField<double> mean_edges(const SurfaceMesh& mesh) {
       ++count[v[k]];
     }
   for (const VertexId v : length.ids()) length[v] /= count[v];
+  MENISCUS_ASSERT(std::ranges::all_of(length, [](double l) { return l > 0.0; }));
   return length;
 }
 

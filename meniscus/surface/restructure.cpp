@@ -12,6 +12,7 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/surface/sizing.hpp"
 
 namespace meniscus {
@@ -51,6 +52,7 @@ std::vector<DensityEdge> density_edges(const RemeshState& state) {
     const HalfedgeId h{i};
     if (!state.mesh.is_representative(h)) continue;
     const double rest_length = state.rest_length(h);
+    MENISCUS_ASSERT(rest_length > 0.0, "l0 = {}", rest_length);
     edges.push_back({h, state.mesh.from(h), state.mesh.to(h),
                      state.edge_vector(h).squaredNorm() / (rest_length * rest_length)});
   }
@@ -96,6 +98,8 @@ class RingAverage {
     for (; count_ < count; ++count_) {
       std::ranges::fill(change_, 0.0);
       for (const DensityEdge& edge : edges_) {
+        MENISCUS_ASSERT(edge.a.value < values_.size() && edge.b.value < values_.size(), "{} {}",
+                        edge.a.value, edge.b.value);
         const double exchange = kExchange * (values_[edge.b] - values_[edge.a]);
         change_[edge.a] += exchange;
         change_[edge.b] -= exchange;
@@ -164,6 +168,7 @@ void split_edge(RemeshState& state, HalfedgeId h) {
                                       state.vertices[state.mesh.to(h)]);
   const VertexId c = state.mesh.opposite(h), d = state.mesh.opposite(state.mesh.twin(h));
   const VertexId m = state.mesh.split(h);
+  MENISCUS_ASSERT(m.value == state.vertices.size(), "{} {}", m.value, state.vertices.size());
   state.vertices.add(middle);
   for (const VertexId v : {m, c, d}) state.touch(v);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/surface/rings.hpp"
 #include "meniscus/surface/trust.hpp"
 
@@ -60,6 +61,8 @@ SmoothSurface::SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& top
     : patches_(mesh.num_vertices()), normals_(mesh.num_vertices()), faces_(mesh.faces) {
   RingGatherer rings(mesh, topology);
   curvature_ = osculating_curvature(mesh, topology, rings);
+  MENISCUS_ASSERT(curvature_.size() == mesh.num_vertices(), "{} {}", curvature_.size(),
+                  mesh.num_vertices());
   std::vector<Vec3> unrolled;
   for (const VertexId v : mesh.x.ids()) {
     HeightPatch& patch = patches_[v];
@@ -80,6 +83,7 @@ SmoothSurface::PointNormal SmoothSurface::at(const SurfaceLocation& location) co
   const Vec3 flat = flat_point(location);
   const Vec3 squares = location.weights.cwiseProduct(location.weights);
   const double total = squares.sum();
+  MENISCUS_ASSERT(total > 0.0, "no weights on face {}", location.face.value);
   PointNormal result{.x = flat, .n = Vec3::Zero()};
   for (int k = 0; k < 3; ++k) {
     if (squares[k] == 0.0) continue;

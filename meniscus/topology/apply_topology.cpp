@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/box_tree.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
@@ -105,9 +106,11 @@ bool clips_an_end(const Surgery& surgery, double radius) {
 }
 
 double most_added_area(const Scene& scene, std::span<const std::size_t> parents) {
+  MENISCUS_ASSERT(!parents.empty());
   double volume = 0.0;
   for (const std::size_t i : parents)
     volume = std::max(volume, enclosed_volume(scene.interfaces[i].mesh));
+  MENISCUS_ASSERT(volume > 0.0, "parents of volume {}", volume);
   const double radius = std::cbrt(0.75 * volume / std::numbers::pi);
   return kMostAddedArea * 4.0 * std::numbers::pi * radius * radius;
 }

@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
@@ -44,6 +45,7 @@ constexpr int kSmoothRings = 2;  // rings of faces around the tube that are smoo
 
 /// The edge that the surfaces are given around a gap.
 double edge_at(const Gap& gap, const BridgeOptions& options) {
+  MENISCUS_ASSERT(options.limit > 0.0, "limit = {}", options.limit);
   double spread = 0.0;
   for (const Vec3& x : gap.patch) spread = std::max(spread, (x - gap.middle()).norm());
   const double patch_area = std::numbers::pi * spread * spread;
@@ -115,6 +117,7 @@ FacePatch faces_around(const Film& film, std::vector<VertexId> vertices, double 
   FacePatch patch(film.mesh.num_faces(), false);
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     const VertexId v = vertices[k];
+    MENISCUS_ASSERT(origin[v].is_valid(), "vertex {}", v.value);
     for (const FaceId f : film.topology.faces_around(v)) patch[f] = true;
     for (const VertexId w : film.topology.ring(v)) {
       if (origin[w].is_valid() || (film.mesh.x[w] - film.mesh.x[origin[v]]).norm() > margin)
@@ -196,6 +199,8 @@ std::optional<Holes> holes(const Film& film, const std::array<VertexId, 2>& at, 
 /// Makes `result` the surface with a tube between two holes in it, unless that is unsound.
 std::optional<Fault> join(const SurfaceMesh& mesh, const Holes& patches, SurfaceMesh& result) {
   const auto first = boundary_curves(mesh, patches[0]), second = boundary_curves(mesh, patches[1]);
+  MENISCUS_ASSERT(first && second && first->size() == 1 && second->size() == 1,
+                  "holes that are no discs");
   FacePatch both = patches[0];
   for (const FaceId f : both.ids()) both[f] = both[f] || patches[1][f];
   result = without(mesh, both);
@@ -298,6 +303,8 @@ Opening bridged(const Scene& scene, const Gap& gap, const BridgeOptions& options
 }  // namespace
 
 Surgery bridge_gap(const Scene& scene, const Gap& gap, const BridgeOptions& options) {
+  MENISCUS_ASSERT(gap.a < scene.interfaces.size() && gap.b < scene.interfaces.size(), "{} {}",
+                  gap.a, gap.b);
   Opening bridge = bridged(scene, gap, options);
   if (bridge.moved < kMostMoved) return std::move(bridge.surgery);
   return taken_up(scene, gap, kHole * options.limit).value_or(std::move(bridge.surgery));

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/geometry/triangle.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
@@ -28,6 +29,7 @@ Triangle corners(const SurfaceMesh& mesh, FaceId f) {
 /// middle of the neck.
 FacePatch band_around(const SurfaceMesh& mesh, const FaceNeighbours& neighbours, const Neck& neck,
                       double reach) {
+  MENISCUS_ASSERT(!neck.faces.empty() && reach > 0.0, "reach = {}", reach);
   FacePatch band(mesh.num_faces(), false);
   std::vector<FaceId> front = neck.faces;
   for (const FaceId f : front) band[f] = true;

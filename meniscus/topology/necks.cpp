@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/repair/face_patch.hpp"
 #include "meniscus/topology/cut_off.hpp"
@@ -57,6 +58,7 @@ std::vector<ThinPlace> thin_places(const SurfaceMesh& mesh, const SurfaceTree& t
     const Vec3 across = sign_of(side) * area[v].normalized();
     const auto hit = tree.first_hit(mesh.x[v] + skip * across, across, farthest);
     if (!hit) continue;
+    MENISCUS_ASSERT(hit->distance >= 0.0, "thickness {}", hit->distance);
     places.push_back({hit->distance, 0.5 * (mesh.x[v] + hit->point)});
   }
   std::ranges::sort(places, [](const ThinPlace& a, const ThinPlace& b) {
@@ -68,6 +70,7 @@ std::vector<ThinPlace> thin_places(const SurfaceMesh& mesh, const SurfaceTree& t
 
 /// Whether all faces that a section crosses meet in one vertex: it is the end of a point.
 bool is_around_vertex(const SurfaceMesh& mesh, const Section& section) {
+  MENISCUS_ASSERT(!section.faces.empty());
   const FaceVertices& first = mesh.faces[section.faces.front()];
   return std::ranges::any_of(first, [&](VertexId v) {
     return std::ranges::all_of(section.faces, [&](FaceId f) {
@@ -92,6 +95,7 @@ bool is_near_end(const SurfaceMesh& mesh, const FaceNeighbours& neighbours,
 /// Whether a thread widens enough, beyond index k in the direction `step`, before it thins.
 bool widens(const Thread& thread, int k, int step) {
   const auto size = static_cast<int>(thread.sections.size());
+  MENISCUS_ASSERT(k >= 0 && k < size && std::abs(step) == 1, "{} of {}, {}", k, size, step);
   const ThreadEnd end = step > 0 ? thread.back : thread.front;
   const double radius = thread.sections[static_cast<std::size_t>(k)].radius;
   for (int n = 1, i = k + step; n < size; ++n, i += step) {
@@ -231,6 +235,7 @@ class ThreadSearch {
 
 std::vector<Neck> find_necks(const SurfaceMesh& mesh, const SurfaceTree& tree, Side side,
                              double radius, const SurfaceMotion& motion) {
+  MENISCUS_ASSERT(radius > 0.0, "radius = {}", radius);
   const double widest = kWidest * radius;
   const FaceNeighbours neighbours = face_neighbours(mesh, SurfaceTopology(mesh));
   ThreadSearch search(mesh, tree, side, widest);

@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/geometry/triangle.hpp"
 
 namespace meniscus {
@@ -66,6 +67,7 @@ Crossings crossings_near(const SurfaceMesh& mesh, const SurfaceTree& tree, const
 Vec3 crossing_point(const SurfaceMesh& mesh, const Plane& plane, const EdgeKey& edge) {
   const Vec3 &a = mesh.x[edge.first], &b = mesh.x[edge.second];
   const double ha = plane.height(a), hb = plane.height(b);
+  MENISCUS_ASSERT((ha >= 0.0) != (hb >= 0.0), "heights {} and {}", ha, hb);
   return a + ha / (ha - hb) * (b - a);
 }
 
@@ -79,6 +81,7 @@ Section followed(const SurfaceMesh& mesh, const Plane& plane, EdgeKey start, Cro
   while (Crossing* crossing = crossing_from(crossings, at)) {
     section.points.push_back(crossing_point(mesh, plane, at));
     section.faces.push_back(crossing->face);
+    MENISCUS_ASSERT(section.faces.size() <= crossings.size(), "a curve that goes round twice");
     at = crossing->to;
     crossing->is_followed = true;
     if (at == start) {
@@ -90,6 +93,8 @@ Section followed(const SurfaceMesh& mesh, const Plane& plane, EdgeKey start, Cro
 }
 
 void measure(Section& section) {
+  MENISCUS_ASSERT(!section.points.empty() && section.points.size() == section.faces.size(), "{} {}",
+                  section.points.size(), section.faces.size());
   double perimeter = 0.0;
   Vec3 moment = Vec3::Zero(), area = Vec3::Zero();
   for (std::size_t k = 0; k < section.points.size(); ++k) {

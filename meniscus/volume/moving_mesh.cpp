@@ -47,6 +47,8 @@ Report MovingMesh::move(const Scene& start, std::span<const VertexField<Vec3>> i
   MENISCUS_ASSERT(start_.num_vertices() == mesh_.num_vertices(), "a step that was not begun");
   VolumeVelocity velocity =
       volume_velocity(start, start_, interface_velocity, liquid_velocity, motion_);
+  MENISCUS_ASSERT(velocity.w.size() == start_.num_vertices(), "{} {}", velocity.w.size(),
+                  start_.num_vertices());
   TetMesh moved = start_;
   for (const TetVertexId v : moved.x.ids()) moved.x[v] += dt * velocity.w[v];
   if (auto fault = find_inverted_cell(moved)) return {std::move(fault)};
@@ -88,6 +90,8 @@ MeshChange MovingMesh::follow(const Scene& scene, const RegionSources& sources) 
   MeshChange change{mesher_(scene, fitted), {}};
   if (!change.ok()) return change;
   change.old_to_new = boundary_counterparts(mesh_, fitted);
+  MENISCUS_ASSERT(change.old_to_new.size() == mesh_.num_vertices(), "{} {}",
+                  change.old_to_new.size(), mesh_.num_vertices());
   if (!fields_.empty()) fields_ = transfer_fields(fields_, mesh_, fitted, excess_, sources);
   mesh_ = std::move(fitted);
   velocity_ = {};

@@ -97,6 +97,7 @@ VolumeMoments tet_overlap(const TetCorners& a, const TetCorners& b) {
 
 TetPoint closest_point(const TetCorners& tet, const Vec3& p) {
   const double whole = six_volumes(tet);
+  MENISCUS_ASSERT(whole != 0.0, "a tetrahedron without volume");
   TetPoint inside{p, {}};
   for (std::size_t k = 0; k < 4; ++k) {
     TetCorners part = tet;

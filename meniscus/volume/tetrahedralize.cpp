@@ -64,6 +64,8 @@ std::optional<Fault> embed_surfaces(const Scene& scene, const FacetTable& facets
 /// that has no region on its other side yet. Interfaces need no special care: both of their sides
 /// are labelled before anything spreads.
 void label_regions(const Scene& scene, const FacetTable& facets, TetMesh& mesh) {
+  MENISCUS_ASSERT(mesh.interfaces.size() == scene.interfaces.size(), "{} {}",
+                  mesh.interfaces.size(), scene.interfaces.size());
   mesh.region = CellField<RegionId>(mesh.num_cells());
   std::vector<CellId> front;
   const auto label = [&](CellId c, RegionId region) {
@@ -95,6 +97,8 @@ std::optional<Fault> try_to_mesh(const Scene& scene, const SurfaceComplex& compl
   mesh = {};
   mesh.x = std::move(result.x);
   mesh.cells = std::move(result.cells);
+  MENISCUS_ASSERT(mesh.num_vertices() >= static_cast<std::int32_t>(complex.x.size()), "{} {}",
+                  mesh.num_vertices(), complex.x.size());
   const FacetTable facets(mesh);
   if (auto lost = embed_surfaces(scene, facets, mesh)) return lost;
   label_regions(scene, facets, mesh);

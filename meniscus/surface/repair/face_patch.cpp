@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 
 namespace meniscus {
@@ -152,6 +153,7 @@ bool make_disc(const SurfaceMesh& mesh, const SurfaceTopology& topology,
 }
 
 SurfaceMesh without(const SurfaceMesh& mesh, const FacePatch& patch) {
+  MENISCUS_ASSERT(patch.size() == mesh.num_faces(), "{} {}", patch.size(), mesh.num_faces());
   SurfaceMesh rest;
   rest.x = mesh.x;
   for (const FaceId f : mesh.faces.ids())

@@ -1,7 +1,9 @@
 #include "meniscus/surface/repair/replacement.hpp"
 
+#include <algorithm>
 #include <utility>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
 
@@ -19,6 +21,7 @@ std::optional<Replacement> replacement_by(const Remedy& remedy, const SurfaceMes
 
 std::optional<Replacement> sound_replacement(const SurfaceMesh& mesh, const SurfaceFields& fields,
                                              SurfaceMesh shape, double volume) {
+  MENISCUS_ASSERT(volume >= 0.0, "volume = {}", volume);
   SurfaceMesh restored = shape;
   if (volume > 0.0) restore_volume(restored, volume);
   if (find_defect(restored)) return std::nullopt;
@@ -29,6 +32,7 @@ std::optional<Replacement> sound_replacement(const SurfaceMesh& mesh, const Surf
 std::optional<MendReport> apply_first(SurfaceMesh& mesh, SurfaceFields& fields,
                                       std::span<const Remedy> remedies,
                                       const RemeshOptions& options) {
+  MENISCUS_ASSERT(std::ranges::all_of(remedies, [](const Remedy& r) { return bool(r.shape); }));
   const int euler = euler_characteristic(mesh);
   for (const Remedy& remedy : remedies) {
     std::optional<SurfaceMesh> shape = remedy.shape();

@@ -3,6 +3,7 @@
 #include <set>
 #include <vector>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/cgal_surface.hpp"
 
 // CGAL's fairing solves its linear system with Eigen.
@@ -60,6 +61,8 @@ bool cap_holes(SurfaceMesh& mesh) {
 }
 
 bool smooth_part(SurfaceMesh& mesh, const FacePatch& part, int rings) {
+  MENISCUS_ASSERT(part.size() == mesh.num_faces() && rings >= 0, "{} {} {}", part.size(),
+                  mesh.num_faces(), rings);
   CgalMesh cgal = to_cgal(mesh);
   if (!has_all_faces(cgal, mesh)) return false;
   std::vector<CgalMesh::Face_index> faces;

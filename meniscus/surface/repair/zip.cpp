@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus {
 namespace {
 
@@ -45,6 +47,7 @@ Start shortest_line(const SurfaceMesh& mesh, std::span<const VertexId> a,
 std::vector<FaceVertices> zipped(const SurfaceMesh& mesh, std::span<const VertexId> a,
                                  std::span<const VertexId> b) {
   // With the discs on their left the curves run opposite ways around the tube.
+  MENISCUS_ASSERT(a.size() >= 3 && b.size() >= 3, "curves of {} and {}", a.size(), b.size());
   const Start start = shortest_line(mesh, a, b);
   const ClosedWalk p(a, start.a, false), q(b, start.b, true);
   const std::size_t m = p.size(), n = q.size();
@@ -79,6 +82,7 @@ std::vector<FaceVertices> zipped(const SurfaceMesh& mesh, std::span<const Vertex
     }
   }
   std::ranges::reverse(faces);
+  MENISCUS_ASSERT(faces.size() == m + n, "{} faces between {} and {}", faces.size(), m, n);
   return faces;
 }
 
