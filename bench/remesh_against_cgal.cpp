@@ -40,7 +40,7 @@ RemeshOptions even(double edge) {
           .edge_floor = edge,
           .edge_ceiling = edge * (1.0 + 1e-9),
           .min_vertices = 4,
-          .equilibrium = 0.01};
+          .spring_tolerance = 0.01};
 }
 
 /// Even triangles, then every vertex moved at random within its tangent plane by up to a fifth of

@@ -11,7 +11,7 @@
 #include "meniscus/io/surface_file.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
-#include "meniscus/surface/even_out.hpp"
+#include "meniscus/surface/isotropic_remesh.hpp"
 #include "meniscus/surface/remesh.hpp"
 
 namespace meniscus {

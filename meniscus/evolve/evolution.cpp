@@ -245,7 +245,7 @@ bool Evolution::remesh_interfaces() {
     RemeshOptions options = sound_remeshing(interface.C0, options_.edge_floor);
     options.restores_volume = options_.surface == SurfaceShape::faceted;
     if (options.restores_volume) options.volume = interface.volume;
-    options.equilibrium = options_.equilibrium;
+    options.spring_tolerance = options_.equilibrium;
     options.gap_layers = options_.gap_layers;
     for (std::size_t j = 0; j < trees.size(); ++j)
       if (j != i) options.neighbours.push_back(&trees[j]);

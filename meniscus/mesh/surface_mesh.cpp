@@ -35,8 +35,8 @@ std::vector<DirectedEdge> directed_edges(const SurfaceMesh& mesh) {
   for (const FaceId f : mesh.faces.ids()) {
     const FaceVertices& v = mesh.faces[f];
     for (std::size_t k = 0; k < 3; ++k) {
-      std::int32_t& place = next[smaller(v[k], v[(k + 1) % 3])];
-      edges[static_cast<std::size_t>(place++)] = {v[k], v[(k + 1) % 3], v[(k + 2) % 3], f};
+      std::int32_t& slot = next[smaller(v[k], v[(k + 1) % 3])];
+      edges[static_cast<std::size_t>(slot++)] = {v[k], v[(k + 1) % 3], v[(k + 2) % 3], f};
     }
   }
   for (std::size_t i = 0; i + 1 < first.size(); ++i)

@@ -49,7 +49,7 @@ std::vector<Piece> pieces_of(const SurfaceMesh& mesh) {
 }
 
 /// The target in units of the frame.
-RemeshTarget scaled(RemeshTarget target, double radius) {
+RemeshTarget target_in_frame(RemeshTarget target, double radius) {
   if (target.by != By::nodes) target.value /= radius;
   target.edge_floor /= radius;
   return target;
@@ -77,13 +77,13 @@ TargetReport remesh_to(SurfaceMesh& mesh, const RemeshTarget& target) {
   SurfaceMesh working = mesh;
   const Frame frame(mesh);
   frame.enter(working);
-  const RemeshTarget inner = scaled(target, frame.radius);
+  const RemeshTarget inner = target_in_frame(target, frame.radius);
 
   std::vector<Piece> pieces = pieces_of(working);
   if (inner.by == By::edge_length)
     require_affordable(inner, surface_area(working) * density_of_length(inner.value));
   const std::vector<Piece> given = pieces;
-  const double rough_edge = even_out(pieces, inner);
+  const double rough_edge = remesh_rough_pieces(pieces, inner);
   std::vector<bool> is_cavity;
   for (const Piece& piece : pieces) is_cavity.push_back(piece.is_cavity);
 

@@ -8,7 +8,7 @@
 
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
-#include "meniscus/surface/even_out.hpp"
+#include "meniscus/surface/isotropic_remesh.hpp"
 #include "meniscus/surface/repair/replacement.hpp"
 #include "meniscus/surface/repair/smoothed_shapes.hpp"
 #include "meniscus/surface/sizing.hpp"
@@ -45,7 +45,7 @@ class RoughPieces {
   RoughPieces(const std::vector<Piece>& pieces, double edge) : pieces_(pieces), edge_(edge) {}
 
   /// None where that loses what is thinner than the length, or a hole.
-  std::optional<std::vector<Piece>> smoothed(double length) {
+  std::optional<std::vector<Piece>> at(double length) {
     if (length == 0.0) return pieces_;
     std::vector<Piece> smooth = pieces_;
     for (std::size_t i = 0; i < smooth.size(); ++i) {
@@ -74,7 +74,7 @@ Found search_rounded(const std::vector<Piece>& pieces, const RemeshTarget& targe
   Found best;
   int passes = 0;
   for (const double rounding : roundings()) {
-    std::optional<std::vector<Piece>> smooth = rough.smoothed(rounding * rough_edge);
+    std::optional<std::vector<Piece>> smooth = rough.at(rounding * rough_edge);
     if (!smooth) break;
     const int failures = rounding == kSmoothingLengths.back() ? kMostFailures : 1;
     Found found = TargetSearch(std::move(*smooth), target, rough_edge, failures).run();
@@ -96,7 +96,7 @@ std::vector<SurfaceMesh> cut_evenly(const std::vector<Piece>& pieces, double edg
   std::vector<SurfaceMesh> even;
   for (const Piece& piece : pieces) {
     std::optional<Replacement> next =
-        sound_replacement(piece.mesh, {}, evened_out(piece.mesh, edge), piece.volume);
+        sound_replacement(piece.mesh, {}, isotropic_remesh(piece.mesh, edge), piece.volume);
     if (!next) return {};
     even.push_back(std::move(next->surface.mesh));
   }
@@ -133,7 +133,7 @@ Found search_cut(const std::vector<Piece>& pieces, const RemeshTarget& target, d
       best.report.reached = measure;
       best.report.is_met = miss <= band(target.by);
     }
-    const double next = corrected(setting, measure, last_setting, last_measure, target.value);
+    const double next = next_setting(setting, measure, last_setting, last_measure, target.value);
     last_setting = setting;
     last_measure = measure;
     setting = next;
@@ -143,7 +143,7 @@ Found search_cut(const std::vector<Piece>& pieces, const RemeshTarget& target, d
 
 }  // namespace
 
-double even_out(std::vector<Piece>& pieces, const RemeshTarget& target) {
+double remesh_rough_pieces(std::vector<Piece>& pieces, const RemeshTarget& target) {
   double area = 0.0;
   for (const Piece& piece : pieces) area += surface_area(piece.mesh);
   double edge = 0.0;
@@ -151,7 +151,7 @@ double even_out(std::vector<Piece>& pieces, const RemeshTarget& target) {
     piece.is_rough = is_rough(piece.mesh, SurfaceTopology(piece.mesh));
     if (!piece.is_rough) continue;
     edge = rough_edge_length(target, area);
-    piece.mesh = evened_out(piece.mesh, edge);
+    piece.mesh = isotropic_remesh(piece.mesh, edge);
   }
   return edge;
 }

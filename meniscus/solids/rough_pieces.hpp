@@ -7,7 +7,7 @@
 namespace meniscus {
 
 /// Gives rough pieces even triangles; returns their length, 0 if no piece was rough.
-double even_out(std::vector<Piece>& pieces, const RemeshTarget& target);
+double remesh_rough_pieces(std::vector<Piece>& pieces, const RemeshTarget& target);
 
 /// Remeshes a surface with rough pieces, rounded, or cut evenly where that does not do: `given` are
 /// the pieces as they came, `even` those in even triangles of `rough_edge`.

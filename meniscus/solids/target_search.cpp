@@ -19,7 +19,7 @@ namespace {
 using By = RemeshTarget::By;
 
 /// A surface that does not flow needs its springs no nearer to rest: angles gain nothing by it.
-constexpr double kEquilibrium = 0.01;
+constexpr double kSpringTolerance = 0.01;
 constexpr int kMaxSweeps = 60;  // a sweep collapses about a fifth of the vertices: 1e6 → 10
 /// Of each target: where the search ends. Counts scatter by a percent (the remesher's own band).
 constexpr double kNodesBand = 0.02, kEdgeBand = 0.01, kChordalBand = 0.1, kChordalAim = 0.9;
@@ -53,8 +53,8 @@ double band(RemeshTarget::By by) {
   return by == By::edge_length ? kEdgeBand : kChordalBand;
 }
 
-double corrected(double setting, double measure, double last_setting, double last_measure,
-                 double aim) {
+double next_setting(double setting, double measure, double last_setting, double last_measure,
+                    double aim) {
   MENISCUS_ASSERT(setting > 0.0 && aim > 0.0, "{} {}", setting, aim);
   double slope = 1.0;
   if (last_setting > 0.0 && last_setting != setting)
@@ -87,7 +87,7 @@ Found TargetSearch::run() const {
       setting *= kOtherSetting;  // rough surfaces fail at one size and not at another near it
       continue;
     }
-    const double measure = measured(remeshed);
+    const double measure = measure_of(remeshed);
     const double miss = std::abs(std::log(measure / aim));
     ++passes_since_best;
     if (miss < kGain * best.miss) passes_since_best = 0;
@@ -99,7 +99,7 @@ Found TargetSearch::run() const {
     }
     const bool is_stuck = target_.by != By::nodes && passes_since_best == 3;
     if (miss <= band(target_.by) || measure == last_measure || is_stuck) break;
-    const double next = corrected(setting, measure, last_setting, last_measure, aim);
+    const double next = next_setting(setting, measure, last_setting, last_measure, aim);
     last_setting = setting;
     last_measure = measure;
     setting = next;
@@ -116,7 +116,7 @@ void TargetSearch::build_references() {
   for (Piece& piece : pieces_) {
     const SurfaceTopology topology(piece.mesh);
     const SmoothSurface surface(piece.mesh, topology);
-    Reference reference{tessellated(piece.mesh, surface, kOwnShare * target_.value),
+    Reference reference{tessellation(piece.mesh, surface, kOwnShare * target_.value),
                         std::make_unique<SurfaceTree>(piece.mesh),
                         VertexField<double>(piece.mesh.num_vertices()),
                         VertexField<double>(piece.mesh.num_vertices())};
@@ -131,7 +131,7 @@ void TargetSearch::build_references() {
       num_vertices += areas[v] * density_of_length(edge);
     }
     // Flat faces that stand for a smooth surface enclose less than it does.
-    if (!piece.is_rough) piece.volume = enclosed_volume(reference.tessellated);
+    if (!piece.is_rough) piece.volume = enclosed_volume(reference.tessellation);
     references_.push_back(std::move(reference));
   }
   require_affordable(target_, num_vertices);
@@ -150,7 +150,7 @@ RemeshOptions TargetSearch::options(std::size_t i, double setting) const {
   options.gradation = target_.gradation;
   options.min_vertices = RemeshTarget::kFewestNodes;
   options.max_sweeps = kMaxSweeps;
-  options.equilibrium = kEquilibrium;
+  options.spring_tolerance = kSpringTolerance;
   switch (target_.by) {
     case By::nodes:
       break;
@@ -197,13 +197,13 @@ std::optional<Fault> TargetSearch::remesh_all(double setting,
   return {};
 }
 
-double TargetSearch::measured(const std::vector<SurfaceMesh>& remeshed) const {
+double TargetSearch::measure_of(const std::vector<SurfaceMesh>& remeshed) const {
   if (target_.by == By::nodes) return joined(remeshed).num_vertices();
   if (target_.by == By::edge_length) return mean_edge(joined(remeshed));
   double largest = 0.0;
   for (std::size_t i = 0; i < remeshed.size(); ++i) {
     const SampledDistance d =
-        directed_distance(remeshed[i], references_[i].tessellated, {.relative_error = kOwnShare});
+        directed_distance(remeshed[i], references_[i].tessellation, {.relative_error = kOwnShare});
     largest = std::max(largest, d.distance + d.error);
   }
   return largest;

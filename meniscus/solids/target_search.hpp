@@ -40,8 +40,8 @@ struct Found {
 
 /// The next setting: first as if the measure were proportional to it, then by the secant of the two
 /// passes before in logarithms (floors and gradation bend the law; its slope stays in bounds).
-[[nodiscard]] double corrected(double setting, double measure, double last_setting,
-                               double last_measure, double aim);
+[[nodiscard]] double next_setting(double setting, double measure, double last_setting,
+                                  double last_measure, double aim);
 
 /// Remeshes pieces to a target, in the units of the frame.
 class TargetSearch {
@@ -53,7 +53,7 @@ class TargetSearch {
 
  private:
   struct Reference {
-    SurfaceMesh tessellated;
+    SurfaceMesh tessellation;
     std::unique_ptr<SurfaceTree> tree;   // of the piece
     VertexField<double> unit_length;     // l0 for a chordal error of 1
     VertexField<double> largest_length;  // 1/max|k|
@@ -66,7 +66,7 @@ class TargetSearch {
                                                                    double setting) const;
   [[nodiscard]] std::optional<Fault> remesh_all(double setting,
                                                 std::vector<SurfaceMesh>& remeshed) const;
-  [[nodiscard]] double measured(const std::vector<SurfaceMesh>& remeshed) const;
+  [[nodiscard]] double measure_of(const std::vector<SurfaceMesh>& remeshed) const;
 
   std::vector<Piece> pieces_;
   RemeshTarget target_;

@@ -22,8 +22,8 @@ int num_cuts(const SurfaceMesh& mesh, const SmoothSurface& surface, FaceId f, do
 
 }  // namespace
 
-SurfaceMesh tessellated(const SurfaceMesh& mesh, const SmoothSurface& surface,
-                        double chordal_error) {
+SurfaceMesh tessellation(const SurfaceMesh& mesh, const SmoothSurface& surface,
+                         double chordal_error) {
   SurfaceMesh result;
   for (const FaceId f : mesh.faces.ids()) {
     const int n = num_cuts(mesh, surface, f, chordal_error);

@@ -9,7 +9,7 @@
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
-#include "meniscus/surface/even_out.hpp"
+#include "meniscus/surface/isotropic_remesh.hpp"
 #include "meniscus/surface/remesh.hpp"
 
 namespace meniscus {
@@ -39,7 +39,7 @@ Lattice signed_distance(const SurfaceMesh& mesh, double edge) {
   for (int k = 0; k < lattice.size[2]; ++k)
     for (int j = 0; j < lattice.size[1]; ++j)
       for (int i = 0; i < lattice.size[0]; ++i) {
-        const Vec3 x = lattice.place(i, j, k);
+        const Vec3 x = lattice.position(i, j, k);
         const double distance = std::min(reach, tree.closest(x, reach).distance);
         lattice.values.push_back(encloses(tree, x) ? -distance : distance);
       }
@@ -105,7 +105,7 @@ std::optional<SurfaceMesh> DiffusedSurface::smoothed(double length, double most_
   SurfaceMesh largest = std::move(*std::ranges::max_element(
       pieces, {}, [](const SurfaceMesh& piece) { return enclosed_volume(piece); }));
   if (std::abs(enclosed_volume(largest) / volume_ - 1.0) > most_lost) return std::nullopt;
-  SurfaceMesh even = evened_out(largest, kEven * edge_, kNoCreases);
+  SurfaceMesh even = isotropic_remesh(largest, kEven * edge_, kNoCreases);
   restore_volume(even, volume_);
   return even;
 }

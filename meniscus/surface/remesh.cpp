@@ -40,7 +40,7 @@ RemeshReference reference_surface(const SurfaceMesh& mesh, const SurfaceTopology
 }
 
 double rest_tolerance(const RemeshState& state, const RemeshOptions& options) {
-  if (options.equilibrium > 0.0) return options.equilibrium;
+  if (options.spring_tolerance > 0.0) return options.spring_tolerance;
   // Tighter, and vertices that slide to and fro wear the shape (docs/surface-remeshing.md).
   return 0.006 * std::min(1.0, std::sqrt(1000.0 / state.mesh.num_vertices()));
 }
@@ -64,20 +64,20 @@ void equilibrate(RemeshState& state, const RemeshOptions& options, RemeshReport&
 }
 
 /// The new surface, and where its vertices lie on the old one.
-struct Assembled {
+struct NewSurface {
   SurfaceMesh mesh;
-  VertexField<SurfaceLocation> places;
+  VertexField<SurfaceLocation> points;
 };
-Assembled assembled(const RemeshState& state) {
+NewSurface new_surface(const RemeshState& state) {
   const EditMesh::Compacted compacted = state.mesh.compacted();
   MENISCUS_ASSERT(state.vertices.size() == state.mesh.num_vertex_slots(), "{} {}",
                   state.vertices.size(), state.mesh.num_vertex_slots());
-  Assembled result;
+  NewSurface result;
   result.mesh.faces = compacted.faces;
   result.mesh.x.reserve(static_cast<std::int32_t>(compacted.vertices.size()));
   for (const VertexId v : compacted.vertices) {
     result.mesh.x.add(state.vertices[v].x);
-    result.places.add(state.vertices[v].place);
+    result.points.add(state.vertices[v].point);
   }
   return result;
 }
@@ -158,12 +158,12 @@ std::optional<Fault> rebuild(SurfaceMesh& mesh, const RemeshOptions& options, Su
   report.expected_vertices = expected_vertices(state);
   if (auto fault = find_fold(state)) return fault;
 
-  auto [result, places] = assembled(state);
+  auto [result, points] = new_surface(state);
   correct_volume(result, enclosed_volume(mesh), options, report);
   report.min_angle_deg = smallest_angle_deg(result);
   if (auto fault = find_fault(result, smallest_angle_deg(mesh), options, report)) return fault;
   auto [carried, excess] =
-      transferred(fields, {mesh, topology, reference.surface, reference.walk, result, places});
+      transferred(fields, {mesh, topology, reference.surface, reference.walk, result, points});
   fields = std::move(carried);
   report.field_excess = excess;
   mesh = std::move(result);
@@ -185,7 +185,8 @@ void RemeshOptions::validate() const {
   require(gap_layers >= 0.0 && gap_layers <= 100.0, "gap_layers", gap_layers, "between 0 and 100");
   require(min_vertices >= 4, "min_vertices", min_vertices, "at least 4");
   require(max_sweeps >= 1, "max_sweeps", max_sweeps, "at least 1");
-  require(equilibrium >= 0.0 && equilibrium < 1.0, "equilibrium", equilibrium, "in [0, 1)");
+  require(spring_tolerance >= 0.0 && spring_tolerance < 1.0, "spring_tolerance", spring_tolerance,
+          "in [0, 1)");
 }
 
 RemeshOptions sound_remeshing(double C0, double edge_floor) {

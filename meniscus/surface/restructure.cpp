@@ -183,7 +183,8 @@ bool try_collapse_edge(RemeshState& state, HalfedgeId h) {
   const auto check_fan = [&](VertexId center, VertexId other) {
     mesh.for_each_out(center, [&](HalfedgeId g) {
       const VertexId p = mesh.to(g), q = mesh.opposite(g);
-      if (p != other && q != other && !is_upright(merged, state.vertices[p], state.vertices[q]))
+      if (p != other && q != other &&
+          !is_consistently_oriented(merged, state.vertices[p], state.vertices[q]))
         is_sound = false;
     });
   };
@@ -222,7 +223,8 @@ bool try_flip(RemeshState& state, HalfedgeId h) {
   const double threshold = std::clamp(kAllowance * growth, -kLargestAllowance, kLargestAllowance);
   if (!is_angle_excess(state, h, threshold + kDelaunaySlack) || mesh.are_joined(c, d)) return false;
   const VertexField<RemeshVertex>& v = state.vertices;
-  if (!is_upright(v[d], v[c], v[a]) || !is_upright(v[c], v[d], v[b])) return false;
+  if (!is_consistently_oriented(v[d], v[c], v[a]) || !is_consistently_oriented(v[c], v[d], v[b]))
+    return false;
   state.mesh.flip(h);
   return true;
 }

@@ -74,7 +74,9 @@ bool would_fold(const RemeshState& state, VertexId v, const RemeshVertex& moved)
   state.mesh.for_each_out(v, [&](HalfedgeId h) {
     const RemeshVertex &a = state.vertices[state.mesh.to(h)],
                        &b = state.vertices[state.mesh.opposite(h)];
-    if (!folds && !is_upright(moved, a, b) && is_upright(state.vertices[v], a, b)) folds = true;
+    if (!folds && !is_consistently_oriented(moved, a, b) &&
+        is_consistently_oriented(state.vertices[v], a, b))
+      folds = true;
   });
   return folds;
 }
@@ -84,7 +86,7 @@ bool try_move(RemeshState& state, VertexId v, Vec3 d) {
   RemeshVertex& vertex = state.vertices[v];
   for (int attempt = 0; attempt < kMostAttempts; ++attempt, d *= 0.5) {
     const RemeshVertex moved =
-        vertex_at(state.reference, state.reference.walk.moved(vertex.place, d));
+        vertex_at(state.reference, state.reference.walk.moved(vertex.point, d));
     if (would_fold(state, v, moved)) continue;
     vertex = moved;
     return true;
@@ -94,7 +96,7 @@ bool try_move(RemeshState& state, VertexId v, Vec3 d) {
 
 }  // namespace
 
-void relax_springs(RemeshState& state, double equilibrium, int max_rounds) {
+void relax_springs(RemeshState& state, double spring_tolerance, int max_rounds) {
   PulledVertices pulled(state.mesh, state.unrelaxed.take());
   for (int round = 0; round < max_rounds; ++round) {
     const std::vector<VertexId> vertices = pulled.next_round();
@@ -103,7 +105,7 @@ void relax_springs(RemeshState& state, double equilibrium, int max_rounds) {
       pulled.release(v);
       const Vec3 d = move_to_rest(state, v);
       const double over_length = d.norm() / state.vertices[v].rest_length;
-      if (over_length <= equilibrium) continue;
+      if (over_length <= spring_tolerance) continue;
       if (!try_move(state, v, std::min(kOverRelaxation, kLongestMove / over_length) * d)) continue;
       state.unflipped.insert(v);
       pulled.insert_ring(v);

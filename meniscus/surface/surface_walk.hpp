@@ -18,9 +18,9 @@ class SurfaceWalk {
   /// bends away, where the target is above no face, the nearest place on that edge.
   [[nodiscard]] SurfaceLocation moved(const SurfaceLocation& start, const Vec3& d) const;
   /// The point of the flat face.
-  [[nodiscard]] Vec3 flat_point(const SurfaceLocation& place) const {
-    const FaceVertices& v = charts_[place.face].corners;
-    return place.weights[0] * x_[v[0]] + place.weights[1] * x_[v[1]] + place.weights[2] * x_[v[2]];
+  [[nodiscard]] Vec3 flat_point(const SurfaceLocation& point) const {
+    const FaceVertices& v = charts_[point.face].corners;
+    return point.weights[0] * x_[v[0]] + point.weights[1] * x_[v[1]] + point.weights[2] * x_[v[2]];
   }
   [[nodiscard]] const FaceVertices& corners(FaceId f) const { return charts_[f].corners; }
   [[nodiscard]] const Vec3& vertex(VertexId v) const { return x_[v]; }

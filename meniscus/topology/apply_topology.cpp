@@ -15,7 +15,7 @@
 #include "meniscus/mesh/box_tree.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
-#include "meniscus/surface/even_out.hpp"
+#include "meniscus/surface/isotropic_remesh.hpp"
 #include "meniscus/surface/repair/mend.hpp"
 #include "meniscus/surface/sizing.hpp"
 #include "meniscus/topology/bridge_gap.hpp"
@@ -115,12 +115,12 @@ double most_added_area(const Scene& scene, std::span<const std::size_t> parents)
   return kMostAddedArea * 4.0 * std::numbers::pi * radius * radius;
 }
 
-/// `succeed`, all or nothing in what it does to the area too.
-std::optional<Fault> succeed_with_little_area(Scene& scene, Succession succession,
+/// `replace_interfaces`, all or nothing in what it does to the area too.
+std::optional<Fault> replace_with_little_area(Scene& scene, Succession succession,
                                               TopologyEvent& event) {
   const double most_added = most_added_area(scene, succession.parents);
   Scene after = scene;
-  if (auto fault = succeed(after, std::move(succession), event)) return fault;
+  if (auto fault = replace_interfaces(after, std::move(succession), event)) return fault;
   if (event.area_after - event.area_before > most_added)
     return Fault{FaultKind::added_area, "it would add area", event.place};
   scene = std::move(after);
@@ -137,7 +137,7 @@ std::optional<Fault> cut(Scene& scene, const DueNeck& due, Surgery surgery, Topo
     event.gap = 2.0 * due.neck.radius;
   }
   if (surgery.fault) return std::move(surgery.fault);
-  return succeed_with_little_area(
+  return replace_with_little_area(
       scene, {{due.interface}, std::move(surgery.pieces), std::move(surgery.refined)}, event);
 }
 
@@ -187,7 +187,7 @@ std::optional<Fault> open_gap(Scene& scene, const Gap& gap, const TopologyOption
   if (surgery.fault) return std::move(surgery.fault);
   Succession succession{{gap.a}, std::move(surgery.pieces), std::move(surgery.refined)};
   if (gap.b != gap.a) succession.parents.push_back(gap.b);
-  return succeed_with_little_area(scene, std::move(succession), event);
+  return replace_with_little_area(scene, std::move(succession), event);
 }
 
 void open_gaps(Scene& scene, const TopologyOptions& options, const SurfaceMotion& motion,
@@ -230,8 +230,8 @@ int next_id(const Scene& scene) {
 void give_vertices(Interface& interface, const RemeshOptions& options, FieldExcess& excess) {
   const double area = surface_area(interface.mesh), volume = enclosed_volume(interface.mesh);
   const double edge = length_of_density(1.5 * static_cast<double>(options.min_vertices) / area);
-  std::optional<Replacement> even =
-      sound_replacement(interface.mesh, interface.fields, evened_out(interface.mesh, edge), volume);
+  std::optional<Replacement> even = sound_replacement(
+      interface.mesh, interface.fields, isotropic_remesh(interface.mesh, edge), volume);
   if (!even) return;
   interface.mesh = std::move(even->surface.mesh);
   interface.fields = std::move(even->surface.fields);

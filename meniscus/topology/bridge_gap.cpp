@@ -17,7 +17,7 @@
 #include "meniscus/surface/remesh.hpp"
 #include "meniscus/surface/repair/face_patch.hpp"
 #include "meniscus/surface/repair/smooth_fill.hpp"
-#include "meniscus/surface/repair/zip.hpp"
+#include "meniscus/surface/repair/tube_faces.hpp"
 
 namespace meniscus {
 namespace {
@@ -54,7 +54,7 @@ double edge_at(const Gap& gap, const BridgeOptions& options) {
 }
 
 /// An interface's surface refined around the gap; as it is where that fails.
-CarryingSurface refined(const Interface& interface, const Gap& gap, double edge) {
+CarryingSurface refined_surface(const Interface& interface, const Gap& gap, double edge) {
   CarryingSurface surface{interface.mesh, interface.fields};
   RemeshOptions options = sound_remeshing(interface.C0);
   const double hole = kHole / kEdge * edge;
@@ -74,9 +74,9 @@ CarryingSurface refined(const Interface& interface, const Gap& gap, double edge)
 /// Both surfaces as one, outward from the liquid that the bridge belongs to.
 CarryingSurface refined_surfaces(const Scene& scene, const Gap& gap, double edge) {
   const Interface &a = scene.interfaces[gap.a], &b = scene.interfaces[gap.b];
-  CarryingSurface first = refined(a, gap, edge);
+  CarryingSurface first = refined_surface(a, gap, edge);
   if (gap.a == gap.b) return first;
-  CarryingSurface second = refined(b, gap, edge);
+  CarryingSurface second = refined_surface(b, gap, edge);
   if (a.inside == b.outside) turn_inside_out(second.mesh);
   if (b.inside == a.outside) turn_inside_out(first.mesh);
   return {joined(std::array{std::move(first.mesh), std::move(second.mesh)}),
@@ -205,7 +205,8 @@ std::optional<Fault> join(const SurfaceMesh& mesh, const Holes& patches, Surface
   for (const FaceId f : both.ids()) both[f] = both[f] || patches[1][f];
   result = without(mesh, both);
   const std::int32_t num_kept = result.num_faces();
-  for (const FaceVertices& f : zipped(mesh, first->front(), second->front())) result.faces.add(f);
+  for (const FaceVertices& f : tube_faces(mesh, first->front(), second->front()))
+    result.faces.add(f);
   FacePatch tube(result.num_faces(), false);
   for (std::int32_t f = num_kept; f < result.num_faces(); ++f) tube[FaceId{f}] = true;
   SurfaceMesh smooth = result;
@@ -246,8 +247,8 @@ Opening opening(const Film& film, const Holes& patches, double unit) {
 
 /// The first of the openings that leaves a sound surface, adds little area and moves little liquid;
 /// where all move much, the one that moves least. Why there is none, else.
-Opening opened(const Film& film, const std::array<VertexId, 2>& at, double edge,
-               const BridgeOptions& options) {
+Opening best_opening(const Film& film, const std::array<VertexId, 2>& at, double edge,
+                     const BridgeOptions& options) {
   const double unit = edge / kEdge;  // the limit, but for patches too large for its edges
   Opening best{{{}, Fault{FaultKind::no_surgery, "no two discs can be opened there"}}};
   for (const auto& [radius, takes_film] : kHoles) {
@@ -262,7 +263,7 @@ Opening opened(const Film& film, const std::array<VertexId, 2>& at, double edge,
 
 /// Where the smaller of two drops lies within the hole as a whole there is nothing to open it from:
 /// the other takes it up. None where it is larger, or holds another drop.
-std::optional<Surgery> taken_up(const Scene& scene, const Gap& gap, double hole) {
+std::optional<Surgery> absorption(const Scene& scene, const Gap& gap, double hole) {
   if (gap.a == gap.b) return std::nullopt;
   const Interface *large = &scene.interfaces[gap.a], *small = &scene.interfaces[gap.b];
   if (large->volume < small->volume) std::swap(large, small);
@@ -275,7 +276,7 @@ std::optional<Surgery> taken_up(const Scene& scene, const Gap& gap, double hole)
 }
 
 /// The bridge as `bridge_gap` makes it where both drops are larger than the hole.
-Opening bridged(const Scene& scene, const Gap& gap, const BridgeOptions& options) {
+Opening bridge_opening(const Scene& scene, const Gap& gap, const BridgeOptions& options) {
   const double edge = edge_at(gap, options);
   CarryingSurface surface = refined_surfaces(scene, gap, edge);
   const SurfaceMesh& mesh = surface.mesh;
@@ -295,7 +296,7 @@ Opening bridged(const Scene& scene, const Gap& gap, const BridgeOptions& options
                                    nearest_vertex(film, gap.to, -across)};
   if (!at[0].is_valid() || !at[1].is_valid())
     return {{{}, Fault{FaultKind::no_surgery, "the two sides are not to be found", gap.middle()}}};
-  Opening result = opened(film, at, edge, options);
+  Opening result = best_opening(film, at, edge, options);
   result.surgery.refined = std::move(surface);
   return result;
 }
@@ -305,9 +306,9 @@ Opening bridged(const Scene& scene, const Gap& gap, const BridgeOptions& options
 Surgery bridge_gap(const Scene& scene, const Gap& gap, const BridgeOptions& options) {
   MENISCUS_ASSERT(gap.a < scene.interfaces.size() && gap.b < scene.interfaces.size(), "{} {}",
                   gap.a, gap.b);
-  Opening bridge = bridged(scene, gap, options);
+  Opening bridge = bridge_opening(scene, gap, options);
   if (bridge.moved < kMostMoved) return std::move(bridge.surgery);
-  return taken_up(scene, gap, kHole * options.limit).value_or(std::move(bridge.surgery));
+  return absorption(scene, gap, kHole * options.limit).value_or(std::move(bridge.surgery));
 }
 
 }  // namespace meniscus

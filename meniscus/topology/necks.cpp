@@ -125,7 +125,7 @@ double widening_rate(const Section& section, const SurfaceMotion& motion) {
 
 /// The thinnest section between the neighbours of section k: golden-section search along the line
 /// of their centroids.
-Section refined(const SurfaceMesh& mesh, const SurfaceTree& tree, const Section& rough) {
+Section thinnest_section(const SurfaceMesh& mesh, const SurfaceTree& tree, const Section& rough) {
   constexpr double kGolden = 0.6180339887498949;
   constexpr int kSteps = 12;  // the bracket of half a radius shrinks by 300
   Section best = rough;
@@ -191,7 +191,7 @@ class ThreadSearch {
       skipped_.push_back(place);
       return;
     }
-    Thread thread = traced(place);
+    Thread thread = thread_at(place);
     if (thread.sections.empty()) {
       if (side_ == Side::inside && place.thickness >= kThick * widest_)
         threadless_.push_back(place);
@@ -203,8 +203,8 @@ class ThreadSearch {
   [[nodiscard]] const std::vector<Thread>& threads() const { return threads_; }
 
  private:
-  [[nodiscard]] Thread traced(const ThinPlace& place) const {
-    return traced_thread(mesh_, tree_, place.middle, side_, widest_);
+  [[nodiscard]] Thread thread_at(const ThinPlace& place) const {
+    return thread_through(mesh_, tree_, place.middle, side_, widest_);
   }
   /// A thread that a place found was in reach of a thinner place, if one that was skipped finds it:
   /// that one's sections count, as if none had been skipped.
@@ -217,7 +217,7 @@ class ThreadSearch {
         others.push_back(place);
         continue;
       }
-      if (Thread found = traced(place); !found.sections.empty())
+      if (Thread found = thread_at(place); !found.sections.empty())
         threads_.push_back(std::move(found));
     }
     skipped_ = std::move(others);
@@ -245,7 +245,7 @@ std::vector<Neck> find_necks(const SurfaceMesh& mesh, const SurfaceTree& tree, S
     for (int k = 0; k < static_cast<int>(thread.sections.size()); ++k) {
       const Section& section = thread.sections[static_cast<std::size_t>(k)];
       if (section.radius >= radius || !widens(thread, k, 1) || !widens(thread, k, -1)) continue;
-      const Section thinnest = refined(mesh, tree, section);
+      const Section thinnest = thinnest_section(mesh, tree, section);
       if (thinnest.faces.size() < kFewestFaces || is_around_vertex(mesh, thinnest) ||
           is_near_end(mesh, neighbours, thinnest))
         continue;

@@ -185,7 +185,7 @@ Scene with_children(const Scene& scene, std::span<const std::size_t> parents,
 
 }  // namespace
 
-std::optional<Fault> succeed(Scene& scene, Succession succession, TopologyEvent& event) {
+std::optional<Fault> replace_interfaces(Scene& scene, Succession succession, TopologyEvent& event) {
   std::vector<Interface> parents;
   for (const std::size_t i : succession.parents) parents.push_back(scene.interfaces[i]);
   const LiquidVolume volume = liquid_volume(scene, succession.parents);

@@ -28,7 +28,7 @@ struct Succession {
 /// Interfaces that stay keep their order and come first; the event's drops, volumes, areas and
 /// energies are filled in. Not done, with the reason, when a piece encloses nothing, is
 /// no sound surface, or meets another interface or the outer boundary; the scene is then as before.
-[[nodiscard]] std::optional<Fault> succeed(Scene& scene, Succession succession,
-                                           TopologyEvent& event);
+[[nodiscard]] std::optional<Fault> replace_interfaces(Scene& scene, Succession succession,
+                                                      TopologyEvent& event);
 
 }  // namespace meniscus

@@ -18,7 +18,7 @@ Lattice sampled(int points, const F& f) {
   Lattice lattice{Vec3::Constant(-1.5), 3.0 / (points - 1), {points, points, points}, {}};
   for (int k = 0; k < points; ++k)
     for (int j = 0; j < points; ++j)
-      for (int i = 0; i < points; ++i) lattice.values.push_back(f(lattice.place(i, j, k)));
+      for (int i = 0; i < points; ++i) lattice.values.push_back(f(lattice.position(i, j, k)));
   return lattice;
 }
 

@@ -291,8 +291,8 @@ TEST(RemeshOptions, NamesWhatIsWrong) {
             "remesh: gap_layers = -1 must be between 0 and 100");
   EXPECT_EQ(message([](RemeshOptions& o) { o.max_sweeps = 0; }),
             "remesh: max_sweeps = 0 must be at least 1");
-  EXPECT_EQ(message([](RemeshOptions& o) { o.equilibrium = 1; }),
-            "remesh: equilibrium = 1 must be in [0, 1)");
+  EXPECT_EQ(message([](RemeshOptions& o) { o.spring_tolerance = 1; }),
+            "remesh: spring_tolerance = 1 must be in [0, 1)");
 }
 
 TEST(RestoreVolume, ReachesTheVolumeAlongAreaVectors) {

@@ -7,7 +7,7 @@
 
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
-#include "meniscus/surface/even_out.hpp"
+#include "meniscus/surface/isotropic_remesh.hpp"
 #include "meniscus/surface/repair/creases.hpp"
 #include "meniscus/surface/repair/smoothed_shapes.hpp"
 
@@ -24,7 +24,7 @@ constexpr double kEvenEdge = 0.5;  // of the mean edge: creases need faces to be
 std::vector<Remedy> remedies(const SurfaceMesh& mesh, double volume) {
   const double edge = mean_edge(mesh);
   const auto even = [&mesh, edge, made = std::make_shared<std::optional<SurfaceMesh>>()] {
-    if (!*made) *made = evened_out(mesh, kEvenEdge * edge);
+    if (!*made) *made = isotropic_remesh(mesh, kEvenEdge * edge);
     return *made;
   };
   const auto smooth = std::make_shared<SmoothedShapes>(mesh, edge);

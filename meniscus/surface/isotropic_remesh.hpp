@@ -14,7 +14,7 @@ inline constexpr double kCreaseDeg = 50.0;
 /// The same polyhedron with triangles of edges about `edge`: CGAL's isotropic remeshing, new
 /// vertices on the given faces, edges where normals turn by more than `crease_deg` kept as lines of
 /// edges; 180: none.
-[[nodiscard]] SurfaceMesh evened_out(const SurfaceMesh& mesh, double edge,
-                                     double crease_deg = kCreaseDeg);
+[[nodiscard]] SurfaceMesh isotropic_remesh(const SurfaceMesh& mesh, double edge,
+                                           double crease_deg = kCreaseDeg);
 
 }  // namespace meniscus

@@ -1,4 +1,4 @@
-#include "meniscus/surface/repair/zip.hpp"
+#include "meniscus/surface/repair/tube_faces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ TEST(Zip, MakesATubeHoweverUnlikeTheCurvesAre) {
         const auto a = add_circle(mesh, 30, 1.0, Vec3::Zero());
         auto b = add_circle(mesh, num, radius, Vec3(aside, 0.0, 0.5));
         std::ranges::reverse(b);  // the other disc is seen from its other side
-        EXPECT_TRUE(is_tube(mesh, zipped(mesh, a, b), a.size()))
+        EXPECT_TRUE(is_tube(mesh, tube_faces(mesh, a, b), a.size()))
             << fmt::format("{} vertices, radius {}, aside {}", num, radius, aside);
       }
 }

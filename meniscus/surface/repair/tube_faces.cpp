@@ -1,4 +1,4 @@
-#include "meniscus/surface/repair/zip.hpp"
+#include "meniscus/surface/repair/tube_faces.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -44,8 +44,8 @@ Start shortest_line(const SurfaceMesh& mesh, std::span<const VertexId> a,
 
 }  // namespace
 
-std::vector<FaceVertices> zipped(const SurfaceMesh& mesh, std::span<const VertexId> a,
-                                 std::span<const VertexId> b) {
+std::vector<FaceVertices> tube_faces(const SurfaceMesh& mesh, std::span<const VertexId> a,
+                                     std::span<const VertexId> b) {
   // With the discs on their left the curves run opposite ways around the tube.
   MENISCUS_ASSERT(a.size() >= 3 && b.size() >= 3, "curves of {} and {}", a.size(), b.size());
   const Start start = shortest_line(mesh, a, b);

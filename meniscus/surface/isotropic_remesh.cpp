@@ -1,4 +1,4 @@
-#include "meniscus/surface/even_out.hpp"
+#include "meniscus/surface/isotropic_remesh.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -34,7 +34,7 @@ bool is_rough(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
   return false;
 }
 
-SurfaceMesh evened_out(const SurfaceMesh& mesh, double edge, double crease_deg) {
+SurfaceMesh isotropic_remesh(const SurfaceMesh& mesh, double edge, double crease_deg) {
   CgalMesh cgal = to_cgal(mesh);
   auto [is_crease, added] = cgal.add_property_map<CgalMesh::Edge_index, bool>("e:crease", false);
   if (crease_deg < 180.0) pmp::detect_sharp_edges(cgal, crease_deg, is_crease);
