@@ -8,8 +8,9 @@
 namespace meniscus {
 
 /// The measures of one drop as drops.csv has them (definitions: docs/notation.md). Lengths are
-/// those of the smooth interface through the vertices, volume, area and D_inertia those of the
-/// triangulation.
+/// those of the smooth interface through the vertices. `drop_shape` takes volume, area and
+/// D_inertia from flat faces; `drop_rows` replaces them where a run keeps the volume of curved
+/// faces.
 struct DropShape {
   double volume = 0.0, area = 0.0;
   Vec3 centroid = Vec3::Zero();

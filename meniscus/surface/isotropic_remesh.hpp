@@ -11,9 +11,9 @@ inline constexpr double kCreaseDeg = 50.0;
 /// more than 50° along an edge, or a twentieth of the angles below 15°.
 [[nodiscard]] bool is_rough(const SurfaceMesh& mesh, const SurfaceTopology& topology);
 
-/// The same polyhedron with triangles of edges about `edge`: CGAL's isotropic remeshing, new
-/// vertices on the given faces, edges where normals turn by more than `crease_deg` kept as lines of
-/// edges; 180: none.
+/// A polyhedron in triangles with edges about `edge` long, by CGAL's isotropic remeshing. New
+/// vertices lie on the given faces. Edges where normals turn by more than `crease_deg` stay lines
+/// of edges; with 180 none do.
 [[nodiscard]] SurfaceMesh isotropic_remesh(const SurfaceMesh& mesh, double edge,
                                            double crease_deg = kCreaseDeg);
 

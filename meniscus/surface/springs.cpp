@@ -12,7 +12,8 @@ namespace {
 /// and folding that springs at their rest length lack. The shorter, the better the angles around
 /// vertices of valence 5 and 7, and the less the springs hold their lengths.
 constexpr double kShortening = 0.8;
-/// Of the move that would bring a vertex to rest: long waves settle in fewer rounds.
+/// A vertex moves by this multiple of the move that would bring it to rest: long waves settle in
+/// fewer rounds.
 constexpr double kOverRelaxation = 1.2;
 constexpr double kLongestMove = 0.25;  // of l0 at a time: no vertex can cross its ring
 /// Least stiffness of a spring on average; compressed ones push a vertex aside and have little.
@@ -32,8 +33,8 @@ class PulledVertices {
     insert(v);
     mesh_.for_each_out(v, [&](HalfedgeId h) { insert(mesh_.to(h)); });
   }
-  /// Those of one round. Each is to be released when it is looked at: what is inserted meanwhile
-  /// and still to come in this round does not come again in the next.
+  /// The vertices of one round. Each is to be released when it is looked at: one that is inserted
+  /// meanwhile and still to come in this round does not come again in the next.
   [[nodiscard]] std::vector<VertexId> next_round() { return std::exchange(members_, {}); }
   void release(VertexId v) { is_pulled_[v] = 0; }
 

@@ -25,10 +25,10 @@ struct TopologyOptions {
 struct [[nodiscard]] TopologyReport {
   std::vector<TopologyEvent> events;  ///< in the order in which they were carried out
   std::vector<std::string> warnings;  ///< places due whose surgery failed: left as they were
-  /// Why what is due must not happen (unlike liquids); the scene is then as it was given.
+  /// Why an event that is due must not happen (`unlike_liquids`); the scene is then as given.
   std::optional<Fault> refusal;
-  /// Of fields over their range, by the remeshing of the children at the end; the events have what
-  /// the cuts and bridges themselves did.
+  /// By how much the remeshing of the children at the end took fields over their range. The events
+  /// hold what the cuts and bridges did.
   FieldExcess finishing_excess = {};
 };
 

@@ -34,8 +34,8 @@ constexpr std::array<std::pair<double, bool>, 5> kHoles{
 constexpr double kMostAddedArea = 1.5;
 /// Edges at the hole, in limits: the rim of the film turns round within one limit.
 constexpr double kEdge = 0.5;
-/// Of the liquid: an opening moves of the order of the limit cubed, but of drops no larger than the
-/// hole, or flat ones, it would take most.
+/// Share of the liquid that an opening may move. That is of the order of the limit cubed, but of
+/// drops no larger than the hole, or of flat ones, it would be most.
 constexpr double kMostMoved = 0.1;
 constexpr int kRefinements = 8;  // remeshings at most: each can make edges four times shorter
 /// A patch of film wider than this many of its edges is refined less: its rim is what matters.

@@ -163,7 +163,7 @@ bool is_near(const ThinPlace& threadless, const Vec3& x) {
   return (x - threadless.middle).norm() < kLikewise * threadless.thickness;
 }
 
-/// Of necks in rising order of radius, those that no thinner one lies close to.
+/// The necks, in rising order of radius, without those that lie close to a thinner one.
 std::vector<Neck> well_apart(std::vector<Neck> necks) {
   std::ranges::sort(necks, [](const Neck& a, const Neck& b) {
     return a.radius != b.radius ? a.radius < b.radius : comes_before(a.center, b.center);

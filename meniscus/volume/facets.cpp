@@ -9,7 +9,7 @@
 namespace meniscus {
 namespace {
 
-/// The same sense of rotation, smallest vertex first.
+/// A facet with its smallest vertex first and its sense of rotation kept.
 FacetVertices rotated(const FacetVertices& f) {
   if (f[0] < f[1]) return f[0] < f[2] ? f : FacetVertices{f[2], f[0], f[1]};
   return f[1] < f[2] ? FacetVertices{f[1], f[2], f[0]} : FacetVertices{f[2], f[0], f[1]};

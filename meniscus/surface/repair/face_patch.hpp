@@ -31,9 +31,9 @@ using FacePatch = FaceField<char>;
 [[nodiscard]] bool make_disc(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                              const FaceNeighbours& neighbours, FacePatch& patch);
 
-/// The same for a patch around a thread, which is to have two boundary curves: the two largest
-/// parts of the rest stay (on a torus they are one). False when that leaves no ring, as at the end
-/// of a point.
+/// Makes a patch around a thread a ring with two boundary curves, as `make_disc` makes discs: the
+/// two largest parts of the rest stay (on a torus they are one). False when that leaves no ring, as
+/// at the end of a point.
 [[nodiscard]] bool make_ring(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                              const FaceNeighbours& neighbours, FacePatch& patch);
 
