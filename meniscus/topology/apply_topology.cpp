@@ -162,8 +162,8 @@ void cut_necks(Scene& scene, const TopologyOptions& options, const SurfaceMotion
   }
 }
 
-/// Why two drops may not merge; empty when they may.
-std::string unlikeness(const Scene& scene, const Gap& gap) {
+/// Why two drops may not merge; none when they may.
+std::optional<std::string> unlikeness(const Scene& scene, const Gap& gap) {
   if (gap.a == gap.b) return {};
   const Interface &a = scene.interfaces[gap.a], &b = scene.interfaces[gap.b];
   const bool is_nested = a.outside != b.outside;
@@ -199,12 +199,12 @@ void open_gaps(Scene& scene, const TopologyOptions& options, const SurfaceMotion
     if (due == gaps.end()) return;
     done.add(due->middle(), options.coalescence_gap);
     const int a = scene.interfaces[due->a].drop, b = scene.interfaces[due->b].drop;
-    if (const std::string why = unlikeness(scene, *due); !why.empty()) {
+    if (const auto why = unlikeness(scene, *due)) {
       report.refusal =
           Fault{FaultKind::unlike_liquids,
                 fmt::format("drops {} and {} have come within {:.4g} of each other at {} and would "
                             "merge, but their liquids are unlike ({})",
-                            a, b, due->width, text_of(due->middle()), why),
+                            a, b, due->width, text_of(due->middle()), *why),
                 due->middle()};
       return;
     }
