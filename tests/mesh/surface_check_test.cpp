@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/cgal_surface.hpp"
 #include "meniscus/mesh/shapes.hpp"
 
@@ -82,6 +83,20 @@ TEST(FindDefect, NamesASecondPiece) {
   expect_defect(together(one, cavity), "more than one piece");
 }
 
+TEST(FindDefect, TellsTheKindAndThePosition) {
+  SurfaceMesh open = sphere(42, 1.0, Vec3(3, 0, 0));
+  open.faces.resize(open.num_faces() - 1);
+  const auto fault = find_defect(open);
+  ASSERT_TRUE(fault && fault->position);
+  EXPECT_EQ(fault->kind, FaultKind::connectivity);
+  EXPECT_NEAR((*fault->position - Vec3(3, 0, 0)).norm(), 1.0, 0.2);  // an edge near the sphere
+  EXPECT_NE(fault->text.find(text_of(*fault->position)), std::string::npos) << fault->text;
+  const auto built = SurfaceTopology::try_build(open);
+  ASSERT_TRUE(std::holds_alternative<Fault>(built));
+  EXPECT_EQ(std::get<Fault>(built).text, fault->text);
+  EXPECT_THROW(SurfaceTopology{open}, InvalidInput);
+}
+
 TEST(FindDefect, NotFiniteComesBeforeNotClosed) {
   for (const double value :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
@@ -148,7 +163,7 @@ TEST(SelfIntersection, IsFoundWhereCgalFindsIt) {
     SurfaceMesh mesh = stretched_sphere(120, Vec3(1.5, 1.0, 0.6));
     for (Vec3& x : mesh.x) x += Vec3(noise(random), noise(random), noise(random));
     const bool meets = CGAL::Polygon_mesh_processing::does_self_intersect(to_cgal(mesh));
-    EXPECT_EQ(find_self_intersection(mesh), meets) << "seed " << seed;
+    EXPECT_EQ(find_self_intersection(mesh).has_value(), meets) << "seed " << seed;
     num_meeting += static_cast<int>(meets);
   }
   EXPECT_GT(num_meeting, 60);
