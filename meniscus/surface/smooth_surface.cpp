@@ -83,7 +83,7 @@ SmoothSurface::PointNormal SmoothSurface::at(const SurfaceLocation& location) co
   const Vec3 flat = flat_point(location);
   const Vec3 squares = location.weights.cwiseProduct(location.weights);
   const double total = squares.sum();
-  MENISCUS_ASSERT(total > 0.0, "no weights on face {}", location.face.value);
+  MENISCUS_ASSERT(!(total <= 0.0), "no weights on face {}", location.face.value);
   PointNormal result{.x = flat, .n = Vec3::Zero()};
   for (int k = 0; k < 3; ++k) {
     if (squares[k] == 0.0) continue;
