@@ -10,11 +10,11 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
 #include "meniscus/evolve/region_sources.hpp"
+#include "meniscus/evolve/remesh_interfaces.hpp"
+#include "meniscus/evolve/volume_restoration.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/carry_fields.hpp"
-#include "meniscus/surface/remesh.hpp"
-#include "meniscus/topology/mend.hpp"
 
 namespace meniscus {
 namespace {
@@ -181,14 +181,8 @@ EvolutionReport Evolution::move_whole_step(const Scene& start, const InterfaceMo
   if (options_.follows_drops)
     translate_interfaces(scene, state_.start_centroid - centroid_of_drops(scene));
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
-    carry_fields(scene.interfaces[i], start.interfaces[i].mesh);
+    carry_fields(state_, i, start.interfaces[i].mesh);
   return {};
-}
-
-/// The fields of an interface whose vertices moved.
-void Evolution::carry_fields(Interface& interface, const SurfaceMesh& before) {
-  if (interface.fields.empty()) return;
-  widen(state_.field_excess, move_fields(interface.fields, before, interface.mesh));
 }
 
 /// Fields in the bulk ride to the end of the step before the mesh is made anew. Where cells would
@@ -226,61 +220,25 @@ double Evolution::step_length() const {
   return std::min(options_.max_step, options_.step_factor * capillary * shortest);
 }
 
-/// Of every interface and the outer boundary; none where no gap is asked about or there is only one
-/// of them.
-std::vector<SurfaceTree> Evolution::trees_for_gaps() const {
-  std::vector<SurfaceTree> trees;
-  const std::size_t num_surfaces =
-      state_.scene.interfaces.size() + (state_.scene.is_unbounded ? 0 : 1);
-  if (options_.gap_layers == 0.0 || num_surfaces < 2) return trees;
-  for (const Interface& interface : state_.scene.interfaces) trees.emplace_back(interface.mesh);
-  if (!state_.scene.is_unbounded) trees.emplace_back(state_.scene.boundary.mesh);
-  return trees;
-}
-
-/// Whether all could be.
+/// Whether all could be remeshed.
 bool Evolution::remesh_interfaces() {
   const PhaseTimer timer(times_, "remesh surface");
   bool are_remeshed = true;
-  std::vector<SurfaceTree> trees = trees_for_gaps();
-  for (std::size_t i = 0; i < state_.scene.interfaces.size(); ++i) {
-    Interface& interface = state_.scene.interfaces[i];
-    RemeshOptions options;
-    options.C0 = interface.C0;
-    options.restores_volume = options_.surface == SurfaceShape::faceted;
-    if (options.restores_volume) options.volume = interface.volume;
-    options.equilibrium = options_.equilibrium;
-    options.edge_floor = options_.edge_floor;
-    options.gap_layers = options_.gap_layers;
-    for (std::size_t j = 0; j < trees.size(); ++j)
-      if (j != i) options.neighbours.push_back(&trees[j]);
-    options.find_fault = find_self_intersection;
-    // Only flows through changes of topology draw creases that nothing will smooth again.
-    const MendReport mended =
-        options_.topology.is_off()
-            ? MendReport{.remesh = remesh(interface.mesh, options, interface.fields)}
-            : remesh_or_mend(interface.mesh, options, interface.fields);
-    const RemeshReport& report = mended.remesh;
-    widen(state_.field_excess, report.field_excess);
-    if (mended.is_mended) {
-      const std::string what = mended.smoothed_over > 0.0
-                                   ? fmt::format("drop {} was smoothed over {:.4g}", interface.drop,
-                                                 mended.smoothed_over)
-                                   : fmt::format("creases of drop {} were rounded", interface.drop);
+  for (const InterfaceRemesh& done : meniscus::remesh_interfaces(state_, options_)) {
+    if (done.is_mended) {
+      const std::string what =
+          done.smoothed_over > 0.0
+              ? fmt::format("drop {} was smoothed over {:.4g}", done.drop, done.smoothed_over)
+              : fmt::format("creases of drop {} were rounded", done.drop);
       warnings_.push_back(fmt::format("t = {:.6g}: {}, {} holes through it closed, to remesh it",
-                                      state_.t, what, mended.closed_holes));
+                                      state_.t, what, done.closed_holes));
       log::warning("{}", warnings_.back());
     }
-    state_.volume_shift[i] = report.volume_shift;
-    if (report.ok && options_.surface != SurfaceShape::faceted)
-      state_.volume_shift[i] = restore_volume_of(interface);
-    if (report.ok && i < trees.size()) trees[i] = SurfaceTree(interface.mesh);
-    if (report.ok) continue;
+    if (done.ok) continue;
     are_remeshed = false;
-    warnings_.push_back(fmt::format("drop {} was not remeshed at t = {:.6g}: {}", interface.drop,
-                                    state_.t, report.failure));
+    warnings_.push_back(fmt::format("drop {} was not remeshed at t = {:.6g}: {}", done.drop,
+                                    state_.t, done.failure));
     log::warning("{}", warnings_.back());
-    state_.volume_shift[i] = restore_volume_of(interface);
   }
   return are_remeshed;
 }
@@ -318,15 +276,7 @@ EvolutionReport Evolution::change_topology(const Scene& moved, const InterfaceMo
 void Evolution::restore_volumes() {
   const PhaseTimer timer(times_, "move interfaces");
   for (std::size_t i = 0; i < state_.scene.interfaces.size(); ++i)
-    state_.volume_shift[i] = restore_volume_of(state_.scene.interfaces[i]);
-}
-
-/// The size of the shift [R0].
-double Evolution::restore_volume_of(Interface& interface) {
-  const SurfaceMesh before = interface.fields.empty() ? SurfaceMesh() : interface.mesh;
-  const double shift = restore_volume(interface.mesh, interface.volume, options_.surface);
-  carry_fields(interface, before);
-  return std::abs(shift);
+    restore_volume(state_, i, options_.surface);
 }
 
 FlowSolution Evolution::solve_flow(const Instant& instant) {

@@ -9,7 +9,6 @@
 #include "meniscus/evolve/measures.hpp"
 #include "meniscus/evolve/options.hpp"
 #include "meniscus/evolve/state.hpp"
-#include "meniscus/mesh/surface_tree.hpp"
 
 namespace meniscus {
 
@@ -72,7 +71,6 @@ class Evolution {
   EvolutionReport finish_step(const Scene& start, const InterfaceMotion& motion,
                               const FlowSolution& flow, double dt);
   EvolutionReport move_whole_step(const Scene& start, const InterfaceMotion& motion, double dt);
-  void carry_fields(Interface& interface, const SurfaceMesh& before);
   void carry_fields_of_mesh(const Scene& start, const FlowSolution& flow, double dt);
   EvolutionReport follow_interfaces(const RegionSources& sources = {});
   [[nodiscard]] EvolutionReport move_mesh(const Scene& start, const InterfaceMotion& motion,
@@ -80,12 +78,10 @@ class Evolution {
   [[nodiscard]] bool is_remesh_due() const {
     return (state_.step + 1) % options_.remesh_every == 0;
   }
-  [[nodiscard]] std::vector<SurfaceTree> trees_for_gaps() const;
   bool remesh_interfaces();
   [[nodiscard]] EvolutionReport refuse_touching(bool are_remeshed) const;
   EvolutionReport change_topology(const Scene& moved, const InterfaceMotion& motion);
   void restore_volumes();
-  double restore_volume_of(Interface& interface);
   FlowSolution solve_flow(const Instant& instant);
 
   EvolutionOptions options_;

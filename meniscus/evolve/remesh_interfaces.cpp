@@ -1,0 +1,80 @@
+#include "meniscus/evolve/remesh_interfaces.hpp"
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/evolve/volume_restoration.hpp"
+#include "meniscus/mesh/surface_check.hpp"
+#include "meniscus/topology/mend.hpp"
+
+namespace meniscus {
+namespace {
+
+RemeshOptions remesh_options(const Interface& interface, const EvolutionOptions& run,
+                             std::vector<const SurfaceTree*> neighbours) {
+  RemeshOptions options;
+  options.C0 = interface.C0;
+  options.restores_volume = run.surface == SurfaceShape::faceted;
+  if (options.restores_volume) options.volume = interface.volume;
+  options.equilibrium = run.equilibrium;
+  options.edge_floor = run.edge_floor;
+  options.gap_layers = run.gap_layers;
+  options.neighbours = std::move(neighbours);
+  options.find_fault = find_self_intersection;
+  return options;
+}
+
+}  // namespace
+
+CloseSurfaces::CloseSurfaces(const Scene& scene, double gap_layers) {
+  const std::size_t num_surfaces = scene.interfaces.size() + (scene.is_unbounded ? 0 : 1);
+  if (gap_layers == 0.0 || num_surfaces < 2) return;
+  for (const Interface& interface : scene.interfaces) trees_.emplace_back(interface.mesh);
+  if (!scene.is_unbounded) trees_.emplace_back(scene.boundary.mesh);
+}
+
+std::vector<const SurfaceTree*> CloseSurfaces::others(std::size_t i) const {
+  std::vector<const SurfaceTree*> others;
+  for (std::size_t j = 0; j < trees_.size(); ++j)
+    if (j != i) others.push_back(&trees_[j]);
+  return others;
+}
+
+void CloseSurfaces::replace(std::size_t i, const SurfaceMesh& mesh) {
+  if (i < trees_.size()) trees_[i] = SurfaceTree(mesh);
+}
+
+InterfaceRemesh remesh_interface(State& state, std::size_t i, const EvolutionOptions& options,
+                                 const CloseSurfaces& surfaces) {
+  Interface& interface = state.scene.interfaces[i];
+  const RemeshOptions how = remesh_options(interface, options, surfaces.others(i));
+  // Only flows through changes of topology draw creases that nothing will smooth again.
+  const MendReport mended =
+      options.topology.is_off()
+          ? MendReport{.remesh = remesh(interface.mesh, how, interface.fields)}
+          : remesh_or_mend(interface.mesh, how, interface.fields);
+  const RemeshReport& remeshed = mended.remesh;
+  widen(state.field_excess, remeshed.field_excess);
+  state.volume_shift[i] = remeshed.volume_shift;
+  if (!remeshed.ok || options.surface != SurfaceShape::faceted)
+    restore_volume(state, i, options.surface);
+  return {.drop = interface.drop,
+          .ok = remeshed.ok,
+          .failure = remeshed.failure,
+          .is_mended = mended.is_mended,
+          .smoothed_over = mended.smoothed_over,
+          .closed_holes = mended.closed_holes};
+}
+
+std::vector<InterfaceRemesh> remesh_interfaces(State& state, const EvolutionOptions& options) {
+  MENISCUS_ASSERT(state.volume_shift.size() == state.scene.interfaces.size(),
+                  "{} shifts of {} interfaces", state.volume_shift.size(),
+                  state.scene.interfaces.size());
+  std::vector<InterfaceRemesh> done;
+  CloseSurfaces surfaces(state.scene, options.gap_layers);
+  for (std::size_t i = 0; i < state.scene.interfaces.size(); ++i) {
+    done.push_back(remesh_interface(state, i, options, surfaces));
+    if (done.back().ok) surfaces.replace(i, state.scene.interfaces[i].mesh);
+  }
+  return done;
+}
+
+}  // namespace meniscus
