@@ -9,6 +9,7 @@
 #include "meniscus/app/ranks.hpp"
 #include "meniscus/app/run_record.hpp"
 #include "meniscus/app/simulation.hpp"
+#include "meniscus/app/wording.hpp"
 #include "meniscus/case/case.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
@@ -22,7 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 
 Evolution make_evolution(const Case& c, Scene scene) {
-  return {std::move(scene), c.evolution, make_flow_solver(c), make_moving_mesh(c)};
+  Evolution evolution(std::move(scene), c.evolution, make_flow_solver(c), make_moving_mesh(c));
+  evolution.set_listener(log_notice);
+  return evolution;
 }
 
 /// Either solver's work is shared out to all ranks.

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "meniscus/app/ranks.hpp"
+#include "meniscus/app/wording.hpp"
 #include "meniscus/core/version.hpp"
 
 namespace meniscus {
@@ -53,6 +54,8 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
   for (const auto& [phase, spent] : simulation.seconds()) seconds[phase] = spent;
   for (const auto& [phase, spent] : seconds_before_)
     seconds[phase] = seconds.value(phase, 0.0) + spent;
+  Json warnings = Json::array();
+  for (const Notice& notice : simulation.evolution().notices()) warnings.push_back(text_of(notice));
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
   const Json record{{"program", "meniscus"},
@@ -71,7 +74,7 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
                     {"seconds", seconds},
                     {"steps", simulation.evolution().step()},
                     {"t", simulation.evolution().t()},
-                    {"warnings", simulation.evolution().warnings()}};
+                    {"warnings", warnings}};
   simulation.directory().write_text("run.json", record.dump(2) + "\n");
 }
 

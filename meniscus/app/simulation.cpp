@@ -6,7 +6,9 @@
 
 #include "meniscus/app/interrupt.hpp"
 #include "meniscus/app/ranks.hpp"
+#include "meniscus/app/wording.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/log.hpp"
 
 namespace meniscus {
 namespace {
@@ -55,6 +57,8 @@ Outcome Simulation::run(Progress& progress) {
       write_checkpoint(state);
       throw RunFailure(advanced.failure);
     }
+    for (const TopologyEvent& event : evolution_.events())
+      log::info("{}", text_of(event, evolution_.t()));
     // Around an event: the state before the step in which it happened, and the one after.
     is_after_event = !evolution_.events().empty();
     if (is_after_event) write_checkpoint(state);

@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
 #include "meniscus/evolve/region_sources.hpp"
 #include "meniscus/evolve/remesh_interfaces.hpp"
+#include "meniscus/evolve/step_length.hpp"
+#include "meniscus/evolve/step_start.hpp"
+#include "meniscus/evolve/topology_step.hpp"
 #include "meniscus/evolve/volume_restoration.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
@@ -45,32 +46,6 @@ std::string find_wild_motion(const Scene& start, const Scene& end) {
   return {};
 }
 
-SurfaceMotion surface_motion(const Scene& scene, const InterfaceMotion& motion) {
-  SurfaceMotion result;
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
-    result.add(scene.interfaces[i].mesh, motion[i]);
-  return result;
-}
-
-std::string text_of(std::span<const int> ids) { return fmt::format("{}", fmt::join(ids, ", ")); }
-
-void announce(const TopologyEvent& event, double t) {
-  const auto [kind, size, what] =
-      event.kind == EventKind::breakup
-          ? std::tuple("breakup", *event.neck_radius, "a neck of radius")
-          : std::tuple("coalescence", *event.gap, "a gap of");
-  log::info("{} at t = {:.6g}: drop {} -> {}, at {} {:.3g} near ({:.4g}, {:.4g}, {:.4g})", kind, t,
-            text_of(event.parents), text_of(event.children), what, size, event.place.x(),
-            event.place.y(), event.place.z());
-}
-
-double largest_tension(const Scene& scene) {
-  double tension = 0.0;
-  for (const Interface& interface : scene.interfaces)
-    tension = std::max(tension, interface.tension);
-  return tension;
-}
-
 }  // namespace
 
 Evolution::Evolution(Scene scene, const EvolutionOptions& options, std::unique_ptr<FlowSolver> flow,
@@ -96,34 +71,18 @@ EvolutionReport Evolution::solve() {
 }
 
 EvolutionReport Evolution::advance() {
-  const Scene start = state_.scene;
-  const std::vector<double> volume_shift = state_.volume_shift;
-  const std::vector<TopologyEvent> events = state_.events;
-  const std::int64_t connectivity = state_.connectivity;
-  const FieldExcess excess = state_.field_excess;
-  if (state_.mesh) state_.mesh->begin_step(start);
+  const StepStart start(state_);
   state_.iterations = 0;
   EvolutionReport report;
   for (double dt = step_length(); dt >= options_.min_step; dt *= 0.5) {
-    report = try_step(dt);
+    report = try_step(start.scene(), dt);
     if (report.ok) {
-      if (state_.mesh) widen(state_.field_excess, state_.mesh->field_excess());
-      state_.t += dt;
-      state_.dt = dt;
-      ++state_.step;
-      for (const TopologyEvent& event : state_.events) announce(event, state_.t);
+      accept_step(dt);
       return report;
     }
-    state_.scene = start;
-    state_.volume_shift = volume_shift;
-    state_.events = events;
-    state_.connectivity = connectivity;
-    state_.field_excess = excess;
-    if (state_.mesh) state_.mesh->undo();
+    start.restore(state_);
     if (report.is_final) return report;
-    warnings_.push_back(
-        fmt::format("step {} of length {:.3g} failed: {}", state_.step + 1, dt, report.failure));
-    log::warning("{}; trying a shorter one", warnings_.back());
+    give_notice(RefusedStep{state_.step + 1, dt, report.failure});
     if (const FlowSolution again = solve_flow({.t = state_.t}); !again.ok)
       return {false, again.failure};
   }
@@ -135,10 +94,16 @@ EvolutionReport Evolution::advance() {
   return report;
 }
 
+void Evolution::accept_step(double dt) {
+  if (state_.mesh) widen(state_.field_excess, state_.mesh->field_excess());
+  state_.t += dt;
+  state_.dt = dt;
+  ++state_.step;
+}
+
 /// Table 1 of hooper2001, the flow at t_k being known: move to the half time, solve there, move the
 /// whole step with that velocity, remesh. Explicit Euler leaves the half time out.
-EvolutionReport Evolution::try_step(double dt) {
-  const Scene start = state_.scene;
+EvolutionReport Evolution::try_step(const Scene& start, double dt) {
   if (options_.scheme == TimeScheme::euler) return finish_step(start, motion_, flow_, dt);
 
   timed(times_, "move interfaces", [&] { move_interfaces(state_.scene, motion_, 0.5 * dt); });
@@ -161,12 +126,12 @@ EvolutionReport Evolution::finish_step(const Scene& start, const InterfaceMotion
   if (is_remesh_due()) {
     const Scene moved = scene;
     carry_fields_of_mesh(start, flow, dt);
-    if (EvolutionReport apart = refuse_touching(remesh_interfaces()); !apart.ok) return apart;
+    if (EvolutionReport apart = refuse_contact(remesh_interfaces()); !apart.ok) return apart;
     if (EvolutionReport changed = change_topology(moved, motion); !changed.ok) return changed;
     return follow_interfaces(region_sources(moved, scene, state_.events));
   }
   restore_volumes();
-  if (EvolutionReport apart = refuse_touching(false); !apart.ok) return apart;
+  if (EvolutionReport apart = refuse_contact(false); !apart.ok) return apart;
   return move_mesh(start, mean_motion(start, scene, dt), flow, dt);
 }
 
@@ -209,68 +174,34 @@ EvolutionReport Evolution::move_mesh(const Scene& start, const InterfaceMotion& 
   return {moved.ok, moved.failure};
 }
 
-double Evolution::step_length() const {
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const Interface& interface : state_.scene.interfaces)
-    shortest = std::min(shortest, shortest_edge(interface.mesh));
-  if (options_.step_edges == StepEdges::mesh && state_.mesh)
-    shortest = std::min(shortest, shortest_edge(state_.mesh->tetrahedra()));
-  const double tension = largest_tension(state_.scene);
-  const double capillary = tension > 0.0 ? std::min(1.0, 1.0 / tension) : 1.0;
-  return std::min(options_.max_step, options_.step_factor * capillary * shortest);
-}
+double Evolution::step_length() const { return meniscus::step_length(state_, options_); }
 
 /// Whether all could be remeshed.
 bool Evolution::remesh_interfaces() {
   const PhaseTimer timer(times_, "remesh surface");
   bool are_remeshed = true;
-  for (const InterfaceRemesh& done : meniscus::remesh_interfaces(state_, options_)) {
-    if (done.is_mended) {
-      const std::string what =
-          done.smoothed_over > 0.0
-              ? fmt::format("drop {} was smoothed over {:.4g}", done.drop, done.smoothed_over)
-              : fmt::format("creases of drop {} were rounded", done.drop);
-      warnings_.push_back(fmt::format("t = {:.6g}: {}, {} holes through it closed, to remesh it",
-                                      state_.t, what, done.closed_holes));
-      log::warning("{}", warnings_.back());
-    }
-    if (done.ok) continue;
-    are_remeshed = false;
-    warnings_.push_back(fmt::format("drop {} was not remeshed at t = {:.6g}: {}", done.drop,
-                                    state_.t, done.failure));
-    log::warning("{}", warnings_.back());
+  for (InterfaceRemesh& done : meniscus::remesh_interfaces(state_, options_)) {
+    are_remeshed &= done.ok;
+    if (done.is_mended || !done.ok) give_notice(std::move(done));
   }
   return are_remeshed;
 }
 
-/// A step that makes drops touch, or one itself, is refused: with coalescence a shorter one lets
-/// them come close first, without it drops stay apart. A surface that could be remeshed is known
-/// not to touch itself.
-EvolutionReport Evolution::refuse_touching(bool are_remeshed) const {
+/// A step that makes drops touch, or one itself, is refused.
+EvolutionReport Evolution::refuse_contact(bool are_remeshed) {
   const PhaseTimer timer(times_, "topology");
-  std::string touching = find_touching_drops(state_.scene);
-  if (touching.empty() && !are_remeshed) touching = find_folded_drop(state_.scene);
-  if (touching.empty()) return {};
-  if (!options_.topology.coalescence)
-    touching += "; topology.coalescence = \"off\" keeps them apart";
-  return {false, std::move(touching)};
+  std::string contact = find_contact(state_.scene, options_.topology, are_remeshed);
+  return {contact.empty(), std::move(contact)};
 }
 
-/// Cuts and bridges what is due in the interfaces as remeshed; `moved` with `motion` says how they
-/// came there.
 EvolutionReport Evolution::change_topology(const Scene& moved, const InterfaceMotion& motion) {
   TopologyReport changed = timed(times_, "topology", [&] {
-    return apply_topology(state_.scene, options_.topology, surface_motion(moved, motion));
+    return meniscus::change_topology(state_, options_.topology, moved, motion);
   });
-  for (std::string& warning : changed.warnings)
-    warnings_.push_back(fmt::format("t = {:.6g}: {}", state_.t, warning));
+  for (std::string& warning : changed.warnings) give_notice(FailedSurgery{std::move(warning)});
   if (!changed.refusal.empty()) return {false, std::move(changed.refusal), true};
   if (changed.events.empty()) return {};
-  widen(state_.field_excess, changed.finishing_excess);
-  for (const TopologyEvent& event : changed.events) widen(state_.field_excess, event.field_excess);
-  state_.events = std::move(changed.events);
-  state_.volume_shift.assign(state_.scene.interfaces.size(), 0.0);
-  return refuse_touching(remesh_interfaces());
+  return refuse_contact(remesh_interfaces());
 }
 
 void Evolution::restore_volumes() {
@@ -284,8 +215,13 @@ FlowSolution Evolution::solve_flow(const Instant& instant) {
   FlowSolution solution = solver_->solve(state_.domain(), instant);
   state_.iterations += solution.iterations;
   for (const std::string& warning : solution.warnings)
-    warnings_.push_back(fmt::format("t = {:.6g}: {}", instant.t, warning));
+    give_notice({.t = instant.t, .what = FailedSolver{warning}});
   return solution;
+}
+
+void Evolution::give_notice(Notice notice) {
+  if (listener_) listener_(notice);
+  notices_.push_back(std::move(notice));
 }
 
 HistoryRow Evolution::history_row() const {

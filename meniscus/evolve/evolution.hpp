@@ -7,6 +7,7 @@
 
 #include "meniscus/evolve/interface_motion.hpp"
 #include "meniscus/evolve/measures.hpp"
+#include "meniscus/evolve/notices.hpp"
 #include "meniscus/evolve/options.hpp"
 #include "meniscus/evolve/state.hpp"
 
@@ -46,11 +47,14 @@ class Evolution {
   [[nodiscard]] const InterfaceMotion& motion() const { return motion_; }
   /// The changes of topology in the step that led to t_k.
   [[nodiscard]] const std::vector<TopologyEvent>& events() const { return state_.events; }
-  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+  /// What its user should know of the steps so far.
+  [[nodiscard]] const std::vector<Notice>& notices() const { return notices_; }
+  /// Told of each notice at once.
+  void set_listener(NoticeListener listener) { listener_ = std::move(listener); }
   /// Seconds spent in a phase by the evolution, its mesh and its solver.
   [[nodiscard]] double seconds_in(const std::string& phase) const;
 
-  /// Δt = step_factor · min(1, 1/tension) · l_min within its bounds, for the shapes as they are.
+  /// Of the next step as it is tried first, for the shapes as they are.
   [[nodiscard]] double step_length() const;
 
   /// The rows of the last solve.
@@ -67,10 +71,11 @@ class Evolution {
   void load(const Archive& archive);
 
  private:
-  EvolutionReport try_step(double dt);
+  EvolutionReport try_step(const Scene& start, double dt);
   EvolutionReport finish_step(const Scene& start, const InterfaceMotion& motion,
                               const FlowSolution& flow, double dt);
   EvolutionReport move_whole_step(const Scene& start, const InterfaceMotion& motion, double dt);
+  void accept_step(double dt);
   void carry_fields_of_mesh(const Scene& start, const FlowSolution& flow, double dt);
   EvolutionReport follow_interfaces(const RegionSources& sources = {});
   [[nodiscard]] EvolutionReport move_mesh(const Scene& start, const InterfaceMotion& motion,
@@ -79,10 +84,15 @@ class Evolution {
     return (state_.step + 1) % options_.remesh_every == 0;
   }
   bool remesh_interfaces();
-  [[nodiscard]] EvolutionReport refuse_touching(bool are_remeshed) const;
+  EvolutionReport refuse_contact(bool are_remeshed);
   EvolutionReport change_topology(const Scene& moved, const InterfaceMotion& motion);
   void restore_volumes();
   FlowSolution solve_flow(const Instant& instant);
+  void give_notice(Notice notice);
+  template <class What>
+  void give_notice(What what) {
+    give_notice(Notice{.t = state_.t, .what = std::move(what)});
+  }
 
   EvolutionOptions options_;
   std::unique_ptr<FlowSolver> solver_;
@@ -91,7 +101,8 @@ class Evolution {
   FlowSolution flow_;                   // at t_k
   InterfaceMotion motion_;              // n n·v at t_k
   mutable PhaseTimes times_;            // the clock is no part of the state
-  std::vector<std::string> warnings_;
+  std::vector<Notice> notices_;
+  NoticeListener listener_;
 };
 
 }  // namespace meniscus

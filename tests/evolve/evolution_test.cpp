@@ -149,7 +149,7 @@ TEST(Evolution, FailedStepIsUndoneAndHalved) {
   run.flow->longest_step = 0.03;
   ASSERT_TRUE(run.evolution.advance().ok);
   EXPECT_NEAR(run.evolution.t(), 0.02, 1e-15);
-  EXPECT_EQ(run.evolution.warnings().size(), 2u);
+  EXPECT_EQ(run.evolution.notices().size(), 2u);
   log::set_level(log::Level::warning);
 }
 
@@ -167,7 +167,7 @@ TEST(Evolution, AStepThatDoesNotKeepTheVolumeIsHalved) {
   ASSERT_TRUE(run.evolution.solve().ok);
   ASSERT_TRUE(run.evolution.advance().ok);
   EXPECT_NEAR(run.evolution.t(), 0.00125, 1e-15);
-  EXPECT_EQ(run.evolution.warnings().size(), 6u);
+  EXPECT_EQ(run.evolution.notices().size(), 6u);
   log::set_level(log::Level::warning);
 }
 
