@@ -15,6 +15,7 @@
 #include "meniscus/core/log.hpp"
 #include "meniscus/io/archive_file.hpp"
 #include "meniscus/io/atomic_file.hpp"
+#include "meniscus/io/run_files.hpp"
 #include "meniscus/report/report.hpp"
 
 namespace meniscus {
@@ -107,8 +108,8 @@ int simulate(Simulation& simulation, const RunRecord& record, Progress& progress
     if (view != nullptr) view->end("failed");
     throw;
   }
-  progress.say(fmt::format("done: {} steps to t = {:g}; see {}/report.html",
-                           simulation.evolution().step(), simulation.evolution().t(), folder));
+  progress.say(fmt::format("done: {} steps to t = {:g}; see {}/{}", simulation.evolution().step(),
+                           simulation.evolution().t(), folder, io::RunFiles::page));
   return 0;
 }
 
@@ -116,8 +117,7 @@ int simulate(Simulation& simulation, const RunRecord& record, Progress& progress
 void copy_run(const fs::path& from, const fs::path& to) {
   (void)RunDirectory::create(to, false);
   try {
-    for (const char* name : {"history.csv", "drops.csv", "events.csv", "timing.csv", "run.json",
-                             "surface.pvd", "volume.pvd", "surface", "volume", "reference.csv"})
+    for (const char* name : io::RunFiles::taken_along)
       if (fs::exists(from / name))
         fs::copy(from / name, to / name,
                  fs::copy_options::recursive | fs::copy_options::overwrite_existing);
@@ -130,7 +130,8 @@ void copy_run(const fs::path& from, const fs::path& to) {
 /// What the case is compared with stays with the run, which the page takes it from. A run that
 /// replaces another does not keep that one's.
 void copy_reference(const fs::path& case_folder, const fs::path& run_folder) {
-  const fs::path source = case_folder / "reference.csv", target = run_folder / "reference.csv";
+  const fs::path source = case_folder / io::RunFiles::reference,
+                 target = run_folder / io::RunFiles::reference;
   std::error_code ignored;
   if (fs::equivalent(fs::absolute(case_folder / "."), run_folder, ignored)) return;
   if (fs::exists(source, ignored))
@@ -221,7 +222,7 @@ int resume(const ResumeArguments& arguments) {
   RunRecord record(c, "", "");
   std::optional<RunDirectory> directory;
   on_first_rank([&] {
-    record.go_on_from(folder / "run.json");
+    record.go_on_from(folder / io::RunFiles::record);
     directory = RunDirectory::take_up(folder, evolution.step(), evolution.t());
   });
   Progress progress(evolution.t(), c.evolution.end, arguments.is_quiet);

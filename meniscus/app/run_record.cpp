@@ -10,6 +10,7 @@
 #include "meniscus/app/ranks.hpp"
 #include "meniscus/app/wording.hpp"
 #include "meniscus/core/version.hpp"
+#include "meniscus/io/run_files.hpp"
 
 namespace meniscus {
 namespace {
@@ -75,7 +76,7 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
                     {"steps", simulation.evolution().step()},
                     {"t", simulation.evolution().t()},
                     {"warnings", warnings}};
-  simulation.directory().write_text("run.json", record.dump(2) + "\n");
+  simulation.directory().write_text(io::RunFiles::record, record.dump(2) + "\n");
 }
 
 }  // namespace meniscus

@@ -111,9 +111,9 @@ double Simulation::seconds_in(const std::string& phase) const {
   return evolution_.seconds_in(phase) + output_times_[phase];
 }
 
-std::vector<std::pair<std::string, double>> Simulation::seconds() const {
-  std::vector<std::pair<std::string, double>> all;
-  for (const std::string& phase : timed_phases()) all.emplace_back(phase, seconds_in(phase));
+PhaseSeconds Simulation::seconds() const {
+  PhaseSeconds all;
+  for (const std::string phase : timed_phases()) all.emplace_back(phase, seconds_in(phase));
   return all;
 }
 

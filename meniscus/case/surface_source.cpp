@@ -1,6 +1,5 @@
 #include "meniscus/case/surface_source.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -8,6 +7,7 @@
 #include "meniscus/core/log.hpp"
 #include "meniscus/evolve/interface_motion.hpp"
 #include "meniscus/io/archive_file.hpp"
+#include "meniscus/io/run_files.hpp"
 #include "meniscus/io/surface_file.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
@@ -27,34 +27,14 @@ void require_fit(const Case& c, const std::string& path, const SurfaceMesh& mesh
   if (!defect.empty()) c.settings.reject(path, "is unfit: {}", defect);
 }
 
-/// The step in "checkpoint-<step>.h5"; none for another name.
-std::optional<std::int64_t> checkpoint_step(const std::string& name) {
-  constexpr std::string_view kPrefix = "checkpoint-", kSuffix = ".h5";
-  if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix)) return std::nullopt;
-  std::int64_t step = 0;
-  const char* first = name.data() + kPrefix.size();
-  const char* last = name.data() + name.size() - kSuffix.size();
-  const auto [end, error] = std::from_chars(first, last, step);
-  if (error != std::errc{} || end != last) return std::nullopt;
-  return step;
-}
-
 std::filesystem::path newest_checkpoint(const Case& c, const std::string& path,
                                         const std::filesystem::path& folder) {
   require_existence(c, path, folder);
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error)) c.settings.reject(path, "is not a folder");
-  std::filesystem::path newest;
-  std::int64_t newest_step = -1;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    const auto step = checkpoint_step(entry.path().filename().string());
-    if (!step || *step <= newest_step) continue;
-    newest_step = *step;
-    newest = entry.path();
-  }
-  if (newest.empty())
-    c.settings.reject(path, "holds no run: no checkpoint-<step>.h5 in the folder");
-  return newest;
+  const auto all = io::checkpoints(folder);
+  if (all.empty()) c.settings.reject(path, "holds no run: no checkpoint-<step>.h5 in the folder");
+  return all.back().second;
 }
 
 /// Index of the interface of the wanted drop in an archive.

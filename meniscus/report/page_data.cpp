@@ -11,6 +11,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/atomic_file.hpp"
+#include "meniscus/io/run_files.hpp"
 #include "meniscus/report/packing.hpp"
 #include "meniscus/report/plot_catalogue.hpp"
 
@@ -125,7 +126,7 @@ std::string thinned_rows(const std::string& text, std::int64_t n) {
 }
 
 /// The bytes of a table of the run for the page, fewer of them if need be.
-std::string packed_table(PageRun& page, const TableFile& table, const fs::path& file,
+std::string packed_table(PageRun& page, const io::RunTableFile& table, const fs::path& file,
                          std::size_t budget) {
   const std::string text = io::read_file(file);
   std::string result = base64(deflated(text));
@@ -220,7 +221,7 @@ std::string data_elements(std::string_view kind, std::span<const RunData> runs,
     const std::string prefix = fmt::format("run{}-", r);
     PageRun& page = pages[r];
     Json tables = Json::array();
-    for (const TableFile& table : table_files()) {
+    for (const io::RunTableFile& table : io::RunFiles::tables) {
       const fs::path file = runs[r].folder / table.file;
       if (!fs::exists(file)) continue;
       tables.push_back(table.name);

@@ -9,6 +9,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/atomic_file.hpp"
+#include "meniscus/io/run_files.hpp"
 #include "meniscus/report/history_plots.hpp"
 #include "meniscus/report/interface_picture.hpp"
 #include "meniscus/report/interface_section.hpp"
@@ -178,7 +179,7 @@ LivePart live_cuts(const fs::path& path, double t) {
 
 void write_report(const fs::path& run_directory) {
   RunData run = load_run(run_directory);
-  io::write_file(run_directory / "report.html", page_html(run));
+  io::write_file(run_directory / io::RunFiles::page, page_html(run));
 }
 
 }  // namespace meniscus
