@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "meniscus/surface/constants.hpp"
+
 namespace meniscus {
 
 /// Whether and where the page of a run is served while it goes on.
@@ -47,7 +49,7 @@ struct RemeshArguments {
   std::string output;  ///< empty: the surface's name with "-remeshed" before its ending
   std::optional<double> nodes, edge_length, chordal_error;  ///< none: as many nodes as there are
   double edge_floor = 0.0;
-  double gradation = 0.5;
+  double gradation = kGradation;
   bool is_json = false;
   bool is_overwrite = false;
 };

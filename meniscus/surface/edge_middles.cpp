@@ -15,10 +15,6 @@ namespace {
 constexpr Eigen::Index kTerms = 15;  // of a polynomial of degree four
 // Vertices are taken in the order of their distance; more cost time and add nothing.
 constexpr std::size_t kMostPoints = 32;
-// Σ|weights| of the vertices: 1.6 to 3 where they are spread evenly. Above this the noise of
-// vertices is amplified more than the lower degree's truncation is worth. The spline fades out
-// until twice that, so that middles, and the volume under them, follow the vertices without jumps.
-constexpr double kMostAmplification = 4.0;
 
 using Vec2 = Eigen::Vector2d;
 

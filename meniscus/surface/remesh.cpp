@@ -77,19 +77,6 @@ Assembled assembled(const RemeshState& state) {
   return result;
 }
 
-/// Mean length of the edges at each vertex.
-VertexField<double> mean_edges(const SurfaceMesh& mesh) {
-  VertexField<double> length(mesh.num_vertices(), 0.0);
-  VertexField<int> count(mesh.num_vertices(), 0);
-  for (const FaceVertices& v : mesh.faces)
-    for (std::size_t k = 0; k < 3; ++k) {  // every edge leaves each of its ends in one face
-      length[v[k]] += (mesh.x[v[(k + 1) % 3]] - mesh.x[v[k]]).norm();
-      ++count[v[k]];
-    }
-  for (const VertexId v : length.ids()) length[v] /= count[v];
-  return length;
-}
-
 /// Restores the volume and records by how much it had changed and how far vertices moved for it:
 /// all by the same fraction of their edges, as a face lies below the surface by κl²/16 and κl is
 /// about the same everywhere.
@@ -128,6 +115,18 @@ std::string find_fault(const SurfaceMesh& mesh, double angle_before, const Remes
 }
 
 }  // namespace
+
+VertexField<double> mean_edges(const SurfaceMesh& mesh) {
+  VertexField<double> length(mesh.num_vertices(), 0.0);
+  VertexField<int> count(mesh.num_vertices(), 0);
+  for (const FaceVertices& v : mesh.faces)
+    for (std::size_t k = 0; k < 3; ++k) {  // every edge leaves each of its ends in one face
+      length[v[k]] += (mesh.x[v[(k + 1) % 3]] - mesh.x[v[k]]).norm();
+      ++count[v[k]];
+    }
+  for (const VertexId v : length.ids()) length[v] /= count[v];
+  return length;
+}
 
 void RemeshOptions::validate() const {
   const auto require = [](bool holds, const char* field, double value, const char* range) {

@@ -6,18 +6,20 @@
 
 #include "meniscus/mesh/surface_mesh.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
+#include "meniscus/surface/constants.hpp"
 #include "meniscus/surface/surface_fields.hpp"
 
 namespace meniscus {
 
 struct RemeshOptions {
-  double C0 = 8.75;             ///< ρ = C0⟨κ⟩² (eq. 1); C0 = N0/4π
-  double volume = 0.0;          ///< volume to restore [R0³]; 0: that of the surface as given
-  bool restores_volume = true;  ///< false: the change is reported and left
-  double edge_floor = 0.0;      ///< [R0] no edge is asked to be shorter
-  double edge_ceiling = 1e300;  ///< [R0] no edge is asked to be longer
-  double gradation = 0.5;       ///< largest |∇l0| of the rest length
-  int min_vertices = 42;  ///< however small or round the drop, its C0 is raised to give this many
+  double C0 = 8.75;               ///< ρ = C0⟨κ⟩² (eq. 1); C0 = N0/4π
+  double volume = 0.0;            ///< volume to restore [R0³]; 0: that of the surface as given
+  bool restores_volume = true;    ///< false: the change is reported and left
+  double edge_floor = 0.0;        ///< [R0] no edge is asked to be shorter
+  double edge_ceiling = 1e300;    ///< [R0] no edge is asked to be longer
+  double gradation = kGradation;  ///< largest |∇l0| of the rest length
+  int min_vertices =
+      kFewestVertices;  ///< however small or round the drop, its C0 is raised to give this many
   int max_sweeps = 20;
   /// Springs are at rest when every vertex is within this fraction of its l0 of its own rest. 0:
   /// what makes the result independent of the history, 0.006 (1000/N)^½ for N > 1000 vertices (a
@@ -56,6 +58,9 @@ struct [[nodiscard]] RemeshReport {
 RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options);
 /// The same, and fields follow; on failure they are unchanged as well.
 RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options, SurfaceFields& fields);
+
+/// Mean length of the edges at each vertex [R0].
+[[nodiscard]] VertexField<double> mean_edges(const SurfaceMesh& mesh);
 
 /// Shifts every vertex by the same multiple of its unit area vector A_i/|A_i| so that the enclosed
 /// volume becomes `volume` to 1e-13 relative; returns the size of the shift [R0], signed outward.

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "meniscus/mesh/surface_mesh.hpp"
+#include "meniscus/surface/constants.hpp"
 
 namespace meniscus {
 
@@ -16,9 +17,9 @@ struct RemeshTarget {
   static constexpr int kFewestNodes = 12;  ///< of a piece: the icosahedron's
   By by = By::nodes;
   double value = 1000.0;
-  double edge_floor = 0.0;  ///< no edge is asked to be shorter; not with edge_length
-  double gradation = 0.5;   ///< largest |∇l0| of the rest length
-  void validate() const;    ///< Throws InvalidInput naming option, value, range.
+  double edge_floor = 0.0;        ///< no edge is asked to be shorter; not with edge_length
+  double gradation = kGradation;  ///< largest |∇l0| of the rest length
+  void validate() const;          ///< Throws InvalidInput naming option, value, range.
 };
 
 struct [[nodiscard]] TargetReport {

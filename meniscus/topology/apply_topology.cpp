@@ -18,6 +18,7 @@
 #include "meniscus/surface/repair.hpp"
 #include "meniscus/surface/sizing.hpp"
 #include "meniscus/topology/bridge_gap.hpp"
+#include "meniscus/topology/constants.hpp"
 #include "meniscus/topology/cut_neck.hpp"
 #include "meniscus/topology/mend.hpp"
 #include "meniscus/topology/successors.hpp"
@@ -28,10 +29,6 @@ namespace {
 /// Distance from a place dealt with, in neck radii or gaps, within which nothing else is due in the
 /// same call: beyond the band that was cut and the hole that was opened.
 constexpr double kWaiting = 4.0;
-/// Area that an event may add, of that of the sphere as large as the largest parent. Cuts and
-/// bridges take area off but where the liquid of a wide neck or film swells small or crumpled
-/// drops; a thinner one swells them less.
-constexpr double kMostAddedArea = 1e-3;
 /// Far beyond what one step can bring about: ends a scene of events that make each other.
 constexpr int kMaxEvents = 1000;
 
@@ -114,7 +111,7 @@ double most_added_area(const Scene& scene, std::span<const std::size_t> parents)
   for (const std::size_t i : parents)
     volume = std::max(volume, enclosed_volume(scene.interfaces[i].mesh));
   const double radius = std::cbrt(0.75 * volume / std::numbers::pi);
-  return kMostAddedArea * 4.0 * std::numbers::pi * radius * radius;
+  return kMostAddedByEvent * 4.0 * std::numbers::pi * radius * radius;
 }
 
 /// `succeed`, all or nothing in what it does to the area too.

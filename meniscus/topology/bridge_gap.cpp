@@ -14,6 +14,7 @@
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
 #include "meniscus/surface/remesh.hpp"
+#include "meniscus/topology/constants.hpp"
 #include "meniscus/topology/face_patch.hpp"
 #include "meniscus/topology/smooth_fill.hpp"
 #include "meniscus/topology/zip.hpp"
@@ -21,21 +22,12 @@
 namespace meniscus {
 namespace {
 
-/// Radius of the hole, in limits. A tube of length h and radius a has less area than the two discs
-/// it stands for from a = h on; twice that leaves room for a patch that is no circle.
-constexpr double kHole = 2.0;
 /// The holes that are tried, and whether they take all of the thin film around with them: smaller
 /// ones where the rim of a larger one comes round to the back of a drop or to another fold.
 constexpr std::array<std::pair<double, bool>, 5> kHoles{
     {{kHole, true}, {kHole, false}, {1.5, false}, {1.0, false}, {0.5, false}}};
-/// Area that an opening may add, in limits²; at the default limit of 0.01 it is 1.5e-4. Taking much
-/// film out adds more, where its liquid swells the rest.
-constexpr double kMostAddedArea = 1.5;
 /// Edges at the hole, in limits: the rim of the film turns round within one limit.
 constexpr double kEdge = 0.5;
-/// Of the liquid: an opening moves of the order of the limit cubed, but of drops no larger than the
-/// hole, or flat ones, it would take most.
-constexpr double kMostMoved = 0.1;
 constexpr int kRefinements = 8;  // remeshings at most: each can make edges four times shorter
 /// A patch of film wider than this many of its edges is refined less: its rim is what matters.
 constexpr double kPatchVertices = 2000.0;
@@ -234,7 +226,7 @@ Opening opening(const Film& film, const Holes& patches, double unit) {
   std::vector<SurfaceMesh> pieces = connected_pieces(result);  // without the vertices taken out
   SurfaceMesh whole = joined(pieces);
   const double moved = std::abs(enclosed_volume(whole) / enclosed_volume(film.mesh) - 1.0);
-  failure = find_harm(film.mesh, std::move(whole), kMostAddedArea * unit * unit);
+  failure = find_harm(film.mesh, std::move(whole), kMostAddedByOpening * unit * unit);
   if (!failure.empty()) return {{{}, std::move(failure)}};
   return {{std::move(pieces), {}}, moved};
 }

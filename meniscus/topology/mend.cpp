@@ -30,8 +30,6 @@ struct Rounding {
 };
 constexpr std::array<Rounding, 5> kRoundings{
     {{70.0, 0}, {70.0, 1}, {70.0, 2}, {70.0, 4}, {50.0, 0}}};
-/// Of the volume: a rounding that moves more has pulled the surface off its shape.
-constexpr double kMostVolume = 0.05;
 constexpr std::array<double, 4> kMargins{0.5, 1.0, 2.0, 3.0};  // mean edges
 constexpr double kEvenEdge = 0.5;  // of the mean edge: creases need faces to be rounded with
 /// Lengths that a crumpled surface is smoothed over, mean edges: from what the lattice resolves to
@@ -57,7 +55,7 @@ std::optional<SurfaceMesh> rounded(SurfaceMesh mesh, const Rounding& rounding) {
   if (std::ranges::find(patch, char{true}) == patch.end()) return std::nullopt;
   const double before = enclosed_volume(mesh);
   if (!smooth_part(mesh, patch, rounding.rings)) return std::nullopt;
-  if (std::abs(enclosed_volume(mesh) / before - 1.0) > kMostVolume) return std::nullopt;
+  if (std::abs(enclosed_volume(mesh) / before - 1.0) > kMostMendedVolume) return std::nullopt;
   return mesh;
 }
 
@@ -96,7 +94,7 @@ std::optional<SurfaceMesh> recapped(const SurfaceMesh& mesh, double margin) {
   if (left.empty()) return std::nullopt;
   SurfaceMesh closed = std::move(*std::ranges::max_element(left, {}, &SurfaceMesh::num_faces));
   if (!cap_holes(closed)) return std::nullopt;
-  if (std::abs(enclosed_volume(closed) / enclosed_volume(mesh) - 1.0) > kMostVolume)
+  if (std::abs(enclosed_volume(closed) / enclosed_volume(mesh) - 1.0) > kMostMendedVolume)
     return std::nullopt;
   return closed;
 }
@@ -134,7 +132,7 @@ std::optional<MendReport> diffuse_and_remesh(SurfaceMesh& mesh, SurfaceFields& f
   const double edge = mean_edge(mesh);
   DiffusedSurface diffused(mesh, edge);
   for (const double length : kLengths) {
-    std::optional<SurfaceMesh> smooth = diffused.smoothed(length * edge, kMostVolume);
+    std::optional<SurfaceMesh> smooth = diffused.smoothed(length * edge, kMostMendedVolume);
     if (!smooth) continue;
     const int closed = (euler_characteristic(*smooth) - euler_characteristic(mesh)) / 2;
     if (closed < 0) continue;

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/topology/constants.hpp"
 #include "meniscus/topology/cut_off.hpp"
 #include "meniscus/topology/face_patch.hpp"
 #include "meniscus/topology/thread.hpp"
@@ -18,9 +19,6 @@
 namespace meniscus {
 namespace {
 
-/// How much wider than a neck its thread must become on both sides. A ring of ten edges has a
-/// perimeter within 2 % of the circle's, whatever its phase; a tenth is beyond all such noise.
-constexpr double kProminence = 1.1;
 /// Threads are followed to this multiple of the radius below which necks are cut: beyond
 /// kProminence times it, so that a neck at the limit is still seen to be one.
 constexpr double kWidest = 1.5;
@@ -82,7 +80,7 @@ bool is_around_vertex(const SurfaceMesh& mesh, const Section& section) {
 bool is_near_end(const SurfaceMesh& mesh, const FaceNeighbours& neighbours,
                  const Section& section) {
   constexpr double kBeyond = 1.5;  // radii; a ball as wide as the thread reaches 1.9
-  const double least = (4.0 / 3.0 + 1.0) * std::numbers::pi * std::pow(section.radius, 3);
+  const double least = kLeastEnd * std::pow(section.radius, 3);
   return std::ranges::any_of(std::array{1.0, -1.0}, [&](double side) {
     const CutOff part = cut_off(mesh, neighbours, section, side);
     return part.reach < kBeyond * section.radius || part.volume < least;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "meniscus/core/log.hpp"
+#include "meniscus/flow/fem/constants.hpp"
 #include "meniscus/flow/fem/region_pressures.hpp"
 #include "meniscus/flow/fem/stokes_residual.hpp"
 
@@ -14,10 +15,6 @@ namespace {
 constexpr std::int32_t most_nodes_for_mumps = 20000;
 // One for Stokes flow; more where MINRES's norm or a direct solve's roundoff leaves something.
 constexpr int most_newton_steps = 6;
-
-// The reference is this many times the residual of the undisturbed flow, if that is not more than
-// the residual at rest; and not below what a residual's roundoff leaves, where there are no drops.
-constexpr double kMostOfDisturbance = 50.0, kLeastOfRest = 1e-6;
 
 linear::SaddleMethod method(LinearSolver which) {
   switch (which) {
