@@ -2,6 +2,7 @@
 
 #include <array>
 #include <fstream>
+#include <span>
 
 #include <fmt/chrono.h>
 #include <nlohmann/json.hpp>
@@ -10,7 +11,12 @@
 #include "meniscus/app/ranks.hpp"
 #include "meniscus/app/wording.hpp"
 #include "meniscus/core/version.hpp"
+#include "meniscus/evolve/constants.hpp"
+#include "meniscus/flow/fem/constants.hpp"
 #include "meniscus/io/run_files.hpp"
+#include "meniscus/report/volume_corrections.hpp"
+#include "meniscus/surface/constants.hpp"
+#include "meniscus/topology/constants.hpp"
 
 namespace meniscus {
 namespace {
@@ -26,6 +32,19 @@ std::string now_utc() {
 std::string host_name() {
   std::array<char, 256> name{};
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+/// The numbers that decide physics and stand in no case, room by room.
+Json constants() {
+  Json rooms = Json::object();
+  const auto add = [&](const char* room, std::span<const NamedConstant> list) {
+    for (const NamedConstant& constant : list) rooms[room][constant.name] = constant.value;
+  };
+  add("surface", kSurfaceConstants);
+  add("topology", kTopologyConstants);
+  add("flow/fem", fem::kConstants);
+  add("evolve", kEvolveConstants);
+  return rooms;
 }
 
 }  // namespace
@@ -57,6 +76,9 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
     seconds[phase] = seconds.value(phase, 0.0) + spent;
   Json warnings = Json::array();
   for (const Notice& notice : simulation.evolution().notices()) warnings.push_back(text_of(notice));
+  const std::filesystem::path& folder = simulation.directory().path();
+  const auto corrections =
+      report::volume_correction_sum(io::read_table(folder / io::RunFiles::drops));
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
   const Json record{{"program", "meniscus"},
@@ -67,6 +89,7 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
                     {"case_file", case_file_},
                     {"case_text", case_text_},
                     {"case", Json::parse(case_json_)},
+                    {"constants", constants()},
                     {"host", host_name()},
                     {"ranks", num_ranks()},
                     {"started", started_},
@@ -75,6 +98,7 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
                     {"seconds", seconds},
                     {"steps", simulation.evolution().step()},
                     {"t", simulation.evolution().t()},
+                    {"volume_correction_sum", corrections.value_or(0.0)},
                     {"warnings", warnings}};
   simulation.directory().write_text(io::RunFiles::record, record.dump(2) + "\n");
 }

@@ -25,21 +25,23 @@ InterfaceMotion mean_motion(const Scene& start, const Scene& end, double dt) {
   InterfaceMotion motion;
   for (std::size_t i = 0; i < start.interfaces.size(); ++i) {
     const VertexField<Vec3>&x0 = start.interfaces[i].mesh.x, &x1 = end.interfaces[i].mesh.x;
+    MENISCUS_ASSERT(x0.size() == x1.size(), "interface {} had {} vertices, has {}", i, x0.size(),
+                    x1.size());
     VertexField<Vec3>& w = motion.emplace_back(x0.size());
     for (const VertexId v : w.ids()) w[v] = (x1[v] - x0[v]) / dt;
   }
   return motion;
 }
 
-/// A flow that is solved keeps volumes to a thousandth or so. One that is not may throw vertices
-/// about; remeshing or mending what that leaves would hide it.
+/// A flow that is not solved may throw vertices about; remeshing or mending what that leaves would
+/// hide it.
 std::string find_wild_motion(const Scene& start, const Scene& end) {
   for (std::size_t i = 0; i < end.interfaces.size(); ++i) {
     const Interface& interface = end.interfaces[i];
     if (!is_finite(interface.mesh)) return "an interface vertex left all bounds";
     const double ratio =
         enclosed_volume(interface.mesh) / enclosed_volume(start.interfaces[i].mesh);
-    if (!(ratio > 0.5 && ratio < 2.0))
+    if (!(ratio > kLeastVolumeKept && ratio < kMostVolumeKept))
       return fmt::format("the step takes drop {} to {:.3g} times its volume", interface.drop,
                          ratio);
   }
@@ -65,6 +67,9 @@ EvolutionReport Evolution::prepare() {
 EvolutionReport Evolution::solve() {
   flow_ = solve_flow({.t = state_.t});
   if (!flow_.ok) return {false, flow_.failure};
+  MENISCUS_ASSERT(flow_.velocity.size() == state_.scene.interfaces.size(),
+                  "{} velocities of {} interfaces", flow_.velocity.size(),
+                  state_.scene.interfaces.size());
   const PhaseTimer timer(times_, "move interfaces");
   motion_ = normal_motion(state_.scene, flow_.velocity, options_.motion_normal);
   return {};
@@ -73,6 +78,7 @@ EvolutionReport Evolution::solve() {
 EvolutionReport Evolution::advance() {
   const StepStart start(state_);
   state_.iterations = 0;
+  shift_judge_ = {};
   EvolutionReport report;
   for (double dt = step_length(); dt >= options_.min_step; dt *= 0.5) {
     report = try_step(start.scene(), dt);
@@ -95,6 +101,7 @@ EvolutionReport Evolution::advance() {
 }
 
 void Evolution::accept_step(double dt) {
+  MENISCUS_ASSERT(dt >= options_.min_step && dt <= options_.max_step, "a step of length {:g}", dt);
   if (state_.mesh) widen(state_.field_excess, state_.mesh->field_excess());
   state_.t += dt;
   state_.dt = dt;
@@ -121,17 +128,22 @@ EvolutionReport Evolution::try_step(const Scene& start, double dt) {
 EvolutionReport Evolution::finish_step(const Scene& start, const InterfaceMotion& motion,
                                        const FlowSolution& flow, double dt) {
   Scene& scene = state_.scene;
+  MENISCUS_ASSERT(motion.size() == start.interfaces.size(), "{} motions of {} interfaces",
+                  motion.size(), start.interfaces.size());
   state_.events.clear();
+  state_.shift_over_edge = 0.0;
   if (EvolutionReport moved = move_whole_step(start, motion, dt); !moved.ok) return moved;
   if (is_remesh_due()) {
     const Scene moved = scene;
     carry_fields_of_mesh(start, flow, dt);
     if (EvolutionReport apart = refuse_contact(remesh_interfaces()); !apart.ok) return apart;
     if (EvolutionReport changed = change_topology(moved, motion); !changed.ok) return changed;
+    if (EvolutionReport kept = judge_volume_shift(dt); !kept.ok) return kept;
     return follow_interfaces(region_sources(moved, scene, state_.events));
   }
   restore_volumes();
   if (EvolutionReport apart = refuse_contact(false); !apart.ok) return apart;
+  if (EvolutionReport kept = judge_volume_shift(dt); !kept.ok) return kept;
   return move_mesh(start, mean_motion(start, scene, dt), flow, dt);
 }
 
@@ -208,6 +220,20 @@ void Evolution::restore_volumes() {
   const PhaseTimer timer(times_, "move interfaces");
   for (std::size_t i = 0; i < state_.scene.interfaces.size(); ++i)
     restore_volume(state_, i, options_.surface);
+}
+
+/// A step that needs a large shift of vertices to keep its volumes is refused while shorter ones
+/// need less.
+EvolutionReport Evolution::judge_volume_shift(double dt) {
+  const double shift = state_.shift_over_edge;
+  const ShiftVerdict verdict = shift_judge_.judge(state_, 0.5 * dt >= options_.min_step);
+  if (verdict == ShiftVerdict::shorten)
+    return {false,
+            fmt::format("restoring the volume shifts a vertex by {:.2g} of its edges", shift)};
+  if (verdict == ShiftVerdict::accept_for_good) give_notice(LargeVolumeShift{shift});
+  state_.tolerates_shift = shift > kMostShiftOverEdge &&
+                           (state_.tolerates_shift || verdict == ShiftVerdict::accept_for_good);
+  return {};
 }
 
 FlowSolution Evolution::solve_flow(const Instant& instant) {

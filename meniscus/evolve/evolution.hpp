@@ -10,6 +10,7 @@
 #include "meniscus/evolve/notices.hpp"
 #include "meniscus/evolve/options.hpp"
 #include "meniscus/evolve/state.hpp"
+#include "meniscus/evolve/volume_restoration.hpp"
 
 namespace meniscus {
 
@@ -87,6 +88,7 @@ class Evolution {
   EvolutionReport refuse_contact(bool are_remeshed);
   EvolutionReport change_topology(const Scene& moved, const InterfaceMotion& motion);
   void restore_volumes();
+  EvolutionReport judge_volume_shift(double dt);
   FlowSolution solve_flow(const Instant& instant);
   void give_notice(Notice notice);
   template <class What>
@@ -101,6 +103,7 @@ class Evolution {
   FlowSolution flow_;                   // at t_k
   InterfaceMotion motion_;              // n n·v at t_k
   mutable PhaseTimes times_;            // the clock is no part of the state
+  ShiftJudge shift_judge_;              // of the attempts at the step from t_k
   std::vector<Notice> notices_;
   NoticeListener listener_;
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/evolve/drop_stress.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
 #include "meniscus/scene/scene_gap.hpp"
@@ -39,6 +40,8 @@ HistoryRow history_row(const State& state, const FlowSolution& flow, const Inter
                        SurfaceShape surface) {
   const Scene& scene = state.scene;
   HistoryRow row;
+  MENISCUS_ASSERT(motion.size() == scene.interfaces.size(), "{} motions of {} interfaces",
+                  motion.size(), scene.interfaces.size());
   row.step = state.step;
   row.t = state.t;
   row.dt = state.dt;
@@ -65,6 +68,9 @@ HistoryRow history_row(const State& state, const FlowSolution& flow, const Inter
 
 std::vector<DropRow> drop_rows(const State& state, SurfaceShape surface, double breakup_radius) {
   std::vector<DropRow> rows;
+  MENISCUS_ASSERT(state.volume_shift.size() == state.scene.interfaces.size(),
+                  "{} shifts of {} interfaces", state.volume_shift.size(),
+                  state.scene.interfaces.size());
   for (std::size_t i = 0; i < state.scene.interfaces.size(); ++i) {
     const Interface& interface = state.scene.interfaces[i];
     DropRow& row = rows.emplace_back();

@@ -1,5 +1,7 @@
 #include "meniscus/evolve/remesh_interfaces.hpp"
 
+#include <algorithm>
+
 #include "meniscus/core/error.hpp"
 #include "meniscus/evolve/volume_restoration.hpp"
 #include "meniscus/mesh/surface_check.hpp"
@@ -44,6 +46,8 @@ void CloseSurfaces::replace(std::size_t i, const SurfaceMesh& mesh) {
 
 InterfaceRemesh remesh_interface(State& state, std::size_t i, const EvolutionOptions& options,
                                  const CloseSurfaces& surfaces) {
+  MENISCUS_ASSERT(i < state.scene.interfaces.size(), "interface {} of {}", i,
+                  state.scene.interfaces.size());
   Interface& interface = state.scene.interfaces[i];
   const RemeshOptions how = remesh_options(interface, options, surfaces.others(i));
   // Only flows through changes of topology draw creases that nothing will smooth again.
@@ -54,6 +58,7 @@ InterfaceRemesh remesh_interface(State& state, std::size_t i, const EvolutionOpt
   const RemeshReport& remeshed = mended.remesh;
   widen(state.field_excess, remeshed.field_excess);
   state.volume_shift[i] = remeshed.volume_shift;
+  state.shift_over_edge = std::max(state.shift_over_edge, remeshed.volume_shift_over_edge);
   if (!remeshed.ok || options.surface != SurfaceShape::faceted)
     restore_volume(state, i, options.surface);
   return {.drop = interface.drop,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 
 namespace meniscus {
@@ -15,6 +16,7 @@ double step_length(const State& state, const EvolutionOptions& options) {
   }
   if (options.step_edges == StepEdges::mesh && state.mesh)
     shortest = std::min(shortest, shortest_edge(state.mesh->tetrahedra()));
+  MENISCUS_ASSERT(shortest > 0.0, "an edge of length {:g}", shortest);
   const double capillary = tension > 0.0 ? std::min(1.0, 1.0 / tension) : 1.0;
   return std::min(options.max_step, options.step_factor * capillary * shortest);
 }
