@@ -6,6 +6,7 @@
 #include "meniscus/case/case.hpp"
 #include "meniscus/case/outer_boundary.hpp"
 #include "meniscus/case/surface_source.hpp"
+#include "meniscus/core/error.hpp"
 #include "meniscus/evolve/interface_motion.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
@@ -59,6 +60,7 @@ Interface make_interface(const Case& c, int index) {
   result.tension = std::isinf(c.Ca) ? 0.0 : drop.tension_ratio / c.Ca;
   result.C0 = drop.nodes / (4.0 * std::numbers::pi);
   result.volume = result.initial_volume = volume_of(result.mesh, c.evolution.surface);
+  MENISCUS_ASSERT(result.volume > 0.0, "drop {} has a volume of {:g}", index, result.volume);
   return result;
 }
 
@@ -82,6 +84,12 @@ void add_drops(const Case& c, Scene& scene) {
     require_within_domain(c, scene.interfaces.back().mesh, static_cast<int>(i));
   }
   nest(scene.interfaces);
+  for ([[maybe_unused]] const Interface& interface : scene.interfaces)
+    MENISCUS_ASSERT(interface.inside.value < scene.liquids.size() &&
+                        interface.outside.value < scene.liquids.size() &&
+                        interface.inside != interface.outside,
+                    "drop {} lies between regions {} and {}", interface.drop,
+                    interface.inside.value, interface.outside.value);
 }
 
 /// The drop to blame for a conflict: the later of the first two that touch, in the order in which

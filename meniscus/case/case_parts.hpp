@@ -24,6 +24,5 @@ void require_newtonian(const Case& c);
 [[nodiscard]] bem::Options read_boundary_integrals(Settings& settings);
 [[nodiscard]] OutputOptions read_output(Settings& settings, FlowMethod method);
 /// Asks for the keys whose features are yet to come: they have one value so far.
-void read_fixed_keys(Settings& settings, FlowMethod method);
 
 }  // namespace meniscus

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <system_error>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus {
 
 using schema::Dimension;
@@ -51,6 +53,7 @@ Value Settings::dimensionless_value(const std::string& path) {
   const Value& own = own_value(path);
   const schema::Key* key = schema::find_key(schema::generic_path(path));
   const double unit = unit_of(path);
+  MENISCUS_ASSERT(unit > 0.0, "the unit of {} is {:g}", path, unit);
   Value value = own;
   if (const auto* real = std::get_if<double>(&own)) value = *real / unit;
   if (const auto* v = std::get_if<Vec3>(&own)) value = Vec3(*v / unit);

@@ -53,11 +53,9 @@ class Settings {
   [[nodiscard]] std::filesystem::path file(const std::string& path);
   /// A dimensionless default that follows from other keys.
   [[nodiscard]] double number_or(const std::string& path, double fallback);
-  /// Asks for a key whose value is not needed.
-  void note(const std::string& path) { (void)own_value(path); }
-  template <class Enum>
-  [[nodiscard]] Enum choice(const std::string& path,
-                            std::initializer_list<std::pair<std::string_view, Enum>> words);
+  /// The meaning of a key's word, of a list of words (case/words.hpp).
+  template <class Words>
+  [[nodiscard]] auto choice(const std::string& path, const Words& words);
 
   /// From here on the word is what a key that is not given means, here and in the checkpoints.
   void prefer(const std::string& path, const std::string& word) {
@@ -102,14 +100,13 @@ class Settings {
   std::map<std::string, schema::Value> used_;
 };
 
-template <class Enum>
-Enum Settings::choice(const std::string& path,
-                      std::initializer_list<std::pair<std::string_view, Enum>> words) {
-  const std::string word = text(path);
-  for (const auto& [name, value] : words)
-    if (name == word) return value;
-  MENISCUS_ASSERT(false, "{} = {}: a word of the schema without a meaning", path, word);
-  return words.begin()->second;
+template <class Words>
+auto Settings::choice(const std::string& path, const Words& words) {
+  const std::string given = text(path);
+  for (const auto& [word, meaning] : words)
+    if (word == given) return meaning;
+  MENISCUS_ASSERT(false, "{} = {}: a word of the schema without a meaning", path, given);
+  return words[0].meaning;
 }
 
 }  // namespace meniscus
