@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "meniscus/core/archive_entries.hpp"
+#include "meniscus/core/error.hpp"
 #include "meniscus/io/vtk_file.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/curvature.hpp"
@@ -20,6 +21,7 @@ double corner_value(const TetMesh& mesh, std::span<const double> on_corners, Cel
                     TetVertexId v) {
   const CellVertices& cell = mesh.cells[c];
   const auto corner = static_cast<std::size_t>(std::ranges::find(cell, v) - cell.begin());
+  MENISCUS_ASSERT(corner < cell.size(), "vertex {} is none of cell {}", v.value, c.value);
   return on_corners[4 * static_cast<std::size_t>(c.value) + corner];
 }
 
@@ -63,6 +65,8 @@ std::vector<double> pressure_jump(const Evolution& evolution) {
 void write_surface_frame(const std::filesystem::path& path, const Evolution& evolution) {
   const Scene& scene = evolution.scene();
   const auto& velocity = evolution.flow().velocity;
+  MENISCUS_ASSERT(velocity.empty() || velocity.size() == scene.interfaces.size(),
+                  "{} velocities of {} interfaces", velocity.size(), scene.interfaces.size());
   io::NamedArray curvature{"curvature", 1, {}}, normal_velocity{"normal_velocity", 1, {}},
       velocities{"velocity", 3, {}}, density{"node_density", 1, {}}, drop{"drop", 1, {}};
   std::vector<const SurfaceMesh*> surfaces;
@@ -95,6 +99,7 @@ void write_surface_frame(const std::filesystem::path& path, const Evolution& evo
 }
 
 void write_volume_frame(const std::filesystem::path& path, const Evolution& evolution) {
+  MENISCUS_ASSERT(evolution.state().mesh.has_value(), "there is no volume mesh to write");
   const TetMesh& mesh = evolution.state().mesh->tetrahedra();
   io::NamedArray velocity{"velocity", 3, {}}, region{"region", 1, {}},
       dihedral{"min_dihedral_deg", 1, {}};

@@ -74,6 +74,8 @@ RunDirectory RunDirectory::take_up(const fs::path& path, std::int64_t first_step
 }
 
 void RunDirectory::add_rows(const HistoryRow& history, const std::vector<DropRow>& drops) {
+  MENISCUS_ASSERT(history.drops == static_cast<int>(drops.size()), "{} rows of {} drops",
+                  drops.size(), history.drops);
   for (const DropRow& row : drops)
     drops_.add(cells_of(drop_columns(), {history.step, history.t, row}));
   history_.add(cells_of(history_columns(), history));

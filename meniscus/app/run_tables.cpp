@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus {
 namespace {
 
@@ -126,6 +128,9 @@ std::vector<std::string> timing_columns() {
 }
 
 std::vector<Cell> timing_row(std::int64_t step, double t, const PhaseSeconds& seconds) {
+  for ([[maybe_unused]] const auto& [phase, spent] : seconds)
+    MENISCUS_ASSERT(std::ranges::find(timed_phases(), phase) != timed_phases().end(),
+                    "no column for the phase {}", phase);
   std::vector<Cell> row{step, t};
   for (const std::string phase : timed_phases()) {
     const auto found = std::ranges::find(seconds, phase, &PhaseSeconds::value_type::first);

@@ -15,6 +15,7 @@ namespace {
 
 /// The first multiple of `interval` after t.
 double next_multiple(double interval, double t) {
+  MENISCUS_ASSERT(interval > 0.0, "an interval of {:g}", interval);
   return interval * (std::floor(t / interval) + 1.0);
 }
 
@@ -82,6 +83,7 @@ void Simulation::write_checkpoint(const Archive& state) {
 }
 
 void Simulation::record(Progress& progress, bool is_last) {
+  MENISCUS_ASSERT(directory_.has_value(), "a rank without the run's folder records");
   const HistoryRow history = evolution_.history_row();
   const std::vector<DropRow> drops = evolution_.drop_rows();
   {

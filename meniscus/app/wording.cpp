@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
 
 namespace meniscus {
@@ -49,6 +50,9 @@ struct Wording {
 std::string text_of(const Notice& notice) { return std::visit(Wording{notice.t}, notice.what); }
 
 std::string text_of(const TopologyEvent& event, double t) {
+  MENISCUS_ASSERT(
+      event.kind == EventKind::breakup ? event.neck_radius.has_value() : event.gap.has_value(),
+      "an event without its width");
   const auto [kind, size, what] =
       event.kind == EventKind::breakup
           ? std::tuple("breakup", *event.neck_radius, "a neck of radius")

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus::report {
 
 Color viridis(double s) {
@@ -42,6 +44,9 @@ Color whitened(const Color& color, double share) {
 
 std::string hex(const Color& color) {
   const auto part = [](double value) { return std::lround(255.0 * value); };
+  MENISCUS_ASSERT(std::min({color.red, color.green, color.blue}) >= 0.0 &&
+                      std::max({color.red, color.green, color.blue}) <= 1.0,
+                  "the colour ({:g}, {:g}, {:g})", color.red, color.green, color.blue);
   return fmt::format("#{:02x}{:02x}{:02x}", part(color.red), part(color.green), part(color.blue));
 }
 

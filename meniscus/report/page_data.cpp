@@ -217,6 +217,7 @@ std::string data_elements(std::string_view kind, std::span<const RunData> runs,
                           std::span<PageRun> pages, const PageBudget& budget) {
   std::string elements;
   Json list = Json::array();
+  MENISCUS_ASSERT(runs.size() == pages.size(), "{} pages of {} runs", pages.size(), runs.size());
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const std::string prefix = fmt::format("run{}-", r);
     PageRun& page = pages[r];
