@@ -62,7 +62,7 @@ std::set<std::string> kept_steps(const io::Table& history) {
 }
 
 /// A number with seven significant digits, beyond any figure compared; other cells as they are.
-std::string shortened(const std::string& cell) {
+std::string short_number(const std::string& cell) {
   if (cell.find_first_of(".e") == std::string::npos) return cell;
   char* end = nullptr;
   const double value = std::strtod(cell.c_str(), &end);
@@ -76,7 +76,7 @@ std::string thinned(const io::Table& table, const std::set<std::string>& steps) 
     if (!steps.contains(row[column])) continue;
     for (std::size_t k = 0; k < row.size(); ++k) {
       if (k > 0) text += ',';
-      text += shortened(row[k]);
+      text += short_number(row[k]);
     }
     text += '\n';
   }

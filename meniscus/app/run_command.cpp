@@ -169,7 +169,7 @@ void require_first_step(const Evolution& evolution, const Case& c) {
   reject_input(
       "{}: time.min-step = {:g}: the first step would be {:.3g}, for the shortest edge and the "
       "tension",
-      c.settings.place("time.min-step"), c.evolution.min_step, evolution.step_length());
+      c.settings.source("time.min-step"), c.evolution.min_step, evolution.step_length());
 }
 
 int run(const RunArguments& arguments) {

@@ -62,7 +62,8 @@ double extreme(const CheckedQuantity& quantity, const Series& series) {
   return series.y.back();
 }
 
-/// Of the events in the order in which they were made; none where there were fewer.
+/// The value of a column for one event, counted in the order in which they were made; none where
+/// there were fewer events.
 std::optional<double> event_value(const RunTables& run, const std::string& column, int event) {
   if (event < 0 || event >= static_cast<int>(run.events.rows.size())) return std::nullopt;
   return run.events.column(column).at(static_cast<std::size_t>(event));

@@ -28,7 +28,7 @@ void require_within_domain(const Case& c, const SurfaceMesh& drop, int index) {
     if (needed < size) return;
     if (!c.settings.is_given(path))  // a default stands on no line, but the drop does
       reject_input("{}: drop {} reaches {:.6g} from the origin, and {} is {} by default (unit: R0)",
-                   c.settings.place(fmt::format("drop[{}]", index)), index, needed, path, size);
+                   c.settings.source(fmt::format("drop[{}]", index)), index, needed, path, size);
     c.settings.reject(path, "must exceed the reach of drop {}, {:.6g} (unit: R0)", index, needed);
   };
   switch (c.domain.shape) {
@@ -115,7 +115,7 @@ std::size_t drop_in_conflict(const Scene& scene) {
 void require_no_conflict(const Case& c, const Scene& scene) {
   const std::string conflict = find_conflict(scene);
   if (conflict.empty()) return;
-  reject_input("{}: {}", c.settings.place(fmt::format("drop[{}]", drop_in_conflict(scene))),
+  reject_input("{}: {}", c.settings.source(fmt::format("drop[{}]", drop_in_conflict(scene))),
                conflict);
 }
 
@@ -149,7 +149,7 @@ void require_no_net_inflow(const Case& c, const Scene& scene) {
       reject_input(
           "{}: domain.patch: at t = {:.6g} the imposed velocities carry {:.4g} R0³G {} in sum; "
           "make them balance or one patch open",
-          c.settings.place("domain.patch[0]"), t, std::abs(net), net > 0.0 ? "out" : "in");
+          c.settings.source("domain.patch[0]"), t, std::abs(net), net > 0.0 ? "out" : "in");
   }
 }
 

@@ -10,7 +10,7 @@ namespace meniscus {
 // The tables of a case, each read and checked on its own. All throw InvalidInput.
 
 [[nodiscard]] ImposedFlow read_flow(Settings& settings);
-/// Of the liquid in a table, "matrix" or "drop[2]".
+/// Reads the viscosity law of the liquid in a table, "matrix" or "drop[2]".
 [[nodiscard]] ViscosityLaw read_viscosity_law(Settings& settings, const std::string& table);
 [[nodiscard]] std::vector<DropCase> read_drops(Settings& settings);
 /// The flow decides the default conditions on a box.

@@ -64,7 +64,7 @@ void read_identity(Settings& settings, const DomainCase& domain, PatchCase& patc
     if (std::ranges::find_first_of(other.tags, patch.tags) != other.tags.end())
       settings.reject(domain.shape == Shape::file ? tag : name,
                       "has a condition already, from the [[domain.patch]] at {}",
-                      settings.place(other.path));
+                      settings.source(other.path));
 }
 
 PatchCase read_patch(Settings& settings, const DomainCase& domain, const std::string& table) {
@@ -102,7 +102,7 @@ DomainCase read_domain(Settings& settings, const ImposedFlow& flow) {
   domain.is_symmetric_in_z = is_shear && is_in_xy_plane(flow);
   if (domain.shape == Shape::unbounded && settings.count("domain.patch") > 0)
     reject_input("{}: [[domain.patch]] has no effect here: an unbounded domain has no patches",
-                 settings.place("domain.patch[0]"));
+                 settings.source("domain.patch[0]"));
   for (int i = 0; i < settings.count("domain.patch"); ++i)
     domain.patches.push_back(read_patch(settings, domain, fmt::format("domain.patch[{}]", i)));
   return domain;

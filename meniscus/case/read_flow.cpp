@@ -28,7 +28,7 @@ ImposedFlow read_initial_flow(Settings& settings) {
     return {FlowFamily::general, traceless_gradient(settings, "flow.gradient")};
   if (!settings.is_given("flow.kind"))
     reject_input("{}: flow.kind is missing: it must be one of {}, unless flow.gradient is given",
-                 settings.place("flow.kind"),
+                 settings.source("flow.kind"),
                  schema::quoted_list(schema::find_key("flow.kind")->words));
   const words::NamedFlow flow = settings.choice("flow.kind", words::flow_kinds);
   return {flow.family, flow.gradient()};
@@ -40,7 +40,7 @@ ImposedFlow::Entry read_entry(Settings& settings, const std::string& table,
   require_at_most_one(settings, table);
   if (!settings.is_given(kind) && !settings.is_given(gradient) &&
       !settings.is_given(table + ".factor"))
-    reject_input("{}: {} needs one of kind, gradient, factor", settings.place(table),
+    reject_input("{}: {} needs one of kind, gradient, factor", settings.source(table),
                  schema::without_indices(table));
   const Mat3 base = settings.is_given(kind) ? settings.choice(kind, words::flow_kinds).gradient()
                     : settings.is_given(gradient) ? traceless_gradient(settings, gradient)

@@ -66,12 +66,12 @@ class Settings {
   [[nodiscard]] const std::optional<Scale>& scale() const { return scale_; }
 
   /// "case.toml:7", of the key, else of the nearest table around it, else "case.toml".
-  [[nodiscard]] std::string place(const std::string& path) const;
+  [[nodiscard]] std::string source(const std::string& path) const;
   /// Whether an array's table, "drop[1]", was begun by --set.
   [[nodiscard]] bool is_added(const std::string& table) const {
     return document_.added_tables.contains(table);
   }
-  /// The key as it should appear after its place.
+  /// The key as it should appear after its source.
   [[nodiscard]] std::string name(const std::string& path) const;
   /// Throws InvalidInput: "case.toml:7: drop.radius = 2.0 <complaint>".
   template <class... Args>

@@ -188,7 +188,7 @@ EvolutionReport Evolution::move_mesh(const Scene& start, const InterfaceMotion& 
 
 double Evolution::step_length() const { return meniscus::step_length(state_, options_); }
 
-/// Whether all could be remeshed.
+/// Returns false when an interface could not be remeshed.
 bool Evolution::remesh_interfaces() {
   const PhaseTimer timer(times_, "remesh surface");
   bool are_remeshed = true;

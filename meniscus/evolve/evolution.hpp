@@ -55,7 +55,7 @@ class Evolution {
   /// Seconds spent in a phase by the evolution, its mesh and its solver.
   [[nodiscard]] double seconds_in(const std::string& phase) const;
 
-  /// Of the next step as it is tried first, for the shapes as they are.
+  /// The length that the next step is tried with first, for the shapes as they are.
   [[nodiscard]] double step_length() const;
 
   /// The rows of the last solve.

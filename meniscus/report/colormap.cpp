@@ -32,12 +32,12 @@ Color viridis(double s) {
   return {part(0), part(1), part(2)};
 }
 
-Color scaled(const Color& color, double factor) {
+Color shade(const Color& color, double factor) {
   const auto part = [&](double value) { return std::clamp(factor * value, 0.0, 1.0); };
   return {part(color.red), part(color.green), part(color.blue)};
 }
 
-Color whitened(const Color& color, double share) {
+Color tint(const Color& color, double share) {
   const auto part = [&](double value) { return value + share * (1.0 - value); };
   return {part(color.red), part(color.green), part(color.blue)};
 }

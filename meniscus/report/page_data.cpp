@@ -45,7 +45,7 @@ std::vector<PackedFrame> load_all(RunData& run, std::span<const io::PvdEntry> en
 
 PackedFrame load_frame(const fs::path& path, double t, int most_faces) {
   const SurfaceFrame whole = load_surface(path, t);
-  PackedFrame frame = packed(coarsened(whole, most_faces));
+  PackedFrame frame = packed(coarse_frame(whole, most_faces));
   frame.num_faces_of_run = whole.mesh.num_faces();
   return frame;
 }

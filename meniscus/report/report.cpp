@@ -40,7 +40,7 @@ struct PageFrames {
 PageFrames page_frames(RunData& run) {
   PageFrames page;
   for (const SurfaceFrame& frame : load_surfaces(run, spread_frames(run.frames, num_page_frames))) {
-    page.frames.push_back(coarsened(frame, most_faces / num_page_frames));
+    page.frames.push_back(coarse_frame(frame, most_faces / num_page_frames));
     page.is_coarsened |= page.frames.back().mesh.num_faces() < frame.mesh.num_faces();
   }
   return page;
@@ -167,7 +167,7 @@ LivePart live_surface(const fs::path& path, double t) {
   // A page asks for one frame at a time: it need not be as small as in a page that holds all.
   constexpr int most_live_faces = 60000;
   const SurfaceFrame whole = load_surface(path, t);
-  PackedFrame frame = packed(coarsened(whole, most_live_faces));
+  PackedFrame frame = packed(coarse_frame(whole, most_live_faces));
   frame.num_faces_of_run = whole.mesh.num_faces();
   return {entry_json(frame), std::move(frame.bytes)};
 }

@@ -106,7 +106,7 @@ VertexField<double> gathered(const VertexField<double>& values,
 
 }  // namespace
 
-SurfaceFrame coarsened(const SurfaceFrame& frame, int num_faces) {
+SurfaceFrame coarse_frame(const SurfaceFrame& frame, int num_faces) {
   if (frame.mesh.num_faces() <= num_faces) return frame;
   MENISCUS_ASSERT(frame.drop.size() == frame.mesh.num_faces(), "{} drops of {} faces",
                   frame.drop.size(), frame.mesh.num_faces());
