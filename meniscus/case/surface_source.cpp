@@ -93,6 +93,7 @@ double given_volume(const SurfaceMesh& mesh, SurfaceShape faces) {
 /// edge, and taking that back evenly thins the necks. A surface that the remesher leaves as it was
 /// is still sound, and said to be coarse or fine in the log.
 void resolve(SurfaceMesh& mesh, const DropCase& drop, SurfaceShape faces, int index) {
+  MENISCUS_ASSERT(drop.nodes >= kFewestVertices, "drop {} of {} nodes", index, drop.nodes);
   const double volume = given_volume(mesh, faces);
   RemeshOptions options;
   options.C0 = drop.nodes / (4.0 * std::numbers::pi);

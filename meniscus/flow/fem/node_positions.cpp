@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "meniscus/core/error.hpp"
-#include "meniscus/flow/fem/elements.hpp"
 #include "meniscus/flow/fem/constants.hpp"
+#include "meniscus/flow/fem/elements.hpp"
 #include "meniscus/surface/edge_middles.hpp"
 
 namespace meniscus::fem {
