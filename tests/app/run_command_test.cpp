@@ -17,7 +17,8 @@ using Json = nlohmann::json;
 
 /// Three steps of a drop of the fewest vertices, in an unbounded liquid.
 constexpr const char* kCase =
-    "title = \"Three steps\"\n[flow]\nkind = \"uniaxial-extension\"\n[[drop]]\nnodes = 42\n"
+    "title = \"Three steps\"\n[flow]\nkind = \"uniaxial-extension\"\n[[drop]]\nradius = 1.0\nnodes "
+    "= 42\n"
     "[domain]\nshape = \"unbounded\"\n[solver]\nmethod = \"boundary-integral\"\n"
     "[time]\nend = 0.03\nmax-step = 0.01\n[output]\ncheckpoint-every = 1\n";
 
