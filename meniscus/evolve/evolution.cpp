@@ -9,7 +9,6 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
-#include "meniscus/evolve/region_sources.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/carry_fields.hpp"
@@ -62,6 +61,12 @@ void announce(const TopologyEvent& event, double t) {
   log::info("{} at t = {:.6g}: drop {} -> {}, at {} {:.3g} near ({:.4g}, {:.4g}, {:.4g})", kind, t,
             text_of(event.parents), text_of(event.children), what, size, event.place.x(),
             event.place.y(), event.place.z());
+}
+
+RegionSources liquid_sources(std::span<const TopologyEvent> events) {
+  RegionSources sources;
+  for (const TopologyEvent& event : events) sources = joined_sources(sources, event.sources);
+  return sources;
 }
 
 double largest_tension(const Scene& scene) {
@@ -163,7 +168,7 @@ EvolutionReport Evolution::finish_step(const Scene& start, const InterfaceMotion
     carry_fields_of_mesh(start, flow, dt);
     if (EvolutionReport apart = refuse_touching(remesh_interfaces()); !apart.ok) return apart;
     if (EvolutionReport changed = change_topology(moved, motion); !changed.ok) return changed;
-    return follow_interfaces(region_sources(moved, scene, state_.events));
+    return follow_interfaces(liquid_sources(state_.events));
   }
   restore_volumes();
   if (EvolutionReport apart = refuse_touching(false); !apart.ok) return apart;

@@ -1,14 +1,9 @@
 #pragma once
 
-#include <vector>
-
 #include "meniscus/mesh/carried_fields.hpp"
+#include "meniscus/scene/region_sources.hpp"
 
 namespace meniscus {
-
-/// For each region of a new mesh the regions of the old one whose liquid it took: the children of a
-/// cut name one parent, the child of a merge names two. Empty: every region is what it was.
-using RegionSources = Field<RegionId, std::vector<RegionId>>;
 
 /// The fields of a mesh on another mesh of the same liquids (docs/fields.md, "In the bulk").
 /// Conserved: integrals of a limited linear reconstruction over the intersections of cells. Σ v |c|

@@ -148,6 +148,9 @@ TEST(Breakup, LeavesAnInnerDropInTheFragmentThatHoldsIt) {
     const bool is_left = enclosed_centroid(scene.interfaces[i].mesh).x() < 0.0;
     EXPECT_EQ(scene.interfaces[0].outside == scene.interfaces[i].inside, is_left);
   }
+  const RegionId matrix{0}, whole{1}, inner{2};
+  EXPECT_EQ(report.events[0].sources,
+            RegionSources({std::vector{matrix}, {inner}, {whole}, {whole}}));
 }
 
 TEST(Breakup, DoesNotDependOnTheNumberingOfVertices) {

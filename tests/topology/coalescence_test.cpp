@@ -23,6 +23,10 @@ using test::fault_after, test::scene_of;
 constexpr double kGap = 0.02;
 const TopologyOptions kMerge{.coalescence = true, .coalescence_gap = kGap};
 
+RegionSources sources_of(std::vector<std::vector<RegionId>> sources) {
+  return RegionSources(std::move(sources));
+}
+
 SurfaceMesh unit_sphere(const Vec3& center, int vertices = 400) {
   SurfaceMesh mesh = sphere(vertices, 1.0, center);
   EXPECT_TRUE(remesh(mesh, {.C0 = vertices / (4.0 * std::numbers::pi)}).ok);
@@ -103,6 +107,8 @@ TEST(Coalescence, ReleasesADropFromTheDropAroundIt) {
   EXPECT_EQ(scene.liquids[RegionId{1}].viscosity, 5.0);
   EXPECT_NEAR(scene.interfaces[0].volume, before.interfaces[0].volume - before.interfaces[1].volume,
               1e-12);
+  const RegionId matrix{0}, outer{1}, inner{2};
+  EXPECT_EQ(report.events[0].sources, sources_of({{matrix, inner}, {outer}}));
 }
 
 TEST(Coalescence, TakesUpADropThatIsSmallerThanTheHole) {
@@ -249,6 +255,11 @@ TEST(Coalescence, OfTheHoleToAPocketLeavesAVoid) {
   // The drop that was let in, less about a dome of the width of the hole, a tenth of its radius
   // high.
   EXPECT_NEAR(pocket.volume, inner_volume, 0.06 * inner_volume);
+  const RegionId matrix{0}, drop{1};
+  RegionSources expected = sources_of({{matrix}, {}, {}});
+  expected[outer.inside] = {drop};
+  expected[pocket.inside] = {matrix};
+  EXPECT_EQ(report.events[0].sources, expected);
 }
 
 TEST(Coalescence, DoesNotDependOnTheNumberingOfVertices) {
