@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <tuple>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
+#include "meniscus/surface/face_reconstruction.hpp"
 #include "meniscus/surface/keep_amounts.hpp"
 
 namespace meniscus {
@@ -108,6 +110,7 @@ class Replacement {
   Replacement(const SurfaceMesh& before, const SurfaceMesh& after)
       : before_(before),
         after_(after),
+        topology_(before),
         kept_(same_elements(before, after)),
         old_(same_elements(after, before)),
         centers_(part_centers(kCuts)),
@@ -131,15 +134,17 @@ class Replacement {
     return result;
   }
   [[nodiscard]] FaceField<double> interpolated(const FaceField<double>& values) const {
+    const FaceReconstruction linear(before_, topology_, values);
     FaceField<double> result(after_.num_faces(), 0.0);
     for (const FaceId f : result.ids()) {
       if (old_.faces[f].is_valid()) {
         result[f] = values[old_.faces[f]];
         continue;
       }
-      FieldRange range{1e300, -1e300};
+      FieldRange range{HUGE_VAL, -HUGE_VAL};
       for (const Vec3& center : centers_) {
-        const double value = values[old_tree_.closest(point(after_, f, center)).face];
+        const SurfaceTree::Hit hit = old_tree_.closest(point(after_, f, center));
+        const double value = linear.value(hit.face, hit.point);
         range = {std::min(range.low, value), std::max(range.high, value)};
         result[f] += value / static_cast<double>(centers_.size());
       }
@@ -188,6 +193,7 @@ class Replacement {
   }
 
   const SurfaceMesh &before_, &after_;
+  SurfaceTopology topology_;  // of `before_`
   SameElements kept_, old_;
   std::vector<Vec3> centers_;
   SurfaceTree old_tree_;

@@ -9,6 +9,7 @@
 
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
+#include "meniscus/surface/face_reconstruction.hpp"
 #include "meniscus/surface/keep_amounts.hpp"
 
 namespace meniscus {
@@ -109,92 +110,10 @@ class VertexInterpolant {
   VertexField<Range> ranges_;
 };
 
-/// The three faces across the edges of each face.
-FaceField<std::array<FaceId, 3>> neighbours(const SurfaceMesh& mesh,
-                                            const SurfaceTopology& topology) {
-  FaceField<std::array<FaceId, 3>> result(mesh.num_faces());
-  FaceField<std::size_t> count(mesh.num_faces(), 0);
-  for (const SurfaceEdge& e : topology.edges()) {
-    result[e.left][count[e.left]++] = e.right;
-    result[e.right][count[e.right]++] = e.left;
-  }
-  return result;
-}
-
 Vec3 center(const SurfaceMesh& mesh, FaceId f) {
   const FaceVertices& v = mesh.faces[f];
   return (mesh.x[v[0]] + mesh.x[v[1]] + mesh.x[v[2]]) / 3.0;
 }
-
-/// A face field as a function on the old surface.
-class FaceInterpolant {
- public:
-  FaceInterpolant(const SurfaceChange& change, const FaceField<double>& values,
-                  const FaceField<std::array<FaceId, 3>>& beside)
-      : change_(change), values_(values), gradients_(values.size()), ranges_(values.size()) {
-    for (const FaceId f : values.ids()) {
-      const Vec3 here = center(change.before, f);
-      const Vec3 normal = face_area_vector(change.before, f).normalized();
-      const HeightPatch frame = flat_patch(here, normal);
-      std::array<Sample, 3> samples{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        const FaceId g = beside[f][k];
-        // Turned into the plane of the face about the common edge, nearly: at its own distance.
-        const Vec3 d = center(change.before, g) - here;
-        const Vec3 flat = d - d.dot(normal) * normal;
-        const double stretch = d.norm() / flat.norm();
-        samples[k] = {stretch * flat.dot(frame.t1), stretch * flat.dot(frame.t2),
-                      values[g] - values[f]};
-      }
-      Quadratic linear;
-      fit<2>(samples, linear);
-      gradients_[f] = linear.c[0] * frame.t1 + linear.c[1] * frame.t2;
-    }
-    find_ranges();
-    for (const FaceId f : values.ids()) limit_gradient(f);
-  }
-
-  [[nodiscard]] double at(const SurfaceLocation& place) const {
-    const Vec3 d = change_.walk.flat_point(place) - center(change_.before, place.face);
-    return ranges_[place.face].clamped(values_[place.face] + gradients_[place.face].dot(d));
-  }
-
-  /// The function of a face, continued to a point near it.
-  [[nodiscard]] double continued(FaceId f, const Vec3& x) const {
-    return values_[f] + gradients_[f].dot(x - center(change_.before, f));
-  }
-
- private:
-  /// Of a face and all that it shares a vertex with: the three beside it do not reach as far as its
-  /// own corners do.
-  void find_ranges() {
-    const SurfaceMesh& mesh = change_.before;
-    for (const FaceId f : values_.ids()) {
-      ranges_[f] = {values_[f], values_[f]};
-      for (const VertexId v : mesh.faces[f])
-        for (const FaceId g : change_.topology.faces_around(v))
-          ranges_[f].include({values_[g], values_[g]});
-    }
-  }
-
-  /// Flattens the face's function until its corners are within range: cut off there instead, it
-  /// would no longer have the mean that the face has.
-  void limit_gradient(FaceId f) {
-    const Vec3 here = center(change_.before, f);
-    double factor = 1.0;
-    for (const VertexId v : change_.before.faces[f]) {
-      const double rise = gradients_[f].dot(change_.before.x[v] - here);
-      const double room = rise > 0.0 ? ranges_[f].high - values_[f] : ranges_[f].low - values_[f];
-      if (std::abs(rise) > std::abs(room)) factor = std::min(factor, room / rise);
-    }
-    gradients_[f] *= factor;
-  }
-
-  const SurfaceChange& change_;
-  const FaceField<double>& values_;
-  FaceField<Vec3> gradients_;
-  FaceField<Range> ranges_;
-};
 
 /// Four points of a new face, the centres of the quarters it is cut into by its mid-edges, on the
 /// old surface.
@@ -276,12 +195,13 @@ class Conservation {
   /// Both are compared at the centre of the new face: at the part itself the slope would count, and
   /// with it how parts happen to lie.
   FieldExcess keep(FaceField<double>& values, const FaceField<double>& before,
-                   const FaceInterpolant& interpolant) const {
+                   const FaceReconstruction& reconstruction) const {
     FaceField<double> missing(values.size(), 0.0);
     for (const Part& part : parts_)
       missing[part.to.face] +=
-          part.area * (interpolant.continued(part.from.face, center(change_.after, part.to.face)) -
-                       values[part.to.face]);
+          part.area *
+          (reconstruction.continued(part.from.face, center(change_.after, part.to.face)) -
+           values[part.to.face]);
     std::vector<double> amounts(static_cast<std::size_t>(old_pieces_.count), 0.0);
     for (const FaceId f : before.ids())
       amounts[static_cast<std::size_t>(old_pieces_.piece[change_.before.faces[f][0]])] +=
@@ -341,15 +261,14 @@ ReplacedFields transferred(const SurfaceFields& fields, const SurfaceChange& cha
         {field.name, field.unit, field.transfer, std::move(values)});
   }
   if (fields.on_faces.empty()) return result;
-  const auto beside = neighbours(change.before, change.topology);
   for (const CarriedField<FaceId>& field : fields.on_faces) {
-    const FaceInterpolant interpolant(change, field.values, beside);
+    const FaceReconstruction reconstruction(change.before, change.topology, field.values);
     FaceField<double> values(change.after.num_faces(), 0.0);
     for (const FaceId f : values.ids())
       for (const SurfaceLocation& place : sample_places(change, f))
-        values[f] += 0.25 * interpolant.at(place);
+        values[f] += 0.25 * reconstruction.value(place.face, change.walk.flat_point(place));
     if (field.transfer == FieldTransfer::conserved)
-      widen(result.excess, conservation->keep(values, field.values, interpolant));
+      widen(result.excess, conservation->keep(values, field.values, reconstruction));
     result.fields.on_faces.push_back({field.name, field.unit, field.transfer, std::move(values)});
   }
   return result;
