@@ -44,12 +44,16 @@ struct Mesh {
   const CellField<std::int32_t>& group;
   std::vector<std::vector<CellId>> cells;
   CellField<double> volume;
+  CellField<HalfSpaceTet> shape;  ///< where cells are intersected
   std::vector<std::unique_ptr<CellTree>> trees;
 
   Mesh(const TetMesh& tetrahedra, const CellField<std::int32_t>& groups, std::int32_t num_groups)
       : mesh(tetrahedra), group(groups), cells(cells_by_group(groups, num_groups)) {
     volume = cell_volumes(mesh);
     for (const auto& members : cells) trees.push_back(std::make_unique<CellTree>(mesh, members));
+  }
+  void find_shapes() {
+    for (const CellId c : mesh.cells.ids()) shape.add(HalfSpaceTet(corners(mesh, c)));
   }
   [[nodiscard]] const CellTree& tree(std::int32_t g) const {
     return *trees[static_cast<std::size_t>(g)];
@@ -59,9 +63,9 @@ struct Mesh {
 std::vector<Intersection> intersections(const Mesh& before, const Mesh& after) {
   std::vector<Intersection> all;
   for (const CellId c : after.mesh.cells.ids()) {
-    const TetCorners x = corners(after.mesh, c);
-    for (const CellId old : before.tree(after.group[c]).near(x)) {
-      const VolumeMoments part = tet_overlap(corners(before.mesh, old), x);
+    const HalfSpaceTet& shape = after.shape[c];
+    for (const CellId old : before.tree(after.group[c]).near(shape.corners())) {
+      const VolumeMoments part = tet_overlap(before.shape[old], shape);
       if (part.volume > 0.0) all.push_back({old, c, part});
     }
   }
@@ -104,6 +108,8 @@ struct Overlay {
         after(now, groups.after, groups.num_groups),
         stencils(old, groups.before) {}
   void intersect() {
+    before.find_shapes();
+    after.find_shapes();
     parts = intersections(before, after);
     uncovered = find_gaps(after, before, parts, [](const Intersection& i) { return i.after; });
     lost = find_gaps(before, after, parts, [](const Intersection& i) { return i.before; });
