@@ -1,10 +1,15 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace meniscus {
+
+class Evolution;
+/// Changes the state of a new run before anything is written, as by putting fields on it.
+using SetUp = std::function<void(Evolution&)>;
 
 /// Whether and where the page of a run is served while it goes on.
 struct WatchArguments {
@@ -20,6 +25,7 @@ struct RunArguments {
   bool is_overwrite = false;
   bool is_quiet = false;
   WatchArguments watch = {};
+  SetUp set_up = {};  ///< called when the first meshes are made
 };
 /// `meniscus run`. Returns the exit status; so do all below.
 int run_command(const RunArguments& arguments);

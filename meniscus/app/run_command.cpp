@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "meniscus/app/commands.hpp"
+#include "meniscus/app/frames.hpp"
 #include "meniscus/app/interrupt.hpp"
 #include "meniscus/app/live_view.hpp"
 #include "meniscus/app/ranks.hpp"
@@ -34,7 +35,9 @@ Case shared_case(Case c) {
 
 /// What a checkpoint must say for `resume` to build the evolution again.
 std::function<void(Archive&)> case_description(const Case& c, const fs::path& folder) {
-  return [text = case_toml(c), folder = fs::absolute(folder / ".").string()](Archive& archive) {
+  // In one way, however often the run is taken up: checkpoints are the same to the byte.
+  return [text = case_toml(c),
+          folder = fs::absolute(folder / ".").lexically_normal().string()](Archive& archive) {
     archive.texts["case/toml"] = text;
     archive.texts["case/folder"] = folder;
   };
@@ -180,6 +183,8 @@ int run(const RunArguments& arguments) {
   if (const EvolutionReport prepared = evolution.prepare(); !prepared.ok)
     throw RunFailure(fmt::format("the initial mesh could not be made: {}", prepared.failure));
   require_first_step(evolution, c);
+  if (arguments.set_up) arguments.set_up(evolution);
+  check_field_names(evolution);
   const std::unique_ptr<LiveView> view = make_live_view(arguments.watch);
   // Only now that the run can begin is anything written.
   std::optional<RunDirectory> directory;

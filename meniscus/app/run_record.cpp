@@ -55,6 +55,7 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
     seconds[phase] = seconds.value(phase, 0.0) + spent;
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  const FieldExcess& excess = simulation.evolution().state().field_excess;
   const Json record{{"program", "meniscus"},
                     {"version", version_string},
                     {"commit", commit_string},
@@ -71,6 +72,7 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
                     {"seconds", seconds},
                     {"steps", simulation.evolution().step()},
                     {"t", simulation.evolution().t()},
+                    {"field_excess", {{"above", excess.above}, {"below", excess.below}}},
                     {"warnings", simulation.evolution().warnings()}};
   simulation.directory().write_text("run.json", record.dump(2) + "\n");
 }

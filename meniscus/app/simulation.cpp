@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "meniscus/app/frames.hpp"
 #include "meniscus/app/interrupt.hpp"
 #include "meniscus/app/ranks.hpp"
 #include "meniscus/core/error.hpp"
@@ -24,7 +25,9 @@ Simulation::Simulation(Evolution evolution, std::optional<RunDirectory> director
       directory_(std::move(directory)),
       output_(output),
       describe_(std::move(describe)),
-      timed_(seconds()) {}
+      timed_(seconds()) {
+  check_field_names(evolution_);
+}
 
 void Simulation::load_schedule(const Archive& archive) {
   const auto next = archive.reals.find("output/next");

@@ -63,6 +63,16 @@ void announce(const TopologyEvent& event, double t) {
             event.place.y(), event.place.z());
 }
 
+/// Says so whenever the largest excess so far has come to another power of two. What is below the
+/// least size is round-off of values of order one.
+void announce_growth(const FieldExcess& before, const FieldExcess& now, double t) {
+  constexpr double kLeast = 1e-9;
+  const double old = std::max(before.above, before.below), size = std::max(now.above, now.below);
+  if (size < kLeast || std::ilogb(size) <= std::ilogb(old)) return;
+  log::info("t = {:.6g}: to keep its amount a field left the range of its values by {:.3g}", t,
+            size);
+}
+
 RegionSources liquid_sources(std::span<const TopologyEvent> events) {
   RegionSources sources;
   for (const TopologyEvent& event : events) sources = joined_sources(sources, event.sources);
@@ -117,6 +127,7 @@ EvolutionReport Evolution::advance() {
       state_.dt = dt;
       ++state_.step;
       for (const TopologyEvent& event : state_.events) announce(event, state_.t);
+      announce_growth(excess, state_.field_excess, state_.t);
       return report;
     }
     state_.scene = start;
