@@ -99,7 +99,7 @@ double value_at(const SurfaceMesh& mesh, const VertexField<double>& values, Face
 /// A part of an old face that is gone, and what it goes to.
 struct Part {
   FaceId from;
-  Vec3 weights;  ///< of the corners of `from`
+  Vec3 weights;  ///< barycentric, in `from`
   double area;
   SurfaceTree::Hit to;
 };
@@ -284,6 +284,7 @@ ReplacedFields replaced_fields(const SurfaceFields& fields, const SurfaceMesh& b
                                const SurfaceMesh& after, const SurfaceMesh& settled) {
   ReplacedFields result;
   if (fields.empty()) return result;
+  MENISCUS_ASSERT(after.faces == settled.faces, "settled on other faces");
   const Replacement replacement(before, after);
   result.fields.on_vertices =
       replaced(fields.on_vertices, replacement, vertex_shares(settled), result.excess);
@@ -313,6 +314,12 @@ std::vector<SurfaceFields> split_fields(const SurfaceFields& whole,
     vertices += piece.num_vertices();
     faces += piece.num_faces();
   }
+  for (const auto& field : whole.on_vertices)
+    MENISCUS_ASSERT(field.values.size() == vertices, "{} values for {} vertices",
+                    field.values.size(), vertices);
+  for (const auto& field : whole.on_faces)
+    MENISCUS_ASSERT(field.values.size() == faces, "{} values for {} faces", field.values.size(),
+                    faces);
   return parts;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "meniscus/mesh/shapes.hpp"
@@ -77,6 +78,11 @@ void expect_in_range(const SurfaceFields& fields, const FieldExcess& excess) {
   expect(fields.on_faces[1], excess.above, excess.below);
 }
 
+void record(const FieldExcess& excess) {
+  testing::Test::RecordProperty("excess_above", fmt::format("{:.3e}", excess.above));
+  testing::Test::RecordProperty("excess_below", fmt::format("{:.3e}", excess.below));
+}
+
 Scene carrying(Scene scene) {
   for (Interface& drop : scene.interfaces) drop.fields = waves(drop.mesh);
   return scene;
@@ -95,6 +101,7 @@ void expect_carried(const Scene& bare, const TopologyOptions& options) {
   expect_same(amounts_of(scene), before);
   FieldExcess excess = report.events[0].field_excess;
   widen(excess, report.finishing_excess);
+  record(excess);
   for (const Interface& drop : scene.interfaces) expect_in_range(drop.fields, excess);
   EXPECT_LT(std::max(excess.above, excess.below), 0.2);
 }
@@ -159,6 +166,7 @@ TEST(CarriedFields, GoThroughMendedCreases) {
   EXPECT_EQ(mesh, bare);
   add_amounts(mesh, fields, after);
   expect_same(after, before);
+  record(report.remesh.field_excess);
   expect_in_range(fields, report.remesh.field_excess);
 }
 
