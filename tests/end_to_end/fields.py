@@ -61,14 +61,14 @@ def compare_bytes(whole, parts, what):
     print(f"{what}: the same bytes in {len(results(whole))} files, excess {excess[0]}", flush=True)
 
 
-def kill_and_resume(whole, folder, begin, go_on, kills):
-    """Kills a run, and what goes on with it, some time after each checkpoint."""
+def kill_and_resume(whole, folder, begin, go_on, duration):
+    """Kills a run, and what goes on with it, after shares of the time that a whole one takes."""
     moments = random.Random(SEED)
     process = start(*begin)
-    for _ in range(kills):
+    for _ in range(2):
         while process.poll() is None and not list(folder.glob("checkpoint-*.h5")):
             time.sleep(0.01)
-        time.sleep(moments.uniform(0.2, 1.0))
+        time.sleep(duration * moments.uniform(0.05, 0.3))
         if process.poll() is not None:
             sys.exit(f"over before it could be killed\n{process.communicate()[0]}")
         process.send_signal(signal.SIGKILL)
@@ -87,9 +87,11 @@ def main():
     print(f"seed {SEED}", flush=True)
 
     whole, killed = work / "whole", work / "killed"
+    began = time.monotonic()
     finish(start(dyed, *case_arguments(case, whole)))
+    duration = time.monotonic() - began
     kill_and_resume(whole, killed, [dyed, *case_arguments(case, killed)],
-                    [program, "resume", killed, "-q"], kills=2)
+                    [program, "resume", killed, "-q"], duration)
 
     check_ranks(dyed, difference, case, work, mpiexec)
 
