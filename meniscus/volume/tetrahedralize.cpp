@@ -1,10 +1,12 @@
 #include "meniscus/volume/tetrahedralize.hpp"
 
+#include <functional>
 #include <vector>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/volume/facets.hpp"
+#include "meniscus/volume/foreseen_cells.hpp"
 #include "meniscus/volume/mesh_order.hpp"
 #include "meniscus/volume/size_law.hpp"
 #include "meniscus/volume/tetgen_mesher.hpp"
@@ -86,9 +88,8 @@ void label_regions(const Scene& scene, const FacetTable& facets, TetMesh& mesh) 
 
 /// One attempt: mesh, find the surfaces in it, label the regions, validate.
 std::string try_to_mesh(const Scene& scene, const SurfaceComplex& complex,
-                        const std::string& switches, const SizeLaw& size, double cell_volume,
-                        TetMesh& mesh) {
-  MesherResult result = run_tetgen(complex, switches, size, cell_volume);
+                        const std::string& switches, const CellTarget& target, TetMesh& mesh) {
+  MesherResult result = run_tetgen(complex, switches, target);
   if (!result.failure.empty()) return result.failure;
   order_by_neighbourhood(static_cast<std::int32_t>(complex.x.size()), result.x, result.cells);
   mesh = {};
@@ -130,12 +131,20 @@ VolumeMeshReport tetrahedralize(const Scene& scene, const VolumeMeshOptions& opt
   report.failure = find_unfit_surface(scene);
   report.ok = report.failure.empty();
   if (!report.ok) return report;
+  const SizeLaw law(scene, options);
+  const std::function<double(const Vec3&)> size = std::cref(law);
+  const ForeseenCells foreseen = foresee_cells(scene, size, options.cell_volume);
+  if (foreseen.is_too_many()) {
+    report.failure = too_many(foreseen);
+    report.ok = false;
+    return report;
+  }
 
   const SurfaceComplex complex = gather_surfaces(scene);
-  const SizeLaw size(scene, options);
+  const CellTarget target{size, options.cell_volume, foreseen.number};
   for (const std::string& switches : tetgen_switches(options.radius_edge)) {
     TetMesh candidate;
-    report.failure = try_to_mesh(scene, complex, switches, size, options.cell_volume, candidate);
+    report.failure = try_to_mesh(scene, complex, switches, target, candidate);
     report.ok = report.failure.empty();
     if (report.ok) {
       mesh = std::move(candidate);

@@ -1,10 +1,16 @@
 // A drop in a ball, from outside the tree: its volume, its tetrahedra, the flow around it.
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <numbers>
+
+#include <dlfcn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "meniscus/core/version.hpp"
 #include "meniscus/flow/fem/finite_element_flow.hpp"
@@ -12,6 +18,9 @@
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/scene/scene.hpp"
 #include "meniscus/volume/tetrahedralize.hpp"
+
+#undef NDEBUG  // an assertion below is meant to fail
+#include <cassert>
 
 namespace {
 
@@ -84,10 +93,32 @@ bool flow_is_right(const Scene& scene) {
   return std::abs(product / square - kExact) < 0.2 * kExact;
 }
 
+/// Whether an assertion that fails still ends the program, in the C library's own way: the library
+/// that is linked must not put itself in between.
+bool assertions_are_untouched() {
+  Dl_info where{};
+  void* fail = dlsym(RTLD_DEFAULT, "__assert_fail");
+  if (fail == nullptr || dladdr(fail, &where) == 0) return false;
+  std::printf("assertions fail in %s\n", where.dli_fname);
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child == 0) {
+    assert(child != 0);  // fails
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return std::strstr(where.dli_fname, "libc.so") != nullptr && WIFSIGNALED(status) &&
+         WTERMSIG(status) == SIGABRT;
+}
+
 }  // namespace
 
 int main() {
   std::printf("meniscus %s\n", version_string.data());
   const Scene scene = drop_in_a_ball();
-  return volume_is_right(scene) && mesh_conforms(scene) && flow_is_right(scene) ? 0 : 1;
+  return volume_is_right(scene) && mesh_conforms(scene) && flow_is_right(scene) &&
+                 assertions_are_untouched()
+             ? 0
+             : 1;
 }
