@@ -31,6 +31,26 @@ add_test(NAME interrupted COMMAND Python3::Interpreter
   $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/interrupted)
 set_tests_properties(interrupted PROPERTIES TIMEOUT 900)
 
+# Every tenth write, rename and fsync of a run fails; with the long suites every one. (The address
+# sanitizer must be loaded before any other library.)
+if(NOT MENISCUS_SANITIZE)
+  add_library(failing_calls SHARED ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/failing_calls.c)
+  target_link_libraries(failing_calls PRIVATE ${CMAKE_DL_LIBS})
+  set(STRIDE 10)
+  if(MENISCUS_LONG_TESTS)
+    set(STRIDE 1)
+  endif()
+  add_test(NAME every_fault COMMAND Python3::Interpreter
+    ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/every_fault.py $<TARGET_FILE:meniscus_program>
+    $<TARGET_FILE:failing_calls> ${CMAKE_CURRENT_BINARY_DIR}/every_fault ${STRIDE})
+  set_tests_properties(every_fault PROPERTIES TIMEOUT 900)
+endif()
+
+# `make check-long` runs ten thousand under the sanitizers.
+add_test(NAME fuzz COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/fuzz.py
+  $<TARGET_FILE:meniscus_program> ${CMAKE_CURRENT_BINARY_DIR}/fuzz 200)
+set_tests_properties(fuzz PROPERTIES TIMEOUT 900)
+
 add_test(NAME refusals COMMAND Python3::Interpreter
   ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/refusals.py
   $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/refusals)

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <functional>
+#include <new>
 
 #include <CLI/CLI.hpp>
 
@@ -215,6 +216,8 @@ int run_command_line(int argc, char** argv) {
     return print_error(error.what(), 2);
   } catch (const RunFailure& error) {
     return print_error(error.what(), 1);
+  } catch (const std::bad_alloc&) {  // sizes are foreseen; what other programs take is not
+    return print_error("not enough memory: fewer nodes or a coarser mesh take less", 1);
   } catch (const std::exception& error) {
     return print_error(error.what(), 1);
   }

@@ -59,6 +59,15 @@ SurfaceMesh read_solid(const std::string& file) {
   return mesh;
 }
 
+/// As `remesh_to`; what it refuses is refused with the name of the file.
+TargetReport remesh_file(const std::string& file, SurfaceMesh& mesh, const RemeshTarget& target) {
+  try {
+    return remesh_to(mesh, target);
+  } catch (const InvalidInput& refused) {
+    reject_input("{}: {}", file, refused.what());
+  }
+}
+
 const char* name(RemeshTarget::By by) {
   switch (by) {
     case RemeshTarget::By::nodes:
@@ -184,7 +193,7 @@ int remesh_command(const RemeshArguments& arguments) {
   const SurfaceMesh given = read_solid(arguments.surface);
   SurfaceMesh mesh = given;
   const RemeshTarget target = target_of(arguments, given.num_vertices());
-  TargetReport report = remesh_to(mesh, target);
+  TargetReport report = remesh_file(arguments.surface, mesh, target);
   if (!report.ok)
     throw RunFailure(
         fmt::format("{}: could not be remeshed: {}", arguments.surface, report.failure));

@@ -34,7 +34,8 @@ Case shared_case(Case c) {
 
 /// What a checkpoint must say for `resume` to build the evolution again.
 std::function<void(Archive&)> case_description(const Case& c, const fs::path& folder) {
-  return [text = case_toml(c), folder = fs::absolute(folder / ".").string()](Archive& archive) {
+  return [text = case_toml(c),
+          folder = fs::absolute(folder / ".").lexically_normal().string()](Archive& archive) {
     archive.texts["case/toml"] = text;
     archive.texts["case/folder"] = folder;
   };
@@ -77,12 +78,12 @@ void begin_live_view(LiveView* view, Simulation& simulation, const Progress& pro
 int simulate(Simulation& simulation, const RunRecord& record, Progress& progress, LiveView* view) {
   watch_for_interrupts();
   std::string folder;
-  on_first_rank([&] {
-    record.write(simulation, "running");
-    begin_live_view(view, simulation, progress);
-    folder = simulation.directory().path().string();
-  });
   try {
+    on_first_rank([&] {
+      folder = simulation.directory().path().string();
+      record.write(simulation, "running");
+      begin_live_view(view, simulation, progress);
+    });
     const Outcome outcome = simulation.run(progress);
     progress.close();
     const std::string status = outcome == Outcome::done ? "done" : "stopped";
@@ -102,6 +103,7 @@ int simulate(Simulation& simulation, const RunRecord& record, Progress& progress
       log::warning("neither run.json nor the report could be brought up to date");
     }
     if (view != nullptr) view->end("failed");
+    if (!folder.empty()) remove_unbegun_run(folder);
     throw;
   }
   progress.say(fmt::format("done: {} steps to t = {:g}; see {}/report.html",
@@ -185,7 +187,12 @@ int run(const RunArguments& arguments) {
   std::optional<RunDirectory> directory;
   on_first_rank([&] {
     directory = RunDirectory::create(folder, arguments.is_overwrite);
-    copy_reference(file.parent_path(), folder);
+    try {
+      copy_reference(file.parent_path(), folder);
+    } catch (const std::exception&) {
+      remove_unbegun_run(folder);
+      throw;
+    }
   });
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, file.parent_path()));

@@ -166,7 +166,12 @@ RunDirectory RunDirectory::create(const fs::path& path, bool overwrite) {
   if (error) reject_input("output folder {} cannot be made: {}", path.string(), error.message());
   FolderLock lock(path);
   if (holds_run(path)) remove_run(path);
-  return RunDirectory(std::move(lock), path, std::nullopt);
+  try {
+    return RunDirectory(std::move(lock), path, std::nullopt);
+  } catch (const std::exception&) {
+    remove_unbegun_run(path);
+    throw;
+  }
 }
 
 RunDirectory RunDirectory::take_up(const fs::path& path, std::int64_t first_step, double t) {
@@ -296,6 +301,10 @@ void remove_run(const fs::path& path) {
                            "report.html", "surface.pvd", "volume.pvd", "surface", "volume"})
     fs::remove_all(path / name);
   for (const auto& [step, file] : checkpoints(path)) fs::remove(file);
+}
+
+void remove_unbegun_run(const fs::path& path) {
+  if (checkpoints(path).empty()) remove_run(path);
 }
 
 bool holds_run(const fs::path& path) {

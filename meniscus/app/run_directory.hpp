@@ -55,6 +55,8 @@ class RunDirectory {
 void require_usable(const std::filesystem::path& path, bool overwrite);
 /// Removes the files of a run; the folder stays, and what else it holds.
 void remove_run(const std::filesystem::path& path);
+/// Removes a run that has no checkpoint to go on from, so that another can begin in the folder.
+void remove_unbegun_run(const std::filesystem::path& path);
 /// Whether a folder holds a run: its history or a checkpoint.
 [[nodiscard]] bool holds_run(const std::filesystem::path& path);
 /// The checkpoint of the latest step in a run's folder. Throws InvalidInput when there is none.

@@ -1,5 +1,6 @@
 #include "meniscus/surface/even_out.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -22,16 +23,32 @@ constexpr double kLowAngleDeg = 15.0;  // of the 5 % quantile; relaxed meshes ha
 constexpr double kLongEdge = 10.0;
 constexpr int kIterations = 5;  // CGAL's examples take 1 to 10; the angles settle by 5
 
+bool is_crease(const SurfaceMesh& mesh, const SurfaceEdge& e) {
+  static const double cosine = std::cos(kCreaseDeg * std::numbers::pi / 180.0);
+  const Vec3 left = face_area_vector(mesh, e.left), right = face_area_vector(mesh, e.right);
+  return left.dot(right) < cosine * left.norm() * right.norm();
+}
+
 }  // namespace
 
 bool is_rough(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
   if (surface_quality(mesh, topology).low_angle_deg < kLowAngleDeg) return true;
-  const double crease = std::cos(kCreaseDeg * std::numbers::pi / 180.0);
+  return std::ranges::any_of(topology.edges(),
+                             [&](const SurfaceEdge& e) { return is_crease(mesh, e); });
+}
+
+Creases creases(const SurfaceMesh& mesh, const SurfaceTopology& topology, double edge) {
+  Creases result;
+  double longest = -1.0;
   for (const SurfaceEdge& e : topology.edges()) {
-    const Vec3 left = face_area_vector(mesh, e.left), right = face_area_vector(mesh, e.right);
-    if (left.dot(right) < crease * left.norm() * right.norm()) return true;
+    if (!is_crease(mesh, e)) continue;
+    const double length = (mesh.x[e.b] - mesh.x[e.a]).norm();
+    result.pieces += std::max(0.0, length / edge - 1.0);
+    if (length <= longest) continue;
+    longest = length;
+    result.longest = e;
   }
-  return false;
+  return result;
 }
 
 SurfaceMesh evened_out(const SurfaceMesh& mesh, double edge, double crease_deg) {

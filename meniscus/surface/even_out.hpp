@@ -11,6 +11,15 @@ inline constexpr double kCreaseDeg = 50.0;
 /// more than 50° along an edge, or a twentieth of the angles below 15°.
 [[nodiscard]] bool is_rough(const SurfaceMesh& mesh, const SurfaceTopology& topology);
 
+/// Edges where normals turn by more than `kCreaseDeg`.
+struct Creases {
+  double pieces = 0.0;    ///< beyond one each, that they are cut into
+  SurfaceEdge longest{};  ///< the longest of them, if there are any
+};
+/// Of a surface that is to have triangles of edges about `edge`.
+[[nodiscard]] Creases creases(const SurfaceMesh& mesh, const SurfaceTopology& topology,
+                              double edge);
+
 /// The same polyhedron with triangles of edges about `edge`: CGAL's isotropic remeshing, new
 /// vertices on the given faces, edges where normals turn by more than `crease_deg` kept as lines of
 /// edges; 180: none.

@@ -9,6 +9,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/foreseen_vertices.hpp"
 #include "meniscus/surface/restructure.hpp"
 #include "meniscus/surface/sizing.hpp"
 #include "meniscus/surface/springs.hpp"
@@ -34,6 +35,12 @@ RemeshReference reference_surface(const SurfaceMesh& mesh, const SurfaceTopology
   for (const VertexId v : mesh.x.ids())
     corners.add({surface.vertex_normal(v), lengths[v], slopes[v]});
   return {std::move(surface), SurfaceWalk(mesh, topology), std::move(corners)};
+}
+
+ForeseenVertices foreseen_vertices(const SurfaceMesh& mesh, const RemeshReference& reference) {
+  VertexField<double> lengths;
+  for (const RemeshReference::Corner& corner : reference.corners) lengths.add(corner.rest_length);
+  return foresee_vertices(mesh, lengths);
 }
 
 double rest_tolerance(const RemeshState& state, const RemeshOptions& options) {
@@ -174,6 +181,9 @@ RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options, SurfaceFiel
   try {
     const SurfaceTopology topology(mesh);
     const RemeshReference reference = reference_surface(mesh, topology, options);
+    if (const ForeseenVertices foreseen = foreseen_vertices(mesh, reference);
+        foreseen.is_too_many())
+      return fail(too_many(foreseen, mesh));
     RemeshState state = start_state(reference, mesh, topology);
     equilibrate(state, options, report);
     lift_to_surface(state);

@@ -17,6 +17,7 @@
 #include "meniscus/mesh/surface_pieces.hpp"
 #include "meniscus/surface/diffused.hpp"
 #include "meniscus/surface/even_out.hpp"
+#include "meniscus/surface/foreseen_vertices.hpp"
 #include "meniscus/surface/remesh.hpp"
 #include "meniscus/surface/sizing.hpp"
 #include "meniscus/surface/smooth_surface.hpp"
@@ -44,8 +45,10 @@ constexpr double kRoughChord =
 /// from none to where the sharpest edges have become round enough to be fitted.
 constexpr std::array<double, 6> kRoundings{0.0, 0.5, 0.7, 1.0, 1.4, 2.0};
 constexpr double kMostLost = 0.05;  // of a piece's volume, with what is thinner than the rounding
-constexpr double kMostVertices = 2e6;  // a few gigabytes while they are made
-constexpr double kFlat = 1e-9;         // 1/R: less curvature than this is none
+/// Vertices on creases over those that the area takes, above which a surface is a needle: that of a
+/// bar, one edge thick, is near 1. Beyond, CGAL makes fans of triangles without end.
+constexpr double kMostOnCreases = 2.5;
+constexpr double kFlat = 1e-9;  // 1/R: less curvature than this is none
 
 const char* option_name(By by) {
   switch (by) {
@@ -100,6 +103,23 @@ double rough_edge_length(const RemeshTarget& target, double area) {
   edge = std::max(edge, target.edge_floor);
   require_affordable(target, area * density_of_length(edge));
   return edge;
+}
+
+/// Throws InvalidInput where creases alone would take many times the vertices that the area does.
+void require_thickness(const SurfaceMesh& mesh, const RemeshTarget& target) {
+  const SurfaceTopology topology(mesh);
+  if (!is_rough(mesh, topology)) return;
+  const double area = surface_area(mesh), edge = rough_edge_length(target, area);
+  const Creases found = creases(mesh, topology, edge);
+  const double most = std::min(kMostOnCreases * area * density_of_length(edge), kMostVertices);
+  if (found.pieces <= most) return;
+  const Vec3 &a = mesh.x[found.longest.a], &b = mesh.x[found.longest.b];
+  reject_input(
+      "--{} {:g}: the surface is too thin: in triangles of {:.3g} its creases would take {:.2g} "
+      "vertices; at most {:.2g} are made; the longest, of {:.3g}, goes from ({:.6g}, {:.6g}, "
+      "{:.6g}) to ({:.6g}, {:.6g}, {:.6g})",
+      option_name(target.by), target.value, edge, found.pieces, most, (b - a).norm(), a.x(), a.y(),
+      a.z(), b.x(), b.y(), b.z());
 }
 
 double band(By by) {
@@ -443,6 +463,7 @@ void RemeshTarget::validate() const {
 
 TargetReport remesh_to(SurfaceMesh& mesh, const RemeshTarget& target) {
   target.validate();
+  require_thickness(mesh, target);
   SurfaceMesh working = mesh;
   const Frame frame(mesh);
   frame.enter(working);

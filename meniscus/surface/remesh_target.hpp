@@ -52,7 +52,8 @@ struct [[nodiscard]] TargetReport {
 /// given are cut evenly, edges and corners kept: angles then are what the shape allows, and there
 /// is no chordal error.
 ///
-/// Transactional, like `remesh`.
+/// Transactional, like `remesh`. Throws InvalidInput where the target would take more than
+/// `kMostVertices`, or is too coarse for so thin a surface.
 TargetReport remesh_to(SurfaceMesh& mesh, const RemeshTarget& target);
 
 }  // namespace meniscus
