@@ -274,7 +274,7 @@ class Fuzzer:
             fault = f"status {status}"
         if not fault and any(word in said for word in FORBIDDEN):
             fault = "a word that is not for users"
-        if not fault and status != 0 and len([line for line in lines if line.startswith("meniscus: ")]) != 1:
+        if not fault and status != 0 and len([line for line in lines if "warning" not in line]) != 1:
             fault = "not one line of error"
         if not fault and status != 0 and not any(name in lines[-1] for name in names):
             fault = "the line names no place"
