@@ -194,8 +194,9 @@ std::string open_gap(Scene& scene, const Gap& gap, const TopologyOptions& option
 
 void open_gaps(Scene& scene, const TopologyOptions& options, const SurfaceMotion& motion,
                DonePlaces& done, TopologyReport& report) {
+  GapSearch search(options.coalescence_gap, motion);
   for (int i = 0; i < kMaxEvents; ++i) {
-    const std::vector<Gap> gaps = find_gaps(scene, options.coalescence_gap, motion);
+    const std::vector<Gap> gaps = search.gaps(scene);
     const auto due =
         std::ranges::find_if(gaps, [&](const Gap& gap) { return !done.contain(gap.middle()); });
     if (due == gaps.end()) return;
