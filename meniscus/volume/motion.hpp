@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <span>
 
 #include "meniscus/scene/scene.hpp"
+#include "meniscus/volume/harmonic_extension.hpp"
 
 namespace meniscus {
 
@@ -19,9 +21,30 @@ struct VolumeVelocity {
   Field<TetVertexId, Vec3> w;
   VolumeMotion used = VolumeMotion::spines;
 };
-[[nodiscard]] VolumeVelocity volume_velocity(const Scene& scene, const TetMesh& mesh,
-                                             std::span<const VertexField<Vec3>> interface_motion,
-                                             const Field<TetVertexId, Vec3>& fluid,
-                                             VolumeMotion motion);
+
+/// Gives the vertices between the surfaces their velocity, time and again while a mesh moves. Of
+/// the harmonic law it keeps the matrix and its multigrid as long as the mesh is asked about at the
+/// same positions, and which entries there are as long as it is only moved.
+class VolumeMover {
+ public:
+  explicit VolumeMover(VolumeMotion motion) : motion_(motion) {}
+
+  [[nodiscard]] VolumeVelocity velocity(const Scene& scene, const TetMesh& mesh,
+                                        std::span<const VertexField<Vec3>> interface_motion,
+                                        const Field<TetVertexId, Vec3>& fluid);
+  /// To be told when the mesh stands elsewhere, and when it is another one.
+  void forget_positions() { extension_.reset(); }
+  void forget_mesh() {
+    extension_.reset();
+    pattern_.reset();
+  }
+
+ private:
+  [[nodiscard]] const HarmonicExtension& extension_of(const TetMesh& mesh);
+
+  VolumeMotion motion_;
+  std::shared_ptr<const HarmonicPattern> pattern_;
+  std::shared_ptr<const HarmonicExtension> extension_;
+};
 
 }  // namespace meniscus

@@ -35,6 +35,7 @@ void MovingMesh::begin_step(const Scene& scene) {
   const PhaseTimer timer(times_, "move mesh");
   place_interfaces(scene);
   start_ = mesh_;
+  mover_.forget_positions();
   start_fields_ = fields_;
   excess_ = {};
 }
@@ -44,8 +45,7 @@ MeshReport MovingMesh::move(const Scene& start,
                             const Field<TetVertexId, Vec3>& liquid_velocity, double dt) {
   const PhaseTimer timer(times_, "move mesh");
   MENISCUS_ASSERT(start_.num_vertices() == mesh_.num_vertices(), "a step that was not begun");
-  VolumeVelocity velocity =
-      volume_velocity(start, start_, interface_velocity, liquid_velocity, motion_);
+  VolumeVelocity velocity = mover_.velocity(start, start_, interface_velocity, liquid_velocity);
   TetMesh moved = start_;
   for (const TetVertexId v : moved.x.ids()) moved.x[v] += dt * velocity.w[v];
   if (has_inverted_cell(moved)) return {false, "moving the volume mesh inverts a cell"};
@@ -93,6 +93,7 @@ MeshChange MovingMesh::follow(const Scene& scene, const RegionSources& sources) 
   if (!fields_.empty()) fields_ = transfer_fields(fields_, mesh_, fitted, excess_, sources);
   mesh_ = std::move(fitted);
   velocity_ = {};
+  mover_.forget_mesh();
   return change;
 }
 
@@ -104,6 +105,7 @@ void MovingMesh::save(Archive& archive) const {
 void MovingMesh::load(const Archive& archive, const Scene& scene) {
   mesh_ = load_mesh(archive, "mesh");
   velocity_ = {};
+  mover_.forget_mesh();
   if (mesh_.interfaces.size() != scene.interfaces.size())
     reject_input("checkpoint: the volume mesh has {} interfaces, the scene {}",
                  mesh_.interfaces.size(), scene.interfaces.size());

@@ -40,7 +40,7 @@ class MovingMesh {
   /// Makes the tetrahedra of a scene; `tetrahedralize` but in tests.
   using Mesher = std::function<VolumeMeshReport(const Scene&, TetMesh&)>;
   explicit MovingMesh(const MovingMeshOptions& options);
-  MovingMesh(VolumeMotion motion, Mesher mesher) : motion_(motion), mesher_(std::move(mesher)) {}
+  MovingMesh(VolumeMotion motion, Mesher mesher) : mover_(motion), mesher_(std::move(mesher)) {}
 
   [[nodiscard]] const TetMesh& tetrahedra() const { return mesh_; }
   /// w of every vertex, from the last `move` [G R0]; empty before the first.
@@ -49,7 +49,7 @@ class MovingMesh {
   /// Remembers where everything stands: what `move` starts from and `undo` returns to.
   void begin_step(const Scene& scene);
   /// Places the vertices at x_start + dt w. On interfaces w is `interface_velocity`; between them
-  /// it follows the options (`volume_velocity`), with the liquid's velocity for Lagrangian motion.
+  /// it follows the options (`VolumeMover`), with the liquid's velocity for Lagrangian motion.
   /// `start` is the scene where the step began. Fails when a cell would be inverted.
   MeshReport move(const Scene& start, std::span<const VertexField<Vec3>> interface_velocity,
                   const Field<TetVertexId, Vec3>& liquid_velocity, double dt);
@@ -75,7 +75,7 @@ class MovingMesh {
   [[nodiscard]] const PhaseTimes& times() const { return times_; }
 
  private:
-  VolumeMotion motion_;
+  VolumeMover mover_;
   Mesher mesher_;
   TetMesh mesh_, start_;
   Field<TetVertexId, Vec3> velocity_;

@@ -18,7 +18,7 @@ USES = {
     "scene": ["core", "geometry", "mesh"],
     "surface": ["core", "geometry", "mesh", "scene"],
     "topology": ["core", "geometry", "mesh", "scene", "surface"],
-    "volume": ["core", "geometry", "mesh", "scene", "surface"],
+    "volume": ["core", "geometry", "mesh", "linear", "scene", "surface"],
     "flow": ["core", "geometry", "mesh", "scene", "volume"],
     "flow/fem": ["core", "geometry", "mesh", "linear", "scene", "surface", "volume", "flow"],
     "flow/bem": ["core", "geometry", "mesh", "linear", "scene", "surface", "flow"],

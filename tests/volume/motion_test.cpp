@@ -51,6 +51,12 @@ void expect_exact_on_surfaces(const Meshed& m, const std::vector<VertexField<Vec
     EXPECT_EQ(velocity.w[m.mesh.boundary.vertex(VertexId{v})], Vec3(Vec3::Zero()));
 }
 
+VolumeVelocity volume_velocity(const Scene& scene, const TetMesh& mesh,
+                               const std::vector<VertexField<Vec3>>& interface_motion,
+                               const Field<TetVertexId, Vec3>& fluid, VolumeMotion motion) {
+  return VolumeMover(motion).velocity(scene, mesh, interface_motion, fluid);
+}
+
 double smallest_volume_after(const TetMesh& mesh, const VolumeVelocity& velocity, double dt) {
   TetMesh moved = mesh;
   for (const TetVertexId v : moved.x.ids()) moved.x[v] += dt * velocity.w[v];
