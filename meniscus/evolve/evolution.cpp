@@ -177,10 +177,13 @@ EvolutionReport Evolution::move_mesh(const Scene& start, const InterfaceMotion& 
 double Evolution::step_length() const { return meniscus::step_length(state_, options_); }
 
 /// Whether all could be remeshed.
-bool Evolution::remesh_interfaces() {
+bool Evolution::remesh_interfaces() { return remesh_interfaces(all_interfaces(state_.scene)); }
+
+/// Whether all of those given could be.
+bool Evolution::remesh_interfaces(std::span<const std::size_t> interfaces) {
   const PhaseTimer timer(times_, "remesh surface");
   bool are_remeshed = true;
-  for (InterfaceRemesh& done : meniscus::remesh_interfaces(state_, options_)) {
+  for (InterfaceRemesh& done : meniscus::remesh_interfaces(state_, options_, interfaces)) {
     are_remeshed &= done.ok;
     if (done.is_mended || !done.ok) give_notice(std::move(done));
   }
@@ -201,7 +204,7 @@ EvolutionReport Evolution::change_topology(const Scene& moved, const InterfaceMo
   for (std::string& warning : changed.warnings) give_notice(FailedSurgery{std::move(warning)});
   if (!changed.refusal.empty()) return {false, std::move(changed.refusal), true};
   if (changed.events.empty()) return {};
-  return refuse_contact(remesh_interfaces());
+  return refuse_contact(remesh_interfaces(new_interfaces(moved, state_.scene)));
 }
 
 void Evolution::restore_volumes() {

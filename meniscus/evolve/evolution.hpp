@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -84,6 +85,7 @@ class Evolution {
     return (state_.step + 1) % options_.remesh_every == 0;
   }
   bool remesh_interfaces();
+  bool remesh_interfaces(std::span<const std::size_t> interfaces);
   EvolutionReport refuse_contact(bool are_remeshed);
   EvolutionReport change_topology(const Scene& moved, const InterfaceMotion& motion);
   void restore_volumes();

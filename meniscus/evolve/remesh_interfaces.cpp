@@ -1,5 +1,7 @@
 #include "meniscus/evolve/remesh_interfaces.hpp"
 
+#include <numeric>
+
 #include "meniscus/core/error.hpp"
 #include "meniscus/evolve/volume_restoration.hpp"
 #include "meniscus/mesh/surface_check.hpp"
@@ -64,17 +66,26 @@ InterfaceRemesh remesh_interface(State& state, std::size_t i, const EvolutionOpt
           .closed_holes = mended.closed_holes};
 }
 
-std::vector<InterfaceRemesh> remesh_interfaces(State& state, const EvolutionOptions& options) {
+std::vector<InterfaceRemesh> remesh_interfaces(State& state, const EvolutionOptions& options,
+                                               std::span<const std::size_t> interfaces) {
   MENISCUS_ASSERT(state.volume_shift.size() == state.scene.interfaces.size(),
                   "{} shifts of {} interfaces", state.volume_shift.size(),
                   state.scene.interfaces.size());
   std::vector<InterfaceRemesh> done;
   CloseSurfaces surfaces(state.scene, options.gap_layers);
-  for (std::size_t i = 0; i < state.scene.interfaces.size(); ++i) {
+  for (const std::size_t i : interfaces) {
+    MENISCUS_ASSERT(i < state.scene.interfaces.size(), "{} of {} interfaces", i,
+                    state.scene.interfaces.size());
     done.push_back(remesh_interface(state, i, options, surfaces));
     if (done.back().ok) surfaces.replace(i, state.scene.interfaces[i].mesh);
   }
   return done;
+}
+
+std::vector<std::size_t> all_interfaces(const Scene& scene) {
+  std::vector<std::size_t> all(scene.interfaces.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
 }
 
 }  // namespace meniscus

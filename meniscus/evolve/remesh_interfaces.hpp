@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,10 @@ struct [[nodiscard]] InterfaceRemesh {
 InterfaceRemesh remesh_interface(State& state, std::size_t i, const EvolutionOptions& options,
                                  const CloseSurfaces& surfaces);
 
-/// Remeshes all interfaces, each beside those remeshed before it.
-std::vector<InterfaceRemesh> remesh_interfaces(State& state, const EvolutionOptions& options);
+/// Remeshes interfaces one after the other, each beside the others as they are then.
+std::vector<InterfaceRemesh> remesh_interfaces(State& state, const EvolutionOptions& options,
+                                               std::span<const std::size_t> interfaces);
+/// 0, 1, …: all of a scene.
+[[nodiscard]] std::vector<std::size_t> all_interfaces(const Scene& scene);
 
 }  // namespace meniscus

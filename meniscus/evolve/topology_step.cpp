@@ -1,5 +1,8 @@
 #include "meniscus/evolve/topology_step.hpp"
 
+#include <map>
+#include <set>
+#include <span>
 #include <utility>
 
 #include "meniscus/core/error.hpp"
@@ -17,7 +20,32 @@ SurfaceMotion surface_motion(const Scene& scene, const InterfaceMotion& motion) 
   return result;
 }
 
+/// Shifts stay with their drops; new ones have none yet.
+std::vector<double> carried_shifts(const Scene& before, std::span<const double> shifts,
+                                   const Scene& after) {
+  MENISCUS_ASSERT(shifts.size() == before.interfaces.size(), "{} shifts of {} interfaces",
+                  shifts.size(), before.interfaces.size());
+  std::map<int, double> shift_of;
+  for (std::size_t i = 0; i < before.interfaces.size(); ++i)
+    shift_of[before.interfaces[i].drop] = shifts[i];
+  std::vector<double> result;
+  for (const Interface& interface : after.interfaces) {
+    const auto known = shift_of.find(interface.drop);
+    result.push_back(known == shift_of.end() ? 0.0 : known->second);
+  }
+  return result;
+}
+
 }  // namespace
+
+std::vector<std::size_t> new_interfaces(const Scene& before, const Scene& after) {
+  std::set<int> old;
+  for (const Interface& interface : before.interfaces) old.insert(interface.drop);
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < after.interfaces.size(); ++i)
+    if (!old.contains(after.interfaces[i].drop)) result.push_back(i);
+  return result;
+}
 
 TopologyReport change_topology(State& state, const TopologyOptions& options, const Scene& moved,
                                const InterfaceMotion& motion) {
@@ -26,7 +54,7 @@ TopologyReport change_topology(State& state, const TopologyOptions& options, con
   widen(state.field_excess, changed.finishing_excess);
   for (const TopologyEvent& event : changed.events) widen(state.field_excess, event.field_excess);
   state.events = changed.events;
-  state.volume_shift.assign(state.scene.interfaces.size(), 0.0);
+  state.volume_shift = carried_shifts(moved, state.volume_shift, state.scene);
   return changed;
 }
 

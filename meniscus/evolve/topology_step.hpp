@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "meniscus/evolve/interface_motion.hpp"
 #include "meniscus/evolve/options.hpp"
@@ -9,10 +10,13 @@
 namespace meniscus {
 
 /// Cuts and bridges what is due in the interfaces of a state as remeshed; `moved`, the scene before
-/// that, with `motion` says how they came there. The state takes the events. Its interfaces are
-/// then still to be remeshed.
+/// that, with `motion` says how they came there. The state takes the events. The `new_interfaces`
+/// are then still to be remeshed.
 TopologyReport change_topology(State& state, const TopologyOptions& options, const Scene& moved,
                                const InterfaceMotion& motion);
+
+/// Those of the interfaces of a scene that an earlier scene has not: what events have made.
+[[nodiscard]] std::vector<std::size_t> new_interfaces(const Scene& before, const Scene& after);
 
 /// Why the interfaces may not stand as they do: two touch, or one touches itself; empty when none
 /// does. A surface that could be remeshed is known not to touch itself.

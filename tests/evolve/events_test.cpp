@@ -77,6 +77,39 @@ TEST(EvolutionEvents, MergeDropsThatMeetAndGoOn) {
   EXPECT_TRUE(evolution.events().empty());
 }
 
+Interface distant_drop(int id) {
+  Interface drop;
+  drop.drop = id;
+  drop.mesh = stretched_sphere(100, Vec3(0.7, 0.5, 0.4));
+  for (Vec3& x : drop.mesh.x) x += Vec3(-3.0, 4.0, 0.0);
+  drop.C0 = 100 / 12.566;
+  drop.volume = drop.initial_volume = enclosed_volume(drop.mesh);
+  return drop;
+}
+
+// A drop that has no part in an event goes on as if it were alone.
+TEST(EvolutionEvents, LeaveOtherDropsAlone) {
+  Scene together = two_drops(), alone = together;
+  together.interfaces.insert(together.interfaces.begin(), distant_drop(2));
+  alone.interfaces.assign(1, distant_drop(2));
+  together.liquids.add({});
+  alone.liquids.resize(2);
+  assign_regions(together);
+  assign_regions(alone);
+  Evolution evolution = evolution_of(together, true), other = evolution_of(alone, true);
+  ASSERT_TRUE(run(evolution, 100).ok);
+  ASSERT_EQ(evolution.events().size(), 1U);
+  ASSERT_TRUE(other.prepare().ok);
+  while (other.step() < evolution.step()) {
+    ASSERT_TRUE(other.solve().ok);
+    ASSERT_TRUE(other.advance().ok);
+  }
+  ASSERT_EQ(other.t(), evolution.t());
+  ASSERT_EQ(evolution.scene().interfaces[0].drop, 2);
+  EXPECT_EQ(evolution.scene().interfaces[0].mesh, other.scene().interfaces[0].mesh);
+  EXPECT_EQ(evolution.drop_rows()[0].volume_correction, other.drop_rows()[0].volume_correction);
+}
+
 TEST(EvolutionEvents, ArePartOfTheCheckpointAfterThem) {
   Evolution evolution = evolution_of(two_drops(), true);
   ASSERT_TRUE(run(evolution, 100).ok);
