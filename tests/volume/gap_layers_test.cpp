@@ -1,4 +1,4 @@
-#include "meniscus/volume/gap_layers.hpp"
+#include "tests/volume/gap_layers.hpp"
 
 #include <cmath>
 #include <numbers>
