@@ -13,7 +13,7 @@
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/topology/cut_off.hpp"
 #include "meniscus/topology/face_patch.hpp"
-#include "meniscus/topology/thread.hpp"
+#include "meniscus/topology/thread_search.hpp"
 
 namespace meniscus {
 namespace {
@@ -28,42 +28,8 @@ constexpr double kWidest = 1.5;
 /// perimeter is no measure of a thread, and what seems a neck may be the corner of an edge.
 constexpr std::size_t kFewestFaces = 10;
 constexpr double kApart = 4.0;  // radii between two cuts: what lies between is a drop, not a slice
-/// Thicknesses around a place without a thread within which others are taken to have none: a
-/// quarter of the radius, which is how far the sections of a thread are apart.
-constexpr double kLikewise = 0.125;
-/// Least thickness, in the widest radius followed, of a place that answers for others: where the
-/// liquid is thinner, a guess of the axis may fail beside a thread.
-constexpr double kThick = 1.0;
-
-/// A place where the liquid is thin: half-way from a vertex to the surface opposite.
-struct ThinPlace {
-  double thickness;
-  Vec3 middle;
-};
-
 bool comes_before(const Vec3& a, const Vec3& b) {
   return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
-}
-
-/// In an order that does not depend on how vertices are numbered.
-std::vector<ThinPlace> thin_places(const SurfaceMesh& mesh, const SurfaceTree& tree, Side side,
-                                   double widest) {
-  std::vector<ThinPlace> places;
-  const VertexField<Vec3> area = vertex_area_vectors(mesh);
-  const double skip = 1e-3 * widest;  // leaves the faces at the vertex behind
-  // A section's mean radius may be less than half of what one vertex sees across it.
-  const double farthest = 2.5 * widest;
-  for (const VertexId v : mesh.x.ids()) {
-    const Vec3 across = sign_of(side) * area[v].normalized();
-    const auto hit = tree.first_hit(mesh.x[v] + skip * across, across, farthest);
-    if (!hit) continue;
-    places.push_back({hit->distance, 0.5 * (mesh.x[v] + hit->point)});
-  }
-  std::ranges::sort(places, [](const ThinPlace& a, const ThinPlace& b) {
-    return a.thickness != b.thickness ? a.thickness < b.thickness
-                                      : comes_before(a.middle, b.middle);
-  });
-  return places;
 }
 
 /// Whether all faces that a section crosses meet in one vertex: it is the end of a point.
@@ -149,16 +115,6 @@ Section refined(const SurfaceMesh& mesh, const SurfaceTree& tree, const Section&
   return best;
 }
 
-bool is_near(const Thread& thread, const Vec3& x) {
-  return std::ranges::any_of(thread.sections, [&](const Section& section) {
-    return (x - section.center).norm() < 1.3 * section.radius;
-  });
-}
-
-bool is_near(const ThinPlace& threadless, const Vec3& x) {
-  return (x - threadless.middle).norm() < kLikewise * threadless.thickness;
-}
-
 /// Of necks in rising order of radius, those that no thinner one lies close to.
 std::vector<Neck> well_apart(std::vector<Neck> necks) {
   std::ranges::sort(necks, [](const Neck& a, const Neck& b) {
@@ -174,69 +130,14 @@ std::vector<Neck> well_apart(std::vector<Neck> necks) {
   return kept;
 }
 
-/// Looks for the threads of a surface, from the thinnest place up.
-class ThreadSearch {
- public:
-  ThreadSearch(const SurfaceMesh& mesh, const SurfaceTree& tree, Side side, double widest)
-      : mesh_(mesh), tree_(tree), side_(side), widest_(widest) {}
-
-  void visit(const ThinPlace& place) {
-    const auto is_known = [&](const auto& other) { return is_near(other, place.middle); };
-    if (std::ranges::any_of(threads_, is_known)) return;
-    if (std::ranges::any_of(threadless_, is_known)) {
-      skipped_.push_back(place);
-      return;
-    }
-    Thread thread = traced(place);
-    if (thread.sections.empty()) {
-      if (side_ == Side::inside && place.thickness >= kThick * widest_)
-        threadless_.push_back(place);
-      return;
-    }
-    add_from_skipped(thread);
-    if (std::ranges::none_of(threads_, is_known)) threads_.push_back(std::move(thread));
-  }
-  [[nodiscard]] const std::vector<Thread>& threads() const { return threads_; }
-
- private:
-  [[nodiscard]] Thread traced(const ThinPlace& place) const {
-    return traced_thread(mesh_, tree_, place.middle, side_, widest_);
-  }
-  /// A thread that a place found was in reach of a thinner place, if one that was skipped finds it:
-  /// that one's sections count, as if none had been skipped.
-  void add_from_skipped(const Thread& thread) {
-    std::vector<ThinPlace> others;
-    for (const ThinPlace& place : std::exchange(skipped_, {})) {
-      const auto is_known = [&](const Thread& other) { return is_near(other, place.middle); };
-      if (std::ranges::any_of(threads_, is_known)) continue;
-      if (!is_near(thread, place.middle)) {
-        others.push_back(place);
-        continue;
-      }
-      if (Thread found = traced(place); !found.sections.empty())
-        threads_.push_back(std::move(found));
-    }
-    skipped_ = std::move(others);
-  }
-
-  const SurfaceMesh& mesh_;
-  const SurfaceTree& tree_;
-  Side side_;
-  double widest_;
-  std::vector<Thread> threads_;
-  std::vector<ThinPlace> threadless_, skipped_;
-};
-
 }  // namespace
 
 std::vector<Neck> find_necks(const SurfaceMesh& mesh, const SurfaceTree& tree, Side side,
                              double radius, const SurfaceMotion& motion) {
-  const double widest = kWidest * radius;
   const FaceNeighbours neighbours = face_neighbours(mesh, SurfaceTopology(mesh));
-  ThreadSearch search(mesh, tree, side, widest);
-  for (const ThinPlace& place : thin_places(mesh, tree, side, widest)) search.visit(place);
+  const FoundThreads found = find_threads(mesh, tree, side, kWidest * radius);
   std::vector<Neck> necks;
-  for (const Thread& thread : search.threads())
+  for (const Thread& thread : found.threads)
     for (int k = 0; k < static_cast<int>(thread.sections.size()); ++k) {
       const Section& section = thread.sections[static_cast<std::size_t>(k)];
       if (section.radius >= radius || !widens(thread, k, 1) || !widens(thread, k, -1)) continue;
