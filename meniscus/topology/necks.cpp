@@ -87,7 +87,7 @@ double widening_rate(const Section& section, const SurfaceMotion& motion) {
 
 /// The thinnest section between the neighbours of section k: golden-section search along the line
 /// of their centroids.
-Section refined(const SurfaceMesh& mesh, const SurfaceTree& tree, const Section& rough) {
+Section thinnest_near(const SurfaceMesh& mesh, const SurfaceTree& tree, const Section& rough) {
   constexpr double kGolden = 0.6180339887498949;
   constexpr int kSteps = 12;  // the bracket of half a radius shrinks by 300
   Section best = rough;
@@ -141,7 +141,7 @@ std::vector<Neck> find_necks(const SurfaceMesh& mesh, const SurfaceTree& tree, S
     for (int k = 0; k < static_cast<int>(thread.sections.size()); ++k) {
       const Section& section = thread.sections[static_cast<std::size_t>(k)];
       if (section.radius >= radius || !widens(thread, k, 1) || !widens(thread, k, -1)) continue;
-      const Section thinnest = refined(mesh, tree, section);
+      const Section thinnest = thinnest_near(mesh, tree, section);
       if (thinnest.faces.size() < kFewestFaces || is_around_vertex(mesh, thinnest) ||
           is_near_end(mesh, neighbours, thinnest))
         continue;

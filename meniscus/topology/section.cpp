@@ -70,8 +70,8 @@ Vec3 crossing_point(const SurfaceMesh& mesh, const Plane& plane, const EdgeKey& 
 }
 
 /// Follows the curve from one edge; empty when it leaves the faces that were looked at.
-Section followed(const SurfaceMesh& mesh, const Plane& plane, EdgeKey start, Crossings& crossings,
-                 bool& is_closed) {
+Section curve_from(const SurfaceMesh& mesh, const Plane& plane, EdgeKey start, Crossings& crossings,
+                   bool& is_closed) {
   Section section;
   section.axis = plane.normal;
   EdgeKey at = start;
@@ -132,7 +132,7 @@ SectionResult section_around(const SurfaceMesh& mesh, const SurfaceTree& tree, c
   for (const Crossing& crossing : crossings) {
     if (crossing.is_followed) continue;
     bool is_closed = false;
-    Section section = followed(mesh, plane, crossing.from, crossings, is_closed);
+    Section section = curve_from(mesh, plane, crossing.from, crossings, is_closed);
     const bool goes_around = is_closed && std::abs(turns_around(section, center)) > 0.5;
     const std::pair<bool, double> rank{!goes_around, distance_to(section, center)};
     if (rank >= best_rank) continue;

@@ -70,7 +70,7 @@ class ThreadSearch {
       return;
     }
     ++num_tried_;
-    Thread thread = traced(place);
+    Thread thread = thread_at(place);
     if (!is_near(thread, place.middle)) threadless_.push_back(place);
     if (thread.sections.empty()) return;
     add_from_skipped(thread);
@@ -86,8 +86,8 @@ class ThreadSearch {
       return distance < kLikewise * threadless.thickness;
     return distance < kBeside * widest_ && other.thickness < kAlike * threadless.thickness;
   }
-  [[nodiscard]] Thread traced(const ThinPlace& place) const {
-    return traced_thread(mesh_, tree_, place.middle, side_, widest_);
+  [[nodiscard]] Thread thread_at(const ThinPlace& place) const {
+    return thread_through(mesh_, tree_, place.middle, side_, widest_);
   }
   /// A thread that a place found was in reach of a thinner place, if one that was skipped finds it:
   /// that one's sections count, as if none had been skipped.
@@ -100,7 +100,7 @@ class ThreadSearch {
         others.push_back(place);
         continue;
       }
-      if (Thread found = traced(place); !found.sections.empty())
+      if (Thread found = thread_at(place); !found.sections.empty())
         threads_.push_back(std::move(found));
     }
     skipped_ = std::move(others);

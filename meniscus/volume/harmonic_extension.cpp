@@ -66,7 +66,7 @@ void add(linear::CsrMatrix& matrix, std::int32_t row, std::int32_t column, doubl
 }
 
 /// The matrices of ∫_K |K|⁻¹ ∇φ_i·∇φ_j, summed over the cells of a mesh as it stands.
-HarmonicPattern assembled(HarmonicPattern pattern, const TetMesh& mesh) {
+HarmonicPattern matrices_of(HarmonicPattern pattern, const TetMesh& mesh) {
   pattern.stiffness.values.assign(pattern.stiffness.columns.size(), 0.0);
   pattern.coupling.values.assign(pattern.coupling.columns.size(), 0.0);
   for (const CellId c : mesh.cells.ids()) {
@@ -130,7 +130,7 @@ HarmonicPattern::HarmonicPattern(const TetMesh& mesh, TetVertexId first) : first
 }
 
 HarmonicExtension::HarmonicExtension(const HarmonicPattern& pattern, const TetMesh& mesh)
-    : matrices_(assembled(pattern, mesh)), solver_(matrices_.stiffness.view()) {}
+    : matrices_(matrices_of(pattern, mesh)), solver_(matrices_.stiffness.view()) {}
 
 int HarmonicExtension::extend(Field<TetVertexId, Vec3>& w) const {
   // Any smooth extension will do, so the residual need not be small, and an iterate cut short after
