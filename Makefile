@@ -49,13 +49,15 @@ check: ## format, layers and citations only; nothing is compiled
 	@python3 -B tests/citations/check_citations.py .
 
 .PHONY: check-long
-check-long: ## clang-tidy, the long suites, every test under the sanitizers
+check-long: ## clang-tidy, the long suites, every test and 10,000 broken inputs under the sanitizers
 	@scripts/setup.sh long
 	@$(call build,test,-DMENISCUS_LONG_TESTS=ON)
 	@scripts/check_tidy.sh build/test
 	@ctest --preset test -j $(JOBS)
 	@$(call build,dev)
 	@ctest --preset dev -j $(JOBS)
+	@UBSAN_OPTIONS=halt_on_error=1 ASAN_OPTIONS=detect_leaks=0 \
+	  python3 tests/end_to_end/fuzz.py build/dev/meniscus build/dev/tests/fuzz-long 10000
 
 .PHONY: coverage
 coverage: ## which lines the tests reach: out/coverage/index.html

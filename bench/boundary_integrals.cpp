@@ -120,7 +120,7 @@ void solve(benchmark::State& state) {
   for (auto _ : state) {
     const auto flow = make_boundary_integral_flow({});
     const FlowSolution report = flow->solve({scene}, {});
-    if (!report.ok) state.SkipWithError("the flow was not solved");
+    if (!report.ok()) state.SkipWithError("the flow was not solved");
     iterations = report.iterations;
   }
   state.counters["iterations"] = iterations;

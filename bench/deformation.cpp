@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
                                              .period = std::atof(argv[1])};
   if (argc > 3) options.edge_floor = std::atof(argv[3]);
   if (argc > 4) options.step = std::atof(argv[4]);
-  if (argc > 5) options.equilibrium = std::atof(argv[5]);
+  if (argc > 5) options.spring_tolerance = std::atof(argv[5]);
   const auto r = meniscus::test::deform_and_return(options);
   std::printf(
       "T %g N0 %g floor %g: vertices %d, at most %d, %d in the end; shape error %.3g rms, "

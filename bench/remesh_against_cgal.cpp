@@ -40,7 +40,7 @@ RemeshOptions even(double edge) {
           .edge_floor = edge,
           .edge_ceiling = edge * (1.0 + 1e-9),
           .min_vertices = 4,
-          .equilibrium = 0.01};
+          .spring_tolerance = 0.01};
 }
 
 /// Even triangles, then every vertex moved at random within its tangent plane by up to a fifth of
@@ -48,8 +48,8 @@ RemeshOptions even(double edge) {
 SurfaceMesh noisy(SurfaceMesh mesh, int num_vertices) {
   const double edge = length_of_density(num_vertices / surface_area(mesh));
   for (int pass = 0; pass < 2; ++pass)
-    if (const RemeshReport report = remesh(mesh, even(edge)); !report.ok)
-      std::printf("input: %s\n", report.failure.c_str());
+    if (const RemeshReport report = remesh(mesh, even(edge)); !report.ok())
+      std::printf("input: %s\n", report.text().c_str());
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const VertexField<Vec3> areas = vertex_area_vectors(mesh);
@@ -89,7 +89,7 @@ Outcome by_us(const SurfaceMesh& input, double edge) {
   const RemeshReport report = remesh(outcome.mesh, even(edge));
   outcome.seconds = cpu_seconds() - start;
   outcome.volume_change = report.volume_change;
-  if (!report.ok) std::printf("ours: %s\n", report.failure.c_str());
+  if (!report.ok()) std::printf("ours: %s\n", report.text().c_str());
   return outcome;
 }
 

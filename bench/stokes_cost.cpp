@@ -122,7 +122,7 @@ void print_solve(const Arguments& arguments, const StokesProblem& problem, doubl
                assembly = end - begin - report.setup_seconds - report.krylov_seconds,
                all = end - start;
   const std::string iterations =
-      report.ok && report.solver == options.linear ? std::to_string(report.iterations) : "failed";
+      report.ok() && report.solver == options.linear ? std::to_string(report.iterations) : "failed";
   fmt::print(
       "| {} | {} | {} | {:g} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} | "
       "{:.2f} |\n",
@@ -145,8 +145,8 @@ int main(int count, char** given) {
   TetMesh mesh;
   if (const VolumeMeshReport report =
           tetrahedralize(scene, suited_volume_mesh(arguments.options.elements), mesh);
-      !report.ok) {
-    fmt::print("{}\n", report.failure);
+      !report.ok()) {
+    fmt::print("{}\n", report.text());
     return EXIT_FAILURE;
   }
   const FlowSpace space = flow_space(mesh, arguments.options.elements);

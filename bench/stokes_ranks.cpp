@@ -15,7 +15,7 @@
 
 #include <fmt/format.h>
 
-#include "meniscus/flow/fem/share.hpp"
+#include "meniscus/flow/fem/partition.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
 #include "meniscus/linear/collective.hpp"
 #include "meniscus/volume/tetrahedralize.hpp"
@@ -41,14 +41,14 @@ using Times = std::array<double, num_phases>;
 
 Times measured(const StokesProblem& problem, const Options& options, int& iterations) {
   Times times{};
-  times[share] = seconds([&] { (void)make_share(problem.space, world()); });
+  times[share] = seconds([&] { (void)make_partition(problem.space, world()); });
   std::optional<StokesSolver> solver;
   times[share_and_sparsity] = seconds([&] { solver.emplace(problem.space, options); });
   PhaseTimes ignored;
   const auto solve = [&](linear::Preconditioner preconditioner) {
     StokesState state = solver->state_at_rest();
     const StokesReport report = solver->solve(problem, state, preconditioner, ignored);
-    iterations = report.ok ? report.iterations : -1;
+    iterations = report.ok() ? report.iterations : -1;
   };
   times[first_solve] = seconds([&] { solve(linear::Preconditioner::fresh); });
   times[second_solve] = seconds([&] { solve(linear::Preconditioner::kept); });
@@ -71,8 +71,8 @@ int main(int count, char** arguments) {
   if (count > 3 && std::string_view(arguments[3]) == "P2-P1") options.elements = Elements::p2_p1;
   if (count > 5) options.petsc_options = arguments[5];
   TetMesh mesh;
-  if (const VolumeMeshReport report = tetrahedralize(scene, {}, mesh); !report.ok) {
-    fmt::print("{}\n", report.failure);
+  if (const VolumeMeshReport report = tetrahedralize(scene, {}, mesh); !report.ok()) {
+    fmt::print("{}\n", report.text());
     return EXIT_FAILURE;
   }
   const FlowSpace space = flow_space(mesh, options.elements);

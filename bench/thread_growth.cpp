@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
   const Scene scene = scene_of(io::read_surface(argv[1]).mesh, lambda);
   const SurfaceMesh& mesh = scene.interfaces[0].mesh;
   const FlowSolution flow = bem::make_boundary_integral_flow({.threads = 2})->solve({scene}, {});
-  if (!flow.ok) return 1;
+  if (!flow.ok()) return 1;
   const InterfaceMotion motion = normal_motion(scene, flow.velocity, MotionNormal::area_vector);
   VertexField<double> radius(mesh.num_vertices()), rate(mesh.num_vertices());
   for (const VertexId v : mesh.x.ids()) {

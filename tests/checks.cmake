@@ -14,6 +14,11 @@ foreach(CHECK layers citations)
   meniscus_static_check(${CHECK}_check Python3::Interpreter -B ${FOLDER}/check_${CHECK}_test.py)
 endforeach()
 
+function(meniscus_program_of_tests TARGET SOURCE ROOM)
+  add_executable(${TARGET} ${SOURCE} ${MENISCUS_PROGRAM_SOURCES})
+  target_link_libraries(${TARGET} PRIVATE meniscus_options meniscus_${ROOM})
+endfunction()
+
 add_test(NAME end_to_end COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/run.py
   $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/end_to_end)
 set_tests_properties(end_to_end PROPERTIES TIMEOUT 900)
@@ -30,6 +35,26 @@ add_test(NAME interrupted COMMAND Python3::Interpreter
   ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/interrupted.py
   $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/interrupted)
 set_tests_properties(interrupted PROPERTIES TIMEOUT 900)
+
+# Every tenth write, rename and fsync of a run fails; with the long suites every one. (The address
+# sanitizer must be loaded before any other library.)
+if(NOT MENISCUS_SANITIZE)
+  add_library(failing_calls SHARED ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/failing_calls.c)
+  target_link_libraries(failing_calls PRIVATE ${CMAKE_DL_LIBS})
+  set(STRIDE 10)
+  if(MENISCUS_LONG_TESTS)
+    set(STRIDE 1)
+  endif()
+  add_test(NAME every_fault COMMAND Python3::Interpreter
+    ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/every_fault.py $<TARGET_FILE:meniscus_program>
+    $<TARGET_FILE:failing_calls> ${CMAKE_CURRENT_BINARY_DIR}/every_fault ${STRIDE})
+  set_tests_properties(every_fault PROPERTIES TIMEOUT 900)
+endif()
+
+# `make check-long` runs ten thousand under the sanitizers.
+add_test(NAME fuzz COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/fuzz.py
+  $<TARGET_FILE:meniscus_program> ${CMAKE_CURRENT_BINARY_DIR}/fuzz 200)
+set_tests_properties(fuzz PROPERTIES TIMEOUT 900)
 
 add_test(NAME refusals COMMAND Python3::Interpreter
   ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/refusals.py
@@ -78,6 +103,15 @@ add_test(NAME event_ranks COMMAND Python3::Interpreter
   ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/event_ranks.py $<TARGET_FILE:meniscus_program>
   ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/event_ranks ${MPIEXEC_EXECUTABLE})
 set_tests_properties(event_ranks PROPERTIES TIMEOUT 900 LABELS mpi PROCESSORS 3
+  ENVIRONMENT "${MENISCUS_RANKS_ENVIRONMENT}")
+
+# A program of one's own that puts fields on a run.
+meniscus_program_of_tests(passive_scalar ${PROJECT_SOURCE_DIR}/examples/programs/passive_scalar.cpp app)
+meniscus_program_of_tests(field_difference end_to_end/field_difference.cpp io)
+add_test(NAME fields COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/fields.py
+  $<TARGET_FILE:passive_scalar> $<TARGET_FILE:meniscus_program> $<TARGET_FILE:field_difference>
+  ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/fields ${MPIEXEC_EXECUTABLE})
+set_tests_properties(fields PROPERTIES TIMEOUT 900 LABELS mpi PROCESSORS 3
   ENVIRONMENT "${MENISCUS_RANKS_ENVIRONMENT}")
 
 # Dynamics against independent references, all runs but those made once: an hour or more.

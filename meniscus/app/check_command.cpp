@@ -11,6 +11,7 @@
 #include "meniscus/case/check_file.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/version.hpp"
+#include "meniscus/io/run_files.hpp"
 #include "meniscus/report/check_page.hpp"
 
 namespace meniscus {
@@ -87,7 +88,7 @@ std::map<std::string, RunTables> tables_of(const fs::path& folder, const std::st
   for (const CheckedRun& run : check.runs) {
     if (!is_chosen(run, arguments)) continue;
     if (arguments.is_recorded) {
-      if (fs::exists(folder / "results" / (file_name_of(run.name) + "-drops.csv")))
+      if (fs::exists(recorded_file(folder / "results", run.name, io::RunFiles::drops)))
         tables[run.name] = read_record(folder / "results", run.name);
       continue;
     }

@@ -13,18 +13,20 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/version.hpp"
 #include "meniscus/io/atomic_file.hpp"
+#include "meniscus/io/run_files.hpp"
 
 namespace meniscus {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+using io::RunFiles;
 
 /// Steps that a record keeps, besides the last.
 constexpr std::size_t kRecordedSteps = 120;
 
 Json read_run_json(const fs::path& folder) {
-  std::ifstream file(folder / "run.json");
+  std::ifstream file(folder / RunFiles::record);
   Json json = Json::parse(file, nullptr, false);
   return json.is_object() ? json : Json::object();
 }
@@ -60,7 +62,7 @@ std::set<std::string> kept_steps(const io::Table& history) {
 }
 
 /// A number with seven significant digits, beyond any figure compared; other cells as they are.
-std::string shortened(const std::string& cell) {
+std::string short_number(const std::string& cell) {
   if (cell.find_first_of(".e") == std::string::npos) return cell;
   char* end = nullptr;
   const double value = std::strtod(cell.c_str(), &end);
@@ -74,7 +76,7 @@ std::string thinned(const io::Table& table, const std::set<std::string>& steps) 
     if (!steps.contains(row[column])) continue;
     for (std::size_t k = 0; k < row.size(); ++k) {
       if (k > 0) text += ',';
-      text += shortened(row[k]);
+      text += short_number(row[k]);
     }
     text += '\n';
   }
@@ -105,30 +107,38 @@ RunState state_of_run(const fs::path& folder, const Case& c) {
 }
 
 RunTables read_run_tables(const fs::path& folder) {
-  return {io::read_table(folder / "drops.csv"), io::read_table(folder / "history.csv"),
-          io::read_table(folder / "events.csv")};
+  return {io::read_table(folder / RunFiles::drops), io::read_table(folder / RunFiles::history),
+          io::read_table(folder / RunFiles::events)};
+}
+
+fs::path recorded_file(const fs::path& results, const std::string& run, const char* file) {
+  return results / fmt::format("{}-{}", file_name_of(run), file);
 }
 
 RunTables read_record(const fs::path& results, const std::string& run) {
-  const std::string name = file_name_of(run);
-  const fs::path events = results / (name + "-events.csv");
-  return {io::read_commented_table(results / (name + "-drops.csv")),
-          io::read_commented_table(results / (name + "-history.csv")),
-          fs::exists(events) ? io::read_commented_table(events) : io::Table{}};
+  const auto read = [&](const char* file) {
+    return io::read_commented_table(recorded_file(results, run, file));
+  };
+  const bool has_events = fs::exists(recorded_file(results, run, RunFiles::events));
+  return {read(RunFiles::drops), read(RunFiles::history),
+          has_events ? read(RunFiles::events) : io::Table{}};
 }
 
 void write_record(const fs::path& results, const std::string& run, const fs::path& folder) {
   const RunTables tables = read_run_tables(folder);
   const std::set<std::string> steps = kept_steps(tables.history);
-  const std::string head = provenance(folder), name = file_name_of(run);
+  const std::string head = provenance(folder);
   fs::create_directories(results);
-  io::write_file(results / (name + "-drops.csv"), head + thinned(tables.drops, steps));
-  io::write_file(results / (name + "-history.csv"), head + thinned(tables.history, steps));
+  const auto write = [&](const char* file, const io::Table& table, const auto& kept) {
+    io::write_file(recorded_file(results, run, file), head + thinned(table, kept));
+  };
+  write(RunFiles::drops, tables.drops, steps);
+  write(RunFiles::history, tables.history, steps);
   if (tables.events.rows.empty()) return;
   std::set<std::string> all;
   const std::size_t step = tables.events.find("step").value();
   for (const auto& row : tables.events.rows) all.insert(row[step]);
-  io::write_file(results / (name + "-events.csv"), head + thinned(tables.events, all));
+  write(RunFiles::events, tables.events, all);
 }
 
 }  // namespace meniscus

@@ -17,6 +17,10 @@ enum class RunState { absent, unfinished, finished };
 
 [[nodiscard]] RunTables read_run_tables(const std::filesystem::path& folder);
 
+/// Where the record of a run keeps one of its tables.
+[[nodiscard]] std::filesystem::path recorded_file(const std::filesystem::path& results,
+                                                  const std::string& run, const char* file);
+
 /// What is kept of a run beside its case: drops.csv and history.csv thinned to a hundred-odd steps,
 /// and events.csv if anything happened, each headed by who made it and at what cost. Throws
 /// InvalidInput when there is no such record.

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <functional>
+#include <new>
 
 #include <CLI/CLI.hpp>
 
@@ -29,8 +30,9 @@ void add_watch(CLI::App& command, WatchArguments& watch) {
       ->needs(flag);
 }
 
-void add_run(CLI::App& app, Action& action) {
+void add_run(CLI::App& app, Action& action, const SetUp& set_up) {
   auto arguments = std::make_shared<RunArguments>();
+  arguments->set_up = set_up;
   CLI::App* command = app.add_subcommand("run", "Simulate a case");
   command->add_option("case", arguments->case_file, "Case file (TOML)")->required();
   command->add_option("-o,--output", arguments->output,
@@ -194,14 +196,15 @@ int print_error(const std::string& text, int status) {
 
 }  // namespace
 
-int run_command_line(int argc, char** argv) {
+int run_command_line(int argc, char** argv, SetUp set_up) {
   CLI::App app("Deforming liquid drops with a sharp, conforming interface", "meniscus");
   app.set_version_flag("--version", fmt::format("meniscus {} ({})", version_string, commit_string));
   app.require_subcommand(1);
   ignore_write_signals();
   Action action;
-  for (const auto add : {add_run, add_resume, add_mesh, add_remesh, add_check, add_report,
-                         add_compare, add_explain, add_examples})
+  add_run(app, action, set_up);
+  for (const auto add : {add_resume, add_mesh, add_remesh, add_check, add_report, add_compare,
+                         add_explain, add_examples})
     add(app, action);
   try {
     app.parse(argc, argv);
@@ -215,6 +218,8 @@ int run_command_line(int argc, char** argv) {
     return print_error(error.what(), 2);
   } catch (const RunFailure& error) {
     return print_error(error.what(), 1);
+  } catch (const std::bad_alloc&) {  // sizes are foreseen; what other programs take is not
+    return print_error("not enough memory: fewer nodes or a coarser mesh take less", 1);
   } catch (const std::exception& error) {
     return print_error(error.what(), 1);
   }

@@ -1,9 +1,13 @@
 #pragma once
 
+#include "meniscus/app/commands.hpp"
+
 namespace meniscus {
 
 /// Exit status: 0 done; 1 the run could not go on to its end (a checkpoint is left); 2 the input
 /// was wrong (nothing is written).
-[[nodiscard]] int run_command_line(int argc, char** argv);
+///
+/// A program of its own may give what it puts on the state of a new run (`RunArguments::set_up`).
+[[nodiscard]] int run_command_line(int argc, char** argv, SetUp set_up = {});
 
 }  // namespace meniscus

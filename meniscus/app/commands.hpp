@@ -1,10 +1,17 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "meniscus/surface/constants.hpp"
+
 namespace meniscus {
+
+class Evolution;
+/// Changes the state of a new run before anything is written, as by putting fields on it.
+using SetUp = std::function<void(Evolution&)>;
 
 /// Whether and where the page of a run is served while it goes on.
 struct WatchArguments {
@@ -20,6 +27,7 @@ struct RunArguments {
   bool is_overwrite = false;
   bool is_quiet = false;
   WatchArguments watch = {};
+  SetUp set_up = {};  ///< called when the first meshes are made
 };
 /// `meniscus run`. Returns the exit status; so do all below.
 int run_command(const RunArguments& arguments);
@@ -47,7 +55,7 @@ struct RemeshArguments {
   std::string output;  ///< empty: the surface's name with "-remeshed" before its ending
   std::optional<double> nodes, edge_length, chordal_error;  ///< none: as many nodes as there are
   double edge_floor = 0.0;
-  double gradation = 0.5;
+  double gradation = kGradation;
   bool is_json = false;
   bool is_overwrite = false;
 };

@@ -1,8 +1,13 @@
 #include "meniscus/app/frames.hpp"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
+
+#include <fmt/ranges.h>
 
 #include "meniscus/core/archive_entries.hpp"
+#include "meniscus/core/error.hpp"
 #include "meniscus/io/vtk_file.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/curvature.hpp"
@@ -10,6 +15,21 @@
 
 namespace meniscus {
 namespace {
+
+// The arrays of frames other than carried fields.
+constexpr std::array kSurfaceArrays{"curvature",    "normal_velocity", "velocity",
+                                    "node_density", "pressure_jump",   "drop"};
+constexpr std::array kVolumeArrays{"velocity", "pressure", "region", "min_dihedral_deg"};
+
+template <class IdType>
+void check_names(const std::vector<CarriedField<IdType>>& fields,
+                 std::span<const char* const> taken) {
+  for (const CarriedField<IdType>& field : fields)
+    if (std::ranges::find(taken, field.name,
+                          [](const char* name) { return std::string_view(name); }) != taken.end())
+      reject_input("field \"{}\": frames have an array of this name; others are {}", field.name,
+                   fmt::join(taken, ", "));
+}
 
 void append(std::vector<double>& values, const Vec3& v) {
   values.insert(values.end(), {v.x(), v.y(), v.z()});
@@ -20,6 +40,7 @@ double corner_value(const TetMesh& mesh, std::span<const double> on_corners, Cel
                     TetVertexId v) {
   const CellVertices& cell = mesh.cells[c];
   const auto corner = static_cast<std::size_t>(std::ranges::find(cell, v) - cell.begin());
+  MENISCUS_ASSERT(corner < cell.size(), "vertex {} is none of cell {}", v.value, c.value);
   return on_corners[4 * static_cast<std::size_t>(c.value) + corner];
 }
 
@@ -60,9 +81,21 @@ std::vector<double> pressure_jump(const Evolution& evolution) {
 
 }  // namespace
 
+void check_field_names(const Evolution& evolution) {
+  for (const Interface& interface : evolution.scene().interfaces) {
+    check_names(interface.fields.on_vertices, kSurfaceArrays);
+    check_names(interface.fields.on_faces, kSurfaceArrays);
+  }
+  if (!evolution.state().mesh) return;
+  check_names(evolution.state().mesh->fields().on_vertices, kVolumeArrays);
+  check_names(evolution.state().mesh->fields().on_cells, kVolumeArrays);
+}
+
 void write_surface_frame(const std::filesystem::path& path, const Evolution& evolution) {
   const Scene& scene = evolution.scene();
   const auto& velocity = evolution.flow().velocity;
+  MENISCUS_ASSERT(velocity.empty() || velocity.size() == scene.interfaces.size(),
+                  "{} velocities of {} interfaces", velocity.size(), scene.interfaces.size());
   io::NamedArray curvature{"curvature", 1, {}}, normal_velocity{"normal_velocity", 1, {}},
       velocities{"velocity", 3, {}}, density{"node_density", 1, {}}, drop{"drop", 1, {}};
   std::vector<const SurfaceMesh*> surfaces;
@@ -95,6 +128,7 @@ void write_surface_frame(const std::filesystem::path& path, const Evolution& evo
 }
 
 void write_volume_frame(const std::filesystem::path& path, const Evolution& evolution) {
+  MENISCUS_ASSERT(evolution.state().mesh.has_value(), "there is no volume mesh to write");
   const TetMesh& mesh = evolution.state().mesh->tetrahedra();
   io::NamedArray velocity{"velocity", 3, {}}, region{"region", 1, {}},
       dihedral{"min_dihedral_deg", 1, {}};

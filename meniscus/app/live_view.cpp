@@ -1,7 +1,6 @@
 #include "meniscus/app/live_view.hpp"
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <thread>
 
@@ -10,6 +9,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
+#include "meniscus/io/run_files.hpp"
 #include "meniscus/report/report.hpp"
 
 namespace meniscus {
@@ -27,18 +27,6 @@ constexpr auto longest_pause = 5s;
 // Having heard of the end it fetches what is new, one thing after the other.
 constexpr auto settling_time = 1s;
 constexpr auto longest_farewell = 6s;
-
-/// The tables that can be asked for, by the path of the request.
-struct ServedTable {
-  std::string_view path;
-  const char *name, *file;
-};
-constexpr std::array<ServedTable, 5> served_tables = {
-    {{"/history.csv", "history", "history.csv"},
-     {"/drops.csv", "drops", "drops.csv"},
-     {"/events.csv", "events", "events.csv"},
-     {"/timing.csv", "timing", "timing.csv"},
-     {"/reference.csv", "reference", "reference.csv"}}};
 
 std::int64_t size_of(const fs::path& file) {
   std::error_code error;
@@ -134,15 +122,17 @@ WatchServer::Answer LiveView::answer(std::string_view path, std::optional<std::i
 
 std::string LiveView::state() const {
   nlohmann::ordered_json tables = nlohmann::ordered_json::object();
-  for (const auto& [path, name, file] : served_tables) tables[name] = size_of(folder_ / file);
+  for (const auto& [name, file] : io::RunFiles::tables) tables[name] = size_of(folder_ / file);
   return nlohmann::ordered_json{
       {"status", status_}, {"frames", frames_.size()}, {"cuts", cuts_.size()}, {"tables", tables}}
       .dump();
 }
 
 WatchServer::Answer LiveView::table(std::string_view path, std::int64_t from) const {
-  const auto found = std::ranges::find(served_tables, path, &ServedTable::path);
-  if (found == served_tables.end()) return {404, "text/plain", "not here\n", nullptr};
+  const auto found = std::ranges::find_if(io::RunFiles::tables, [&](const io::RunTableFile& table) {
+    return path.starts_with('/') && path.substr(1) == table.file;
+  });
+  if (found == io::RunFiles::tables.end()) return {404, "text/plain", "not here\n", nullptr};
   const fs::path file = folder_ / found->file;
   const std::int64_t length = std::clamp<std::int64_t>(size_of(file) - from, 0, most_table_bytes);
   std::string rows(static_cast<std::size_t>(length), '\0');

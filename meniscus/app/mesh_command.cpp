@@ -6,6 +6,7 @@
 #include "meniscus/app/commands.hpp"
 #include "meniscus/app/frames.hpp"
 #include "meniscus/app/output_file.hpp"
+#include "meniscus/app/wording.hpp"
 #include "meniscus/case/case.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/evolve/evolution.hpp"
@@ -50,8 +51,9 @@ int mesh_command(const MeshArguments& arguments) {
   if (c.method == FlowMethod::boundary_integral && !arguments.output.empty())
     reject_input("--output {}: boundary integrals need no volume mesh", arguments.output);
   Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c), make_moving_mesh(c));
-  if (const EvolutionReport prepared = evolution.prepare(); !prepared.ok)
-    throw RunFailure(fmt::format("the mesh could not be made: {}", prepared.failure));
+  evolution.set_listener(log_notice);
+  if (const Report prepared = evolution.prepare(); !prepared.ok())
+    throw RunFailure(fmt::format("the mesh could not be made: {}", prepared.text()));
   print_surfaces(evolution.scene());
   if (evolution.state().mesh) print_quality(evolution.state().mesh->tetrahedra());
   if (!arguments.output.empty()) write_volume_frame(arguments.output, evolution);

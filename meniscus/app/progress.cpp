@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "meniscus/app/ranks.hpp"
+#include "meniscus/core/error.hpp"
 
 namespace meniscus {
 namespace {
@@ -26,6 +27,7 @@ std::string duration(double seconds) {
 
 std::string bar(double fraction) {
   constexpr int kWidth = 20;
+  MENISCUS_ASSERT(std::isfinite(fraction), "a fraction of {:g}", fraction);
   const int filled = static_cast<int>(std::lround(kWidth * std::clamp(fraction, 0.0, 1.0)));
   return std::string(static_cast<std::size_t>(filled), '#') +
          std::string(static_cast<std::size_t>(kWidth - filled), '.');

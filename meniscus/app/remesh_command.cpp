@@ -8,10 +8,10 @@
 #include "meniscus/app/output_file.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/surface_file.hpp"
-#include "meniscus/mesh/solid_check.hpp"
 #include "meniscus/mesh/surface_distance.hpp"
 #include "meniscus/mesh/surface_quality.hpp"
-#include "meniscus/surface/remesh_target.hpp"
+#include "meniscus/solids/remesh_target.hpp"
+#include "meniscus/solids/solid_check.hpp"
 
 namespace meniscus {
 namespace {
@@ -54,9 +54,17 @@ RemeshTarget target_of(const RemeshArguments& arguments, int num_vertices) {
 
 SurfaceMesh read_solid(const std::string& file) {
   SurfaceMesh mesh = io::read_surface(file).mesh;
-  if (const std::string fault = find_solid_defect(mesh); !fault.empty())
-    reject_input("{}: {}", file, fault);
+  if (const auto fault = find_solid_defect(mesh)) reject_input("{}: {}", file, fault->text);
   return mesh;
+}
+
+/// As `remesh_to`; what it refuses is refused with the name of the file.
+TargetReport remesh_file(const std::string& file, SurfaceMesh& mesh, const RemeshTarget& target) {
+  try {
+    return remesh_to(mesh, target);
+  } catch (const InvalidInput& refused) {
+    reject_input("{}: {}", file, refused.what());
+  }
 }
 
 const char* name(RemeshTarget::By by) {
@@ -184,10 +192,10 @@ int remesh_command(const RemeshArguments& arguments) {
   const SurfaceMesh given = read_solid(arguments.surface);
   SurfaceMesh mesh = given;
   const RemeshTarget target = target_of(arguments, given.num_vertices());
-  TargetReport report = remesh_to(mesh, target);
-  if (!report.ok)
+  TargetReport report = remesh_file(arguments.surface, mesh, target);
+  if (!report.ok())
     throw RunFailure(
-        fmt::format("{}: could not be remeshed: {}", arguments.surface, report.failure));
+        fmt::format("{}: could not be remeshed: {}", arguments.surface, report.text()));
   io::write_surface(file, mesh);
   const Outcome outcome{target,
                         surface_quality(given, SurfaceTopology(given)),

@@ -4,16 +4,19 @@
 #include <fmt/format.h>
 
 #include "meniscus/app/commands.hpp"
+#include "meniscus/app/frames.hpp"
 #include "meniscus/app/interrupt.hpp"
 #include "meniscus/app/live_view.hpp"
 #include "meniscus/app/ranks.hpp"
 #include "meniscus/app/run_record.hpp"
 #include "meniscus/app/simulation.hpp"
+#include "meniscus/app/wording.hpp"
 #include "meniscus/case/case.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
 #include "meniscus/io/archive_file.hpp"
 #include "meniscus/io/atomic_file.hpp"
+#include "meniscus/io/run_files.hpp"
 #include "meniscus/report/report.hpp"
 
 namespace meniscus {
@@ -22,7 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 
 Evolution make_evolution(const Case& c, Scene scene) {
-  return {std::move(scene), c.evolution, make_flow_solver(c), make_moving_mesh(c)};
+  Evolution evolution(std::move(scene), c.evolution, make_flow_solver(c), make_moving_mesh(c));
+  evolution.set_listener(log_notice);
+  return evolution;
 }
 
 /// Either solver's work is shared out to all ranks.
@@ -34,7 +39,8 @@ Case shared_case(Case c) {
 
 /// What a checkpoint must say for `resume` to build the evolution again.
 std::function<void(Archive&)> case_description(const Case& c, const fs::path& folder) {
-  return [text = case_toml(c), folder = fs::absolute(folder / ".").string()](Archive& archive) {
+  return [text = case_toml(c),
+          folder = fs::absolute(folder / ".").lexically_normal().string()](Archive& archive) {
     archive.texts["case/toml"] = text;
     archive.texts["case/folder"] = folder;
   };
@@ -77,12 +83,12 @@ void begin_live_view(LiveView* view, Simulation& simulation, const Progress& pro
 int simulate(Simulation& simulation, const RunRecord& record, Progress& progress, LiveView* view) {
   watch_for_interrupts();
   std::string folder;
-  on_first_rank([&] {
-    record.write(simulation, "running");
-    begin_live_view(view, simulation, progress);
-    folder = simulation.directory().path().string();
-  });
   try {
+    on_first_rank([&] {
+      folder = simulation.directory().path().string();
+      record.write(simulation, "running");
+      begin_live_view(view, simulation, progress);
+    });
     const Outcome outcome = simulation.run(progress);
     progress.close();
     const std::string status = outcome == Outcome::done ? "done" : "stopped";
@@ -102,10 +108,11 @@ int simulate(Simulation& simulation, const RunRecord& record, Progress& progress
       log::warning("neither run.json nor the report could be brought up to date");
     }
     if (view != nullptr) view->end("failed");
+    if (!folder.empty()) remove_unbegun_run(folder);
     throw;
   }
-  progress.say(fmt::format("done: {} steps to t = {:g}; see {}/report.html",
-                           simulation.evolution().step(), simulation.evolution().t(), folder));
+  progress.say(fmt::format("done: {} steps to t = {:g}; see {}/{}", simulation.evolution().step(),
+                           simulation.evolution().t(), folder, io::RunFiles::page));
   return 0;
 }
 
@@ -113,8 +120,7 @@ int simulate(Simulation& simulation, const RunRecord& record, Progress& progress
 void copy_run(const fs::path& from, const fs::path& to) {
   (void)RunDirectory::create(to, false);
   try {
-    for (const char* name : {"history.csv", "drops.csv", "events.csv", "timing.csv", "run.json",
-                             "surface.pvd", "volume.pvd", "surface", "volume", "reference.csv"})
+    for (const char* name : io::RunFiles::taken_along)
       if (fs::exists(from / name))
         fs::copy(from / name, to / name,
                  fs::copy_options::recursive | fs::copy_options::overwrite_existing);
@@ -127,7 +133,8 @@ void copy_run(const fs::path& from, const fs::path& to) {
 /// What the case is compared with stays with the run, which the page takes it from. A run that
 /// replaces another does not keep that one's.
 void copy_reference(const fs::path& case_folder, const fs::path& run_folder) {
-  const fs::path source = case_folder / "reference.csv", target = run_folder / "reference.csv";
+  const fs::path source = case_folder / io::RunFiles::reference,
+                 target = run_folder / io::RunFiles::reference;
   std::error_code ignored;
   if (fs::equivalent(fs::absolute(case_folder / "."), run_folder, ignored)) return;
   if (fs::exists(source, ignored))
@@ -165,7 +172,7 @@ void require_first_step(const Evolution& evolution, const Case& c) {
   reject_input(
       "{}: time.min-step = {:g}: the first step would be {:.3g}, for the shortest edge and the "
       "tension",
-      c.settings.place("time.min-step"), c.evolution.min_step, evolution.step_length());
+      c.settings.source("time.min-step"), c.evolution.min_step, evolution.step_length());
 }
 
 int run(const RunArguments& arguments) {
@@ -177,15 +184,22 @@ int run(const RunArguments& arguments) {
   const fs::path folder = arguments.output.empty() ? file.stem() : fs::path(arguments.output);
   require_usable(folder, arguments.is_overwrite);
   Evolution evolution = make_evolution(c, std::move(scene));
-  if (const EvolutionReport prepared = evolution.prepare(); !prepared.ok)
-    throw RunFailure(fmt::format("the initial mesh could not be made: {}", prepared.failure));
+  if (const Report prepared = evolution.prepare(); !prepared.ok())
+    throw RunFailure(fmt::format("the initial mesh could not be made: {}", prepared.text()));
   require_first_step(evolution, c);
+  if (arguments.set_up) arguments.set_up(evolution);
+  check_field_names(evolution);
   const std::unique_ptr<LiveView> view = make_live_view(arguments.watch);
   // Only now that the run can begin is anything written.
   std::optional<RunDirectory> directory;
   on_first_rank([&] {
     directory = RunDirectory::create(folder, arguments.is_overwrite);
-    copy_reference(file.parent_path(), folder);
+    try {
+      copy_reference(file.parent_path(), folder);
+    } catch (const std::exception&) {
+      remove_unbegun_run(folder);
+      throw;
+    }
   });
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, file.parent_path()));
@@ -218,7 +232,7 @@ int resume(const ResumeArguments& arguments) {
   RunRecord record(c, "", "");
   std::optional<RunDirectory> directory;
   on_first_rank([&] {
-    record.go_on_from(folder / "run.json");
+    record.go_on_from(folder / io::RunFiles::record);
     directory = RunDirectory::take_up(folder, evolution.step(), evolution.t());
   });
   Progress progress(evolution.t(), c.evolution.end, arguments.is_quiet);

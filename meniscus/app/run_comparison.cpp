@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/report/volume_corrections.hpp"
 
 namespace meniscus {
 namespace {
@@ -61,7 +62,8 @@ double extreme(const CheckedQuantity& quantity, const Series& series) {
   return series.y.back();
 }
 
-/// Of the events in the order in which they were made; none where there were fewer.
+/// The value of a column for one event, counted in the order in which they were made; none where
+/// there were fewer events.
 std::optional<double> event_value(const RunTables& run, const std::string& column, int event) {
   if (event < 0 || event >= static_cast<int>(run.events.rows.size())) return std::nullopt;
   return run.events.column(column).at(static_cast<std::size_t>(event));
@@ -79,6 +81,8 @@ std::optional<double> single_value(const CheckedQuantity& quantity, const RunTab
 /// a of the least squares of a + b N0^−order.
 double limit(const std::vector<double>& nodes, const std::vector<double>& values, double order) {
   double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
+  MENISCUS_ASSERT(nodes.size() == values.size() && nodes.size() > 1, "{} values at {} N0",
+                  values.size(), nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const double x = std::pow(nodes[i], -order);
     n += 1.0;
@@ -88,6 +92,11 @@ double limit(const std::vector<double>& nodes, const std::vector<double>& values
     sxy += x * values[i];
   }
   return (sy * sxx - sx * sxy) / (n * sxx - sx * sx);
+}
+
+bool has_all_steps(const io::Table& history) {
+  const std::vector<double> steps = history.column("step");
+  return !steps.empty() && steps.back() + 1.0 == static_cast<double>(steps.size());
 }
 
 class Comparison {
@@ -101,6 +110,7 @@ class Comparison {
     for (const CheckedRun& run : check_.runs) {
       for (const CheckedQuantity& quantity : run.quantities) add_quantity(run.name, quantity);
       add_drift(run.name);
+      add_corrections(run);
     }
     for (const CheckedExtrapolation& entry : check_.extrapolations) add_extrapolation(entry);
     return std::move(rows_);
@@ -142,6 +152,22 @@ class Comparison {
                      .worst = Deviation{0.0, 0.0, drift, drift},
                      .compared = 1,
                      .tolerance = kLargestDrift,
+                     .is_absolute = true,
+                     .note = {}});
+  }
+
+  /// Σ of the shifts that kept that drift small; not of a record, which leaves out most steps.
+  void add_corrections(const CheckedRun& run) {
+    const auto found = runs_.find(run.name);
+    if (found == runs_.end() || !has_all_steps(found->second.history)) return;
+    const auto sum = report::volume_correction_sum(found->second.drops);
+    if (!sum) return;
+    rows_.push_back({.case_name = case_name_,
+                     .run = run.name,
+                     .quantity = "sum of volume_correction",
+                     .worst = Deviation{0.0, 0.0, *sum, *sum},
+                     .compared = 1,
+                     .tolerance = run.most_correction,
                      .is_absolute = true,
                      .note = {}});
   }
@@ -255,6 +281,7 @@ class Comparison {
 /// where it rises through all four, else along the line.
 double between_rows(const Series& series, std::size_t i, double sign, double x) {
   const auto begin = static_cast<std::ptrdiff_t>(i) - 2, end = begin + 4;
+  MENISCUS_ASSERT(i > 0 && i < series.x.size(), "row {} of {}", i, series.x.size());
   if (begin >= 0 && end <= std::ssize(series.x)) {
     std::vector<double> xs(series.x.begin() + begin, series.x.begin() + end);
     for (double& place : xs) place *= sign;

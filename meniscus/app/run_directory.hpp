@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "meniscus/app/folder_lock.hpp"
+#include "meniscus/app/run_tables.hpp"
 #include "meniscus/evolve/evolution.hpp"
 #include "meniscus/io/table.hpp"
 #include "meniscus/io/vtk_file.hpp"
@@ -32,8 +33,7 @@ class RunDirectory {
 
   void add_rows(const HistoryRow& history, const std::vector<DropRow>& drops);
   void add_events(std::int64_t step, double t, const std::vector<TopologyEvent>& events);
-  void add_timing(std::int64_t step, double t,
-                  const std::vector<std::pair<std::string, double>>& seconds);
+  void add_timing(std::int64_t step, double t, const PhaseSeconds& seconds);
   void add_surface_frame(const Evolution& evolution);
   void add_volume_frame(const Evolution& evolution);
   /// Writes checkpoint-<step>.h5 and removes all but the last two and those around events: of the
@@ -55,11 +55,11 @@ class RunDirectory {
 void require_usable(const std::filesystem::path& path, bool overwrite);
 /// Removes the files of a run; the folder stays, and what else it holds.
 void remove_run(const std::filesystem::path& path);
+/// Removes a run that has no checkpoint to go on from, so that another can begin in the folder.
+void remove_unbegun_run(const std::filesystem::path& path);
 /// Whether a folder holds a run: its history or a checkpoint.
 [[nodiscard]] bool holds_run(const std::filesystem::path& path);
 /// The checkpoint of the latest step in a run's folder. Throws InvalidInput when there is none.
 [[nodiscard]] std::filesystem::path newest_checkpoint(const std::filesystem::path& path);
-/// The phases of timing.csv and run.json, in their order.
-[[nodiscard]] const std::vector<std::string>& timed_phases();
 
 }  // namespace meniscus

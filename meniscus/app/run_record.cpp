@@ -2,13 +2,21 @@
 
 #include <array>
 #include <fstream>
+#include <span>
 
 #include <fmt/chrono.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "meniscus/app/ranks.hpp"
+#include "meniscus/app/wording.hpp"
 #include "meniscus/core/version.hpp"
+#include "meniscus/evolve/constants.hpp"
+#include "meniscus/flow/fem/constants.hpp"
+#include "meniscus/io/run_files.hpp"
+#include "meniscus/report/volume_corrections.hpp"
+#include "meniscus/surface/constants.hpp"
+#include "meniscus/topology/constants.hpp"
 
 namespace meniscus {
 namespace {
@@ -24,6 +32,19 @@ std::string now_utc() {
 std::string host_name() {
   std::array<char, 256> name{};
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+/// The numbers that decide physics and stand in no case, room by room.
+Json constants() {
+  Json rooms = Json::object();
+  const auto add = [&](const char* room, std::span<const NamedConstant> list) {
+    for (const NamedConstant& constant : list) rooms[room][constant.name] = constant.value;
+  };
+  add("surface", kSurfaceConstants);
+  add("topology", kTopologyConstants);
+  add("flow/fem", fem::kConstants);
+  add("evolve", kEvolveConstants);
+  return rooms;
 }
 
 }  // namespace
@@ -53,8 +74,14 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
   for (const auto& [phase, spent] : simulation.seconds()) seconds[phase] = spent;
   for (const auto& [phase, spent] : seconds_before_)
     seconds[phase] = seconds.value(phase, 0.0) + spent;
+  Json warnings = Json::array();
+  for (const Notice& notice : simulation.evolution().notices()) warnings.push_back(text_of(notice));
+  const std::filesystem::path& folder = simulation.directory().path();
+  const auto corrections =
+      report::volume_correction_sum(io::read_table(folder / io::RunFiles::drops));
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  const FieldExcess& excess = simulation.evolution().state().field_excess;
   const Json record{{"program", "meniscus"},
                     {"version", version_string},
                     {"commit", commit_string},
@@ -63,6 +90,7 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
                     {"case_file", case_file_},
                     {"case_text", case_text_},
                     {"case", Json::parse(case_json_)},
+                    {"constants", constants()},
                     {"host", host_name()},
                     {"ranks", num_ranks()},
                     {"started", started_},
@@ -71,8 +99,10 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
                     {"seconds", seconds},
                     {"steps", simulation.evolution().step()},
                     {"t", simulation.evolution().t()},
-                    {"warnings", simulation.evolution().warnings()}};
-  simulation.directory().write_text("run.json", record.dump(2) + "\n");
+                    {"field_excess", {{"above", excess.above}, {"below", excess.below}}},
+                    {"volume_correction_sum", corrections.value_or(0.0)},
+                    {"warnings", warnings}};
+  simulation.directory().write_text(io::RunFiles::record, record.dump(2) + "\n");
 }
 
 }  // namespace meniscus

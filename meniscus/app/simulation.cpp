@@ -4,15 +4,19 @@
 
 #include <fmt/format.h>
 
+#include "meniscus/app/frames.hpp"
 #include "meniscus/app/interrupt.hpp"
 #include "meniscus/app/ranks.hpp"
+#include "meniscus/app/wording.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/log.hpp"
 
 namespace meniscus {
 namespace {
 
 /// The first multiple of `interval` after t.
 double next_multiple(double interval, double t) {
+  MENISCUS_ASSERT(interval > 0.0, "an interval of {:g}", interval);
   return interval * (std::floor(t / interval) + 1.0);
 }
 
@@ -24,7 +28,9 @@ Simulation::Simulation(Evolution evolution, std::optional<RunDirectory> director
       directory_(std::move(directory)),
       output_(output),
       describe_(std::move(describe)),
-      timed_(seconds()) {}
+      timed_(seconds()) {
+  check_field_names(evolution_);
+}
 
 void Simulation::load_schedule(const Archive& archive) {
   const auto next = archive.reals.find("output/next");
@@ -44,17 +50,21 @@ Outcome Simulation::run(Progress& progress) {
         evolution_.step() % output_.checkpoint_every == 0)
       write_checkpoint(state);
     if (is_stopped) return Outcome::stopped;
-    if (const EvolutionReport solved = evolution_.solve(); !solved.ok) {
+    if (const Report solved = evolution_.solve(); !solved.ok()) {
       write_checkpoint(state);
       throw RunFailure(fmt::format("the flow at t = {:.6g} could not be solved: {}", evolution_.t(),
-                                   solved.failure));
+                                   solved.text()));
     }
     on_first_rank([&] { record(progress, is_last); });
     if (is_last) return Outcome::done;
-    if (const EvolutionReport advanced = evolution_.advance(); !advanced.ok) {
+    const FieldExcess excess = evolution_.state().field_excess;
+    if (const Report advanced = evolution_.advance(); !advanced.ok()) {
       write_checkpoint(state);
-      throw RunFailure(advanced.failure);
+      throw RunFailure(advanced.text());
     }
+    for (const TopologyEvent& event : evolution_.events())
+      log::info("{}", text_of(event, evolution_.t()));
+    log_growth(excess, evolution_.state().field_excess, evolution_.t());
     // Around an event: the state before the step in which it happened, and the one after.
     is_after_event = !evolution_.events().empty();
     if (is_after_event) write_checkpoint(state);
@@ -78,6 +88,7 @@ void Simulation::write_checkpoint(const Archive& state) {
 }
 
 void Simulation::record(Progress& progress, bool is_last) {
+  MENISCUS_ASSERT(directory_.has_value(), "a rank without the run's folder records");
   const HistoryRow history = evolution_.history_row();
   const std::vector<DropRow> drops = evolution_.drop_rows();
   {
@@ -107,9 +118,9 @@ double Simulation::seconds_in(const std::string& phase) const {
   return evolution_.seconds_in(phase) + output_times_[phase];
 }
 
-std::vector<std::pair<std::string, double>> Simulation::seconds() const {
-  std::vector<std::pair<std::string, double>> all;
-  for (const std::string& phase : timed_phases()) all.emplace_back(phase, seconds_in(phase));
+PhaseSeconds Simulation::seconds() const {
+  PhaseSeconds all;
+  for (const std::string phase : timed_phases()) all.emplace_back(phase, seconds_in(phase));
   return all;
 }
 

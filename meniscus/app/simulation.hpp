@@ -37,7 +37,7 @@ class Simulation {
   /// On rank 0.
   [[nodiscard]] const RunDirectory& directory() const { return *directory_; }
   /// Seconds by phase since this process began to simulate.
-  [[nodiscard]] std::vector<std::pair<std::string, double>> seconds() const;
+  [[nodiscard]] PhaseSeconds seconds() const;
 
  private:
   [[nodiscard]] Archive state_before_solve();
@@ -52,7 +52,7 @@ class Simulation {
   std::function<void(const RunDirectory&)> observer_;
   double next_surface_frame_ = 0.0, next_volume_frame_ = 0.0;
   PhaseTimes output_times_;
-  std::vector<std::pair<std::string, double>> timed_;  // at the row before
+  PhaseSeconds timed_;  // at the row before
 };
 
 }  // namespace meniscus

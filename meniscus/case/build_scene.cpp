@@ -6,9 +6,10 @@
 #include "meniscus/case/case.hpp"
 #include "meniscus/case/outer_boundary.hpp"
 #include "meniscus/case/surface_source.hpp"
-#include "meniscus/evolve/interface_motion.hpp"
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/reconstructed_surface.hpp"
 
 namespace meniscus {
 namespace {
@@ -27,7 +28,7 @@ void require_within_domain(const Case& c, const SurfaceMesh& drop, int index) {
     if (needed < size) return;
     if (!c.settings.is_given(path))  // a default stands on no line, but the drop does
       reject_input("{}: drop {} reaches {:.6g} from the origin, and {} is {} by default (unit: R0)",
-                   c.settings.place(fmt::format("drop[{}]", index)), index, needed, path, size);
+                   c.settings.source(fmt::format("drop[{}]", index)), index, needed, path, size);
     c.settings.reject(path, "must exceed the reach of drop {}, {:.6g} (unit: R0)", index, needed);
   };
   switch (c.domain.shape) {
@@ -58,7 +59,9 @@ Interface make_interface(const Case& c, int index) {
   result.outside = RegionId{0};
   result.tension = std::isinf(c.Ca) ? 0.0 : drop.tension_ratio / c.Ca;
   result.C0 = drop.nodes / (4.0 * std::numbers::pi);
-  result.volume = result.initial_volume = volume_of(result.mesh, c.evolution.surface);
+  result.volume = result.initial_volume =
+      ReconstructedSurface(result.mesh, c.evolution.surface).volume();
+  MENISCUS_ASSERT(result.volume > 0.0, "drop {} has a volume of {:g}", index, result.volume);
   return result;
 }
 
@@ -82,6 +85,12 @@ void add_drops(const Case& c, Scene& scene) {
     require_within_domain(c, scene.interfaces.back().mesh, static_cast<int>(i));
   }
   nest(scene.interfaces);
+  for ([[maybe_unused]] const Interface& interface : scene.interfaces)
+    MENISCUS_ASSERT(interface.inside.value < scene.liquids.size() &&
+                        interface.outside.value < scene.liquids.size() &&
+                        interface.inside != interface.outside,
+                    "drop {} lies between regions {} and {}", interface.drop,
+                    interface.inside.value, interface.outside.value);
 }
 
 /// The drop to blame for a conflict: the later of the first two that touch, in the order in which
@@ -90,13 +99,13 @@ std::size_t drop_in_conflict(const Scene& scene) {
   const auto& interfaces = scene.interfaces;
   for (std::size_t i = 0; i < interfaces.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (!find_intersection(interfaces[j].mesh, interfaces[i].mesh).empty()) return i;
+      if (find_intersection(interfaces[j].mesh, interfaces[i].mesh)) return i;
   const auto is_first_to = [&](const auto& is_in_fault) {
     return static_cast<std::size_t>(std::ranges::find_if(interfaces, is_in_fault) -
                                     interfaces.begin());
   };
   const std::size_t touching = is_first_to([&](const Interface& interface) {
-    return !find_intersection(interface.mesh, scene.boundary.mesh).empty();
+    return find_intersection(interface.mesh, scene.boundary.mesh).has_value();
   });
   if (touching < interfaces.size()) return touching;
   return is_first_to([&](const Interface& interface) {
@@ -105,10 +114,10 @@ std::size_t drop_in_conflict(const Scene& scene) {
 }
 
 void require_no_conflict(const Case& c, const Scene& scene) {
-  const std::string conflict = find_conflict(scene);
-  if (conflict.empty()) return;
-  reject_input("{}: {}", c.settings.place(fmt::format("drop[{}]", drop_in_conflict(scene))),
-               conflict);
+  const auto conflict = find_conflict(scene);
+  if (!conflict) return;
+  reject_input("{}: {}", c.settings.source(fmt::format("drop[{}]", drop_in_conflict(scene))),
+               conflict->text);
 }
 
 /// ∮|v·n| dS of the imposed velocities, the yardstick of their net flux [G R0³].
@@ -141,7 +150,7 @@ void require_no_net_inflow(const Case& c, const Scene& scene) {
       reject_input(
           "{}: domain.patch: at t = {:.6g} the imposed velocities carry {:.4g} R0³G {} in sum; "
           "make them balance or one patch open",
-          c.settings.place("domain.patch[0]"), t, std::abs(net), net > 0.0 ? "out" : "in");
+          c.settings.source("domain.patch[0]"), t, std::abs(net), net > 0.0 ? "out" : "in");
   }
 }
 

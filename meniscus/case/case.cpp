@@ -96,7 +96,6 @@ Case parse_case(std::string_view text, const std::string& name, const std::files
     c.flow_solver = read_finite_elements(c.settings);
   c.evolution = read_evolution(c.settings, c.method, c.flow_solver.elements);
   c.output = read_output(c.settings, c.method);
-  read_fixed_keys(c.settings, c.method);
   // One override may choose another solver or boundary: what the file says of the first one is no
   // mistake then.
   if (overrides.empty())

@@ -78,7 +78,7 @@ enum class FlowMethod { finite_element, boundary_integral };
 
 /// A case file, read, checked and dimensionless.
 struct Case {
-  Settings settings;  ///< every key with its value and place
+  Settings settings;  ///< every key with its value and source
   std::string title;
   double Ca = 1.0;
   ImposedFlow flow;
@@ -98,7 +98,7 @@ struct Case {
 /// file:line (or the override), key, value, what is allowed.
 [[nodiscard]] Case read_case(const std::filesystem::path& file,
                              std::span<const std::string> overrides = {});
-/// The same from text; `name` stands for the file in messages, relative file names start from
+/// Reads a case from text; `name` stands for the file in messages, relative file names start from
 /// `folder`.
 [[nodiscard]] Case parse_case(std::string_view text, const std::string& name,
                               const std::filesystem::path& folder = {},

@@ -10,7 +10,7 @@ namespace meniscus {
 // The tables of a case, each read and checked on its own. All throw InvalidInput.
 
 [[nodiscard]] ImposedFlow read_flow(Settings& settings);
-/// Of the liquid in a table, "matrix" or "drop[2]".
+/// Reads the viscosity law of the liquid in a table, "matrix" or "drop[2]".
 [[nodiscard]] ViscosityLaw read_viscosity_law(Settings& settings, const std::string& table);
 [[nodiscard]] std::vector<DropCase> read_drops(Settings& settings);
 /// The flow decides the default conditions on a box.
@@ -24,6 +24,5 @@ void require_newtonian(const Case& c);
 [[nodiscard]] bem::Options read_boundary_integrals(Settings& settings);
 [[nodiscard]] OutputOptions read_output(Settings& settings, FlowMethod method);
 /// Asks for the keys whose features are yet to come: they have one value so far.
-void read_fixed_keys(Settings& settings, FlowMethod method);
 
 }  // namespace meniscus

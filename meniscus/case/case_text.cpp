@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "meniscus/case/case.hpp"
+#include "meniscus/core/error.hpp"
 
 namespace meniscus {
 namespace {
@@ -22,6 +23,7 @@ UsedTable used_table(const Case& c, const schema::Table& table, const std::strin
   UsedTable result{path, table.is_array, {}};
   for (const schema::Key& key : schema::keys()) {
     if (schema::parent_path(key.path) != table.path) continue;
+    MENISCUS_ASSERT(schema::find_table(table.path) != nullptr, "no table {}", table.path);
     const std::string name(schema::leaf(key.path));
     const auto used = c.settings.used().find(path.empty() ? name : path + "." + name);
     if (used != c.settings.used().end()) result.values.emplace_back(name, &used->second);

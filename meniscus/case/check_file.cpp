@@ -129,12 +129,15 @@ CheckedQuantity read_quantity(const Reader& reader) {
 }
 
 CheckedRun read_run(const Reader& reader) {
-  reader.allow({"name", "set", "short", "once", "quantity"});
+  reader.allow({"name", "set", "short", "once", "most-correction", "quantity"});
   CheckedRun run;
   run.name = reader.required_text("name");
   run.overrides = reader.list<std::string>("set", "texts");
   run.is_short = reader.flag("short");
   run.is_once = reader.flag("once");
+  run.most_correction = reader.number("most-correction").value_or(run.most_correction);
+  if (!(run.most_correction > 0.0))
+    reader.reject(reader.table(), "most-correction: must be positive");
   if (run.is_short && run.is_once)
     reader.reject(reader.table(), "short and once: only one of them");
   for (const Reader& entry : reader.tables("quantity")) {

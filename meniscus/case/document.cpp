@@ -92,14 +92,14 @@ std::optional<Value> convert(const toml::node& node, Type type) {
   return std::nullopt;
 }
 
-Value checked_value(const Key& key, const toml::node& node, std::string_view place,
+Value checked_value(const Key& key, const toml::node& node, std::string_view source,
                     std::string_view name) {
   const std::optional<Value> value = convert(node, key.type);
   if (!value)
-    reject_input("{}: {} = {} must be {}", place, name, excerpt(node),
+    reject_input("{}: {} = {} must be {}", source, name, excerpt(node),
                  key.type == Type::word ? "one of " + quoted_list(key.words)
                                         : std::string(description(key.type)));
-  check_value(key, *value, place, name);
+  check_value(key, *value, source, name);
   return *value;
 }
 
@@ -112,13 +112,13 @@ class Flattener {
     for (const auto& [name, node] : table) {
       const std::string child =
           path.empty() ? std::string(name.str()) : fmt::format("{}.{}", path, name.str());
-      entry(node, child, place(name.source()));
+      entry(node, child, source(name.source()));
     }
   }
 
  private:
-  std::string place(const toml::source_region& source) const {
-    return fmt::format("{}:{}", document_.name, source.begin.line);
+  std::string source(const toml::source_region& region) const {
+    return fmt::format("{}:{}", document_.name, region.begin.line);
   }
 
   void entry(const toml::node& node, const std::string& path, const std::string& where) {
@@ -141,7 +141,7 @@ class Flattener {
       reject_input("{}: {} must be an array of tables: [[{}]]", where, plain, plain);
     for (std::size_t i = 0; i < tables->size(); ++i) {
       const std::string element = fmt::format("{}[{}]", path, i);
-      document_.tables[element] = place(tables->get(i)->source());
+      document_.tables[element] = source(tables->get(i)->source());
       table(*tables->get(i)->as_table(), element);
     }
   }
@@ -170,7 +170,7 @@ toml::table parse_override_value(const std::string& value) {
 }
 
 /// "drop[1].radius" begins table 1 of the array if it is the next one.
-void require_tables(Document& document, const std::string& path, const std::string& place) {
+void require_tables(Document& document, const std::string& path, const std::string& source) {
   for (std::size_t close = path.find(']'); close != std::string::npos;
        close = path.find(']', close + 1)) {
     const std::string element = path.substr(0, close + 1);
@@ -178,9 +178,9 @@ void require_tables(Document& document, const std::string& path, const std::stri
     const std::string array = element.substr(0, element.rfind('['));
     const int count = document.count(array);
     if (element != fmt::format("{}[{}]", array, count))
-      reject_input("{}: {} does not exist; the next to add is {}[{}]", place, element, array,
+      reject_input("{}: {} does not exist; the next to add is {}[{}]", source, element, array,
                    count);
-    document.tables[element] = place;
+    document.tables[element] = source;
     document.added_tables.insert(element);
   }
 }
@@ -195,29 +195,29 @@ std::string unindexed_array(std::string_view path) {
 
 /// The path with the index that may be left out: "drop[0].nodes" for "drop.nodes".
 std::string indexed_path(const Document& document, const std::string& path,
-                         const std::string& place) {
+                         const std::string& source) {
   const std::string array = unindexed_array(path), key(leaf(path));
   if (array.empty() || find_key(fmt::format("{}[].{}", array, key)) == nullptr) return path;
   const int count = document.count(array);
   if (count != 1)
-    reject_input("{}: {}: there are {} [[{}]]; say which by an index, as in {}[0].{}", place, path,
+    reject_input("{}: {}: there are {} [[{}]]; say which by an index, as in {}[0].{}", source, path,
                  count, array, array, key);
   return fmt::format("{}[0].{}", array, key);
 }
 
 /// Throws InvalidInput with a key that can be set instead of one that is not in the schema.
 [[noreturn]] void reject_unknown_override(const Document& document, const std::string& path,
-                                          const std::string& place) {
+                                          const std::string& source) {
   const auto is_table = [](const std::string& name) {
     return find_table(name) != nullptr || find_table(name + "[]") != nullptr;
   };
   if (is_table(without_indices(path)))
     reject_input("{}: {} is a table; set its keys one by one, as in --set flow.kind=quiescent",
-                 place, path);
+                 source, path);
   std::string near = nearest_name(path);
-  if (near.empty()) reject_input("{}: {}: unknown key", place, path);
+  if (near.empty()) reject_input("{}: {}: unknown key", source, path);
   if (is_table(near))
-    reject_input("{}: {}: unknown key; did you mean a key of \"{}\"?", place, path, near);
+    reject_input("{}: {}: unknown key; did you mean a key of \"{}\"?", source, path, near);
   if (const std::string array = unindexed_array(near); !array.empty()) {
     const std::size_t close = path.find(']');
     const bool has_index = path.starts_with(array + "[") && close != std::string::npos;
@@ -226,21 +226,21 @@ std::string indexed_path(const Document& document, const std::string& path,
                                                              : array + "[0]";
     near = fmt::format("{}.{}", element, leaf(near));
   }
-  reject_input("{}: {}: unknown key; did you mean \"{}\"?", place, path, near);
+  reject_input("{}: {}: unknown key; did you mean \"{}\"?", source, path, near);
 }
 
 void apply_override(Document& document, const std::string& option) {
-  const std::string place = "--set " + option;
+  const std::string source = "--set " + option;
   const std::size_t equals = option.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == option.size())
-    reject_input("{}: expected key=value, as in --set drop[0].nodes=200", place);
-  const std::string path = indexed_path(document, option.substr(0, equals), place);
+    reject_input("{}: expected key=value, as in --set drop[0].nodes=200", source);
+  const std::string path = indexed_path(document, option.substr(0, equals), source);
   const Key* key = find_key(generic_path(path));
-  if (key == nullptr) reject_unknown_override(document, path, place);
-  require_tables(document, path, place);
+  if (key == nullptr) reject_unknown_override(document, path, source);
+  require_tables(document, path, source);
   const toml::table parsed = parse_override_value(option.substr(equals + 1));
   document.values[path] =
-      Given{checked_value(*key, *parsed.get("value"), place, path), place, true};
+      Given{checked_value(*key, *parsed.get("value"), source, path), source, true};
 }
 
 }  // namespace

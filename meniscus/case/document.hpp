@@ -14,7 +14,7 @@ namespace meniscus::schema {
 /// A value the user gave, and where: "case.toml:7" or "--set drop[0].nodes=200".
 struct Given {
   Value value;
-  std::string place;
+  std::string source;
   bool is_override = false;
 };
 
@@ -24,7 +24,7 @@ struct Document {
   std::string name;                           ///< of the file, as in messages
   std::filesystem::path folder;               ///< that relative file names start from
   std::map<std::string, Given> values;        ///< by path with indices: "drop[0].radius"
-  std::map<std::string, std::string> tables;  ///< place of every table: "drop[0]" → "case.toml:5"
+  std::map<std::string, std::string> tables;  ///< source of every table: "drop[0]" → "case.toml:5"
 
   std::set<std::string> added_tables;  ///< those that only overrides speak of: "drop[1]"
 

@@ -67,6 +67,7 @@ std::vector<const Key*> keys_of(const Table& table) {
   std::vector<const Key*> result;
   for (const Key& key : schema::keys())
     if (schema::parent_path(key.path) == table.path) result.push_back(&key);
+  MENISCUS_ASSERT(!result.empty(), "table {} has no keys", table.path);
   return result;
 }
 

@@ -1,10 +1,14 @@
 #include "meniscus/case/case.hpp"
+#include "meniscus/core/error.hpp"
 #include "meniscus/flow/bem/boundary_integral_flow.hpp"
 #include "meniscus/flow/fem/finite_element_flow.hpp"
 
 namespace meniscus {
 
 std::unique_ptr<FlowSolver> make_flow_solver(const Case& c) {
+  MENISCUS_ASSERT((c.method == FlowMethod::boundary_integral) ==
+                      (c.domain.shape == DomainCase::Shape::unbounded),
+                  "elements need a boundary, boundary integrals have none");
   return c.method == FlowMethod::boundary_integral
              ? bem::make_boundary_integral_flow(c.boundary_integral)
              : fem::make_finite_element_flow(c.flow_solver);

@@ -3,6 +3,7 @@
 
 #include "meniscus/case/case_parts.hpp"
 #include "meniscus/case/outer_boundary.hpp"
+#include "meniscus/case/words.hpp"
 
 namespace meniscus {
 namespace {
@@ -37,7 +38,7 @@ void read_velocity(Settings& settings, PatchCase& patch) {
   patch.follows_flow = settings.word_or_vector(path).has_value();
   if (patch.follows_flow) return;
   patch.velocity = settings.vector(path);
-  patch.is_parabolic = settings.text(patch.path + ".profile") == "parabolic";
+  patch.is_parabolic = settings.choice(patch.path + ".profile", words::profiles);
   if (!patch.is_parabolic) return;
   const std::string center = patch.path + ".profile-center",
                     radius = patch.path + ".profile-radius";
@@ -63,17 +64,14 @@ void read_identity(Settings& settings, const DomainCase& domain, PatchCase& patc
     if (std::ranges::find_first_of(other.tags, patch.tags) != other.tags.end())
       settings.reject(domain.shape == Shape::file ? tag : name,
                       "has a condition already, from the [[domain.patch]] at {}",
-                      settings.place(other.path));
+                      settings.source(other.path));
 }
 
 PatchCase read_patch(Settings& settings, const DomainCase& domain, const std::string& table) {
   PatchCase patch;
   patch.path = table;
   read_identity(settings, domain, patch);
-  patch.condition =
-      settings.choice<Condition>(table + ".condition", {{"velocity", Condition::velocity},
-                                                        {"symmetry", Condition::symmetry},
-                                                        {"open", Condition::open}});
+  patch.condition = settings.choice(table + ".condition", words::conditions);
   if (patch.condition == Condition::velocity) read_velocity(settings, patch);
   if (patch.condition == Condition::open) patch.traction = settings.vector(table + ".traction");
   return patch;
@@ -96,17 +94,15 @@ DomainCase read_domain(Settings& settings, const ImposedFlow& flow) {
   if (settings.is_given("domain.surface"))
     domain.shape = Shape::file;
   else
-    domain.shape = settings.choice<Shape>("domain.shape", {{"box", Shape::box},
-                                                           {"sphere", Shape::sphere},
-                                                           {"cylinder", Shape::cylinder},
-                                                           {"unbounded", Shape::unbounded}});
+    domain.shape = settings.choice("domain.shape", words::domain_shapes);
   read_size(settings, domain);
   const bool is_shear =
-      settings.is_given("flow.kind") && settings.text("flow.kind") == "simple-shear";
+      settings.is_given("flow.kind") &&
+      settings.choice("flow.kind", words::flow_kinds).gradient == ImposedFlow::simple_shear;
   domain.is_symmetric_in_z = is_shear && is_in_xy_plane(flow);
   if (domain.shape == Shape::unbounded && settings.count("domain.patch") > 0)
     reject_input("{}: [[domain.patch]] has no effect here: an unbounded domain has no patches",
-                 settings.place("domain.patch[0]"));
+                 settings.source("domain.patch[0]"));
   for (int i = 0; i < settings.count("domain.patch"); ++i)
     domain.patches.push_back(read_patch(settings, domain, fmt::format("domain.patch[{}]", i)));
   return domain;

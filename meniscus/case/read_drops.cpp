@@ -28,9 +28,9 @@ DropShapeCase read_shape(Settings& settings, const std::string& table) {
     reject_input(
         "{0}: there is no {1}; to add it, set one of {1}.radius, {1}.axes, {1}.surface, "
         "{1}.from-run too",
-        settings.place(table), table);
+        settings.source(table), table);
   if (found.empty())
-    reject_input("{}: {} needs one of radius, axes, surface, from-run", settings.place(table),
+    reject_input("{}: {} needs one of radius, axes, surface, from-run", settings.source(table),
                  schema::without_indices(table));
   const std::string_view kind = schema::leaf(found);
   if (kind == "radius") return BallShape{settings.number(found)};
@@ -45,7 +45,7 @@ DropShapeCase read_shape(Settings& settings, const std::string& table) {
 
 std::vector<DropCase> read_drops(Settings& settings) {
   const int count = settings.count("drop");
-  if (count == 0) reject_input("{}: needs at least one [[drop]]", settings.place(""));
+  if (count == 0) reject_input("{}: needs at least one [[drop]]", settings.source(""));
   std::vector<DropCase> drops;
   for (int i = 0; i < count; ++i) {
     const std::string table = fmt::format("drop[{}]", i);

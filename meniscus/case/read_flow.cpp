@@ -2,22 +2,10 @@
 #include <string>
 
 #include "meniscus/case/case_parts.hpp"
+#include "meniscus/case/words.hpp"
 
 namespace meniscus {
 namespace {
-
-struct NamedFlow {
-  FlowFamily family;
-  Mat3 gradient;
-};
-
-NamedFlow named_flow(Settings& settings, const std::string& path) {
-  const std::string kind = settings.text(path);
-  if (kind == "simple-shear") return {FlowFamily::planar, ImposedFlow::simple_shear()};
-  if (kind == "planar-extension") return {FlowFamily::planar, ImposedFlow::planar_extension()};
-  if (kind == "uniaxial-extension") return {FlowFamily::axial, ImposedFlow::uniaxial_extension()};
-  return {FlowFamily::quiescent, Mat3::Zero()};
-}
 
 Mat3 traceless_gradient(Settings& settings, const std::string& path) {
   const Mat3 gradient = settings.matrix(path);
@@ -40,10 +28,10 @@ ImposedFlow read_initial_flow(Settings& settings) {
     return {FlowFamily::general, traceless_gradient(settings, "flow.gradient")};
   if (!settings.is_given("flow.kind"))
     reject_input("{}: flow.kind is missing: it must be one of {}, unless flow.gradient is given",
-                 settings.place("flow.kind"),
+                 settings.source("flow.kind"),
                  schema::quoted_list(schema::find_key("flow.kind")->words));
-  const NamedFlow flow = named_flow(settings, "flow.kind");
-  return {flow.family, flow.gradient};
+  const words::NamedFlow flow = settings.choice("flow.kind", words::flow_kinds);
+  return {flow.family, flow.gradient()};
 }
 
 ImposedFlow::Entry read_entry(Settings& settings, const std::string& table,
@@ -52,9 +40,9 @@ ImposedFlow::Entry read_entry(Settings& settings, const std::string& table,
   require_at_most_one(settings, table);
   if (!settings.is_given(kind) && !settings.is_given(gradient) &&
       !settings.is_given(table + ".factor"))
-    reject_input("{}: {} needs one of kind, gradient, factor", settings.place(table),
+    reject_input("{}: {} needs one of kind, gradient, factor", settings.source(table),
                  schema::without_indices(table));
-  const Mat3 base = settings.is_given(kind)       ? named_flow(settings, kind).gradient
+  const Mat3 base = settings.is_given(kind) ? settings.choice(kind, words::flow_kinds).gradient()
                     : settings.is_given(gradient) ? traceless_gradient(settings, gradient)
                                                   : initial_gradient;
   ImposedFlow::Entry entry;

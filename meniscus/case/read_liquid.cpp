@@ -1,17 +1,18 @@
 #include <string>
 
 #include "meniscus/case/case_parts.hpp"
+#include "meniscus/case/words.hpp"
 
 namespace meniscus {
 
 ViscosityLaw read_viscosity_law(Settings& settings, const std::string& table) {
-  const std::string kind = settings.text(table + ".viscosity-law");
-  if (kind == "carreau-yasuda")
+  const words::LawKind kind = settings.choice(table + ".viscosity-law", words::viscosity_laws);
+  if (kind == words::LawKind::carreau_yasuda)
     return CarreauYasuda{.time_constant = settings.number(table + ".time-constant"),
                          .power_index = settings.number(table + ".power-index"),
                          .yasuda_exponent = settings.number(table + ".yasuda-exponent"),
                          .infinite_ratio = settings.number(table + ".infinite-shear-ratio")};
-  if (kind == "power-law")
+  if (kind == words::LawKind::power_law)
     return PowerLaw{.power_index = settings.number(table + ".power-index"),
                     .floor = settings.number(table + ".viscosity-floor"),
                     .ceiling = settings.number(table + ".viscosity-ceiling")};

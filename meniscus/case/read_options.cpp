@@ -3,6 +3,7 @@
 #include <string>
 
 #include "meniscus/case/case_parts.hpp"
+#include "meniscus/case/words.hpp"
 
 namespace meniscus {
 namespace {
@@ -28,8 +29,7 @@ std::string read_petsc_options(Settings& settings) {
 TopologyOptions read_topology(Settings& settings, double edge_floor) {
   TopologyOptions options;
   options.breakup_radius = settings.number("topology.breakup-radius");
-  options.coalescence =
-      settings.choice<bool>("topology.coalescence", {{"on", true}, {"off", false}});
+  options.coalescence = settings.choice("topology.coalescence", words::on_off);
   options.coalescence_gap = settings.number("topology.coalescence-gap");
   options.edge_floor = edge_floor;
   return options;
@@ -46,25 +46,20 @@ SurfaceShape surface_shape(FlowMethod method, fem::Elements elements) {
 EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elements elements) {
   EvolutionOptions options;
   options.surface = surface_shape(method, elements);
-  options.scheme = settings.choice<TimeScheme>(
-      "time.scheme", {{"rk2", TimeScheme::rk2}, {"euler", TimeScheme::euler}});
+  options.scheme = settings.choice("time.scheme", words::time_schemes);
   if (options.surface != SurfaceShape::faceted)
-    settings.prefer("interface.motion-normal", "smooth");
-  options.motion_normal = settings.choice<MotionNormal>("interface.motion-normal",
-                                                        {{"area-vector", MotionNormal::area_vector},
-                                                         {"fit", MotionNormal::fit},
-                                                         {"smooth", MotionNormal::smooth}});
+    settings.prefer("interface.motion-normal",
+                    std::string(words::word_for(words::motion_normals, MotionNormal::smooth)));
+  options.motion_normal = settings.choice("interface.motion-normal", words::motion_normals);
   options.end = settings.number("time.end");
   options.step_factor = settings.number("time.step-factor");
-  options.step_edges = settings.choice<StepEdges>(
-      "time.step-edges", {{"interface", StepEdges::interface}, {"mesh", StepEdges::mesh}});
+  options.step_edges = settings.choice("time.step-edges", words::step_edges);
   options.max_step = settings.number("time.max-step");
   options.min_step = settings.number("time.min-step");
   if (options.min_step > options.max_step)
     settings.reject("time.min-step", "must be at most time.max-step = {} (unit: 1/G)",
                     options.max_step);
-  options.follows_drops =
-      settings.choice<bool>("domain.frame", {{"fixed", false}, {"drops", true}});
+  options.follows_drops = settings.choice("domain.frame", words::domain_frames);
   options.remesh_every = settings.whole("interface.remesh-every");
   options.equilibrium = settings.number("interface.equilibrium");
   options.edge_floor =
@@ -75,9 +70,7 @@ EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elem
 }
 
 FlowMethod read_method(Settings& settings, const DomainCase& domain) {
-  const auto method = settings.choice<FlowMethod>(
-      "solver.method", {{"finite-element", FlowMethod::finite_element},
-                        {"boundary-integral", FlowMethod::boundary_integral}});
+  const auto method = settings.choice("solver.method", words::methods);
   const bool is_unbounded = domain.shape == DomainCase::Shape::unbounded;
   if (is_unbounded && method == FlowMethod::finite_element)
     settings.reject("domain.shape", "needs solver.method = \"boundary-integral\"");
@@ -93,34 +86,21 @@ bem::Options read_boundary_integrals(Settings& settings) {
 }
 
 fem::Options read_finite_elements(Settings& settings) {
-  using fem::CapillaryForm, fem::LinearSolver;
   fem::Options options;
-  options.elements = settings.choice<fem::Elements>(
-      "solver.elements", {{"P1-P1", fem::Elements::p1_p1}, {"P2-P1", fem::Elements::p2_p1}});
-  options.capillary = settings.choice<CapillaryForm>("interface.surface-tension",
-                                                     {{"weak", CapillaryForm::weak},
-                                                      {"nodal", CapillaryForm::nodal},
-                                                      {"balanced", CapillaryForm::balanced}});
-  options.linear =
-      settings.choice<LinearSolver>("solver.linear", {{"block", LinearSolver::block},
-                                                      {"paper-gmres", LinearSolver::paper_gmres},
-                                                      {"minres", LinearSolver::minres},
-                                                      {"mumps", LinearSolver::mumps}});
+  options.elements = settings.choice("solver.elements", words::elements);
+  options.capillary = settings.choice("interface.surface-tension", words::capillary_forms);
+  options.linear = settings.choice("solver.linear", words::linear_solvers);
   options.rtol = settings.number("solver.rtol");
   options.max_iterations = settings.whole("solver.max-iterations");
   options.petsc_options = read_petsc_options(settings);
   const VolumeMeshOptions suited = fem::suited_volume_mesh(options.elements);
-  settings.prefer("domain.grading", suited.grading == Grading::gaussian ? "gaussian" : "linear");
-  options.volume_mesh.grading =
-      settings.choice<Grading>("domain.grading", {{"linear", Grading::linear},
-                                                  {"exponential", Grading::exponential},
-                                                  {"gaussian", Grading::gaussian}});
+  settings.prefer("domain.grading", std::string(words::word_for(words::gradings, suited.grading)));
+  options.volume_mesh.grading = settings.choice("domain.grading", words::gradings);
   options.volume_mesh.cell_volume = settings.number_or("domain.cell-volume", suited.cell_volume);
+  options.volume_mesh.interior_growth = settings.number("domain.interior-growth");
+  options.volume_mesh.radius_edge = settings.number("domain.radius-edge");
   options.volume_mesh.gap_layers = settings.whole("interface.gap-layers");
-  options.volume_motion = settings.choice<VolumeMotion>("interface.volume-motion",
-                                                        {{"spines", VolumeMotion::spines},
-                                                         {"lagrangian", VolumeMotion::lagrangian},
-                                                         {"harmonic", VolumeMotion::harmonic}});
+  options.volume_motion = settings.choice("interface.volume-motion", words::volume_motions);
   return options;
 }
 
@@ -133,14 +113,6 @@ OutputOptions read_output(Settings& settings, FlowMethod method) {
     options.volume_interval = settings.number_or("output.volume-interval", options.interval);
   options.checkpoint_every = settings.whole("output.checkpoint-every");
   return options;
-}
-
-void read_fixed_keys(Settings& settings, FlowMethod method) {
-  for (const schema::Key& key : schema::keys()) {
-    if (key.path == "solver.elements" && method != FlowMethod::finite_element) continue;
-    const bool has_one_word = key.type == schema::Type::word && key.words.size() == 1;
-    if (has_one_word) settings.note(std::string(key.path));
-  }
 }
 
 }  // namespace meniscus

@@ -118,11 +118,12 @@ std::string quoted_list(std::span<const std::string_view> words) {
 
 namespace {
 
-void check_word(const Key& key, const Value& value, std::string_view place, std::string_view name) {
+void check_word(const Key& key, const Value& value, std::string_view source,
+                std::string_view name) {
   const std::string& word = std::get<std::string>(value);
   if (std::ranges::find(key.words, word) != key.words.end()) return;
   const std::string_view near = nearest_word(word, key.words);
-  reject_input("{}: {} = {} must be one of {}{}", place, name, to_toml(value),
+  reject_input("{}: {} = {} must be one of {}{}", source, name, to_toml(value),
                quoted_list(key.words),
                near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near));
 }
@@ -144,14 +145,14 @@ std::string range_complaint(const Key& key, const Value& value) {
   return {};
 }
 
-void check_value(const Key& key, const Value& value, std::string_view place,
+void check_value(const Key& key, const Value& value, std::string_view source,
                  std::string_view name) {
   const bool is_word = std::holds_alternative<std::string>(value);
   if (is_word && (key.type == Type::word || key.type == Type::velocity))
-    check_word(key, value, place, name);
+    check_word(key, value, source, name);
   if (key.dimension != Dimension::none && is_finite(value)) return;
   if (const std::string complaint = range_complaint(key, value); !complaint.empty())
-    reject_input("{}: {} = {} {}", place, name, to_toml(value), complaint);
+    reject_input("{}: {} = {} {}", source, name, to_toml(value), complaint);
 }
 
 std::string nearest_name(std::string_view path) {
@@ -175,10 +176,10 @@ std::string nearest_name(std::string_view path) {
   return std::string(nearest_word(wanted, all));
 }
 
-void reject_unknown_key(std::string_view path, std::string_view place) {
+void reject_unknown_key(std::string_view path, std::string_view source) {
   const std::string near = nearest_name(path);
   const bool is_sibling = parent_path(near) == parent_path(without_indices(path));
-  reject_input("{}: {}: unknown key{}", place, path,
+  reject_input("{}: {}: unknown key{}", source, path,
                near.empty() ? ""
                             : fmt::format("; did you mean \"{}\"?",
                                           is_sibling ? leaf(near) : std::string_view(near)));

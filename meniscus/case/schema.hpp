@@ -70,12 +70,13 @@ struct Table {
 /// when it is.
 [[nodiscard]] std::string range_complaint(const Key& key, const Value& value);
 /// Throws InvalidInput unless the value is in the key's range or words. The range of a key with a
-/// dimension holds once [scale] is known (`Settings`); here its value has to be finite. `place`
+/// dimension holds once [scale] is known (`Settings`); here its value has to be finite. `source`
 /// ("case.toml:7" or
 /// "--set …") and `name` (the key as the user wrote it) begin the message.
-void check_value(const Key& key, const Value& value, std::string_view place, std::string_view name);
+void check_value(const Key& key, const Value& value, std::string_view source,
+                 std::string_view name);
 /// Throws InvalidInput: unknown key, with the nearest valid one.
-[[noreturn]] void reject_unknown_key(std::string_view path, std::string_view place);
+[[noreturn]] void reject_unknown_key(std::string_view path, std::string_view source);
 /// The key or table of the schema nearest to what was written, as one would write it in a case
 /// file; empty when nothing is near.
 [[nodiscard]] std::string nearest_name(std::string_view path);

@@ -1,5 +1,7 @@
 // The case file, key by key. Everything said about a key anywhere comes from here.
 #include "meniscus/case/schema.hpp"
+#include "meniscus/case/words.hpp"
+#include "meniscus/surface/constants.hpp"
 
 namespace meniscus::schema {
 namespace {
@@ -14,18 +16,16 @@ constexpr Range kFinite{};
 // than meshing in double precision can bridge.
 constexpr Range kLength{.min = 1e-6, .max = 1e6};
 constexpr Range kPlace{.min = -1e6, .max = 1e6};
-// 42: fewer vertices cannot hold the shape of a drop through a remesh
-// (RemeshOptions::min_vertices). 200 000 and 20 000: the meshes measured in docs/volume-mesh.md
+// 200 000 and 20 000: the meshes measured in docs/volume-mesh.md
 // have up to 10 nodes for each vertex of a drop, and 20 for each of 2007 on the boundary, growing
 // as its power 3/2. Either bound then means one to two million nodes, which at an estimated 10 kB
 // (tetrahedra, matrix, multigrid) fill a machine of 24 GiB.
-constexpr Range kDropNodes{.min = 42, .max = 200000};
+constexpr Range kDropNodes{.min = kFewestVertices, .max = 200000};
 constexpr Range kBoundaryNodes{.min = 50, .max = 20000};
 constexpr Range kCount{.min = 1, .max = 1e9};
 constexpr std::string_view kWithElements = "with method = \"finite-element\"";
 constexpr std::string_view kWithIntegrals = "with method = \"boundary-integral\"";
 
-const std::vector<std::string_view> kViscosityLaws{"newtonian", "carreau-yasuda", "power-law"};
 // Above 3 no liquid is known, and Newton's method has not been tried.
 constexpr Range kPowerIndex{.min = 0.0, .max = 3.0, .open_min = true};
 constexpr std::string_view kWithLaw = "with viscosity-law = \"carreau-yasuda\" or \"power-law\"";
@@ -44,9 +44,6 @@ constexpr std::string_view kInfiniteSentence = "r: viscosity at infinite rate ov
 constexpr std::string_view kFloorSentence =
     "The least that the power law may multiply the liquid's viscosity by.";
 constexpr std::string_view kCeilingSentence = "The most: what a thinning liquid has at rest.";
-
-const std::vector<std::string_view> kFlowKinds{"simple-shear", "uniaxial-extension",
-                                               "planar-extension", "quiescent"};
 
 constexpr std::string_view kShapeRequired = "required: one of radius, axes, surface, from-run";
 
@@ -96,7 +93,7 @@ const std::vector<Key> kKeys{
 
     {.path = "flow.kind",
      .type = word,
-     .words = kFlowKinds,
+     .words = words::list(words::flow_kinds),
      .default_note = "required, or gradient",
      .sentence = "The imposed flow: v = (y, 0, 0), (x, -y/2, -z/2), (x, -y, 0) or 0. It decides, "
                  "whatever a schedule does later, how L, B and W are measured and the default "
@@ -122,7 +119,7 @@ const std::vector<Key> kKeys{
      .sentence = "When the entry begins to hold."},
     {.path = "flow.schedule[].kind",
      .type = word,
-     .words = kFlowKinds,
+     .words = words::list(words::flow_kinds),
      .default_note = "the flow the case begins with",
      .sentence = "The flow from then on."},
     {.path = "flow.schedule[].gradient",
@@ -150,7 +147,7 @@ const std::vector<Key> kKeys{
                  "from that of a drop moves anything."},
     {.path = "matrix.viscosity-law",
      .type = word,
-     .words = kViscosityLaws,
+     .words = words::list(words::viscosity_laws),
      .value = "newtonian"s,
      .sentence = kLawSentence},
     {.path = "matrix.power-index",
@@ -227,7 +224,7 @@ const std::vector<Key> kKeys{
                  "shear, that at rest (carreau-yasuda) or at the rate G (power-law)."},
     {.path = "drop[].viscosity-law",
      .type = word,
-     .words = kViscosityLaws,
+     .words = words::list(words::viscosity_laws),
      .value = "newtonian"s,
      .sentence = kLawSentence},
     {.path = "drop[].power-index",
@@ -280,7 +277,7 @@ const std::vector<Key> kKeys{
 
     {.path = "domain.shape",
      .type = word,
-     .words = {"box", "sphere", "cylinder", "unbounded"},
+     .words = words::list(words::domain_shapes),
      .value = "box"s,
      .applies = "without surface",
      .sentence = "Shape of the outer boundary; a cylinder lies along x. \"unbounded\", with "
@@ -326,7 +323,7 @@ const std::vector<Key> kKeys{
      .sentence = "About how many vertices the outer boundary has."},
     {.path = "domain.grading",
      .type = word,
-     .words = {"linear", "exponential", "gaussian"},
+     .words = words::list(words::gradings),
      .value = "linear"s,
      .applies = kWithElements,
      .sentence =
@@ -340,9 +337,21 @@ const std::vector<Key> kKeys{
      .sentence =
          "A tetrahedron is divided while its volume exceeds this many times that of the regular "
          "one of the wanted edge: halving it doubles the nodes between the surfaces."},
+    {.path = "domain.interior-growth",
+     .range = {.min = 0.0, .max = 10.0},
+     .value = 0.5,
+     .applies = kWithElements,
+     .sentence = "How fast the size of tetrahedra grows with the distance from the surface, inside "
+                 "a drop and wherever no farther surface bounds the liquid; 0: not at all."},
+    {.path = "domain.radius-edge",
+     .range = {.min = 1.1, .max = 10.0},
+     .value = 1.4,
+     .applies = kWithElements,
+     .sentence = "TetGen's bound on a tetrahedron's circumradius over its shortest edge: lower "
+                 "bounds give rounder tetrahedra and more of them."},
     {.path = "domain.frame",
      .type = word,
-     .words = {"fixed", "drops"},
+     .words = words::list(words::domain_frames),
      .value = "fixed"s,
      .sentence = "drops: the domain and the imposed flow move along with the drops, whose common "
                  "centroid stays where it was at the start, as experiments hold a drop at a "
@@ -361,7 +370,7 @@ const std::vector<Key> kKeys{
          "The tag of the patch's faces in the surface file: a number, as said at domain.surface."},
     {.path = "domain.patch[].condition",
      .type = word,
-     .words = {"velocity", "symmetry", "open"},
+     .words = words::list(words::conditions),
      .value = "velocity"s,
      .sentence = "velocity: v is given; symmetry (of a flat patch): no flow through it and no "
                  "tangential traction; "
@@ -378,7 +387,7 @@ const std::vector<Key> kKeys{
          "[0, 0, 0] for a wall."},
     {.path = "domain.patch[].profile",
      .type = word,
-     .words = {"uniform", "parabolic"},
+     .words = words::list(words::profiles),
      .value = "uniform"s,
      .applies = "with a velocity of three numbers",
      .sentence =
@@ -408,7 +417,7 @@ const std::vector<Key> kKeys{
 
     {.path = "interface.surface-tension",
      .type = word,
-     .words = {"weak", "nodal", "balanced"},
+     .words = words::list(words::capillary_forms),
      .value = "weak"s,
      .applies = kWithElements,
      .sentence = "Form of the capillary force: weak (integrated by parts, the paper's eq. 15), "
@@ -416,14 +425,14 @@ const std::vector<Key> kKeys{
                  "curvature)."},
     {.path = "interface.motion-normal",
      .type = word,
-     .words = {"area-vector", "fit", "smooth"},
+     .words = words::list(words::motion_normals),
      .value = "area-vector"s,
      .sentence = "Normal along which vertices move: area-vector keeps the volume's rate of change "
                  "at round-off, fit is the paper's paraboloid, smooth that of the fitted surface "
                  "(what P2-P1 elements and boundary integrals take unless told otherwise)."},
     {.path = "interface.volume-motion",
      .type = word,
-     .words = {"spines", "lagrangian", "harmonic"},
+     .words = words::list(words::volume_motions),
      .value = "spines"s,
      .applies = kWithElements,
      .sentence = "How the vertices between the surfaces follow: along rays from the drop's centre "
@@ -465,7 +474,7 @@ const std::vector<Key> kKeys{
      .sentence = "A thinning neck below this radius (its perimeter over 2 pi) is cut; 0: never."},
     {.path = "topology.coalescence",
      .type = word,
-     .words = {"on", "off"},
+     .words = words::list(words::on_off),
      .value = "on"s,
      .sentence = "Whether interfaces that come close merge, and liquid films rupture; off refuses "
                  "any step that would make drops touch."},
@@ -478,7 +487,7 @@ const std::vector<Key> kKeys{
 
     {.path = "solver.method",
      .type = word,
-     .words = {"finite-element", "boundary-integral"},
+     .words = words::list(words::methods),
      .value = "finite-element"s,
      .sentence = "How the Stokes flow is found: by elements that fill the domain, or by integrals "
                  "over the interfaces alone, in an unbounded domain."},
@@ -490,7 +499,7 @@ const std::vector<Key> kKeys{
      .sentence = "Threads that share the sums; the results do not depend on it."},
     {.path = "solver.elements",
      .type = word,
-     .words = {"P1-P1", "P2-P1"},
+     .words = words::list(words::elements),
      .value = "P1-P1"s,
      .applies = kWithElements,
      .sentence =
@@ -499,7 +508,7 @@ const std::vector<Key> kKeys{
          "that of the curved surface."},
     {.path = "solver.linear",
      .type = word,
-     .words = {"block", "paper-gmres", "minres", "mumps"},
+     .words = words::list(words::linear_solvers),
      .value = "block"s,
      .applies = kWithElements,
      .sentence = "Linear solver: block-preconditioned FGMRES, the paper's scaled GMRES, "
@@ -522,7 +531,7 @@ const std::vector<Key> kKeys{
 
     {.path = "time.scheme",
      .type = word,
-     .words = {"rk2", "euler"},
+     .words = words::list(words::time_schemes),
      .value = "rk2"s,
      .sentence = "Midpoint Runge-Kutta (the paper's eq. 22) or explicit Euler (eq. 21)."},
     {.path = "time.end",
@@ -536,7 +545,7 @@ const std::vector<Key> kKeys{
      .sentence = "dt = step-factor · min(1, Ca) · (shortest edge): the paper's eq. 27."},
     {.path = "time.step-edges",
      .type = word,
-     .words = {"interface", "mesh"},
+     .words = words::list(words::step_edges),
      .value = "interface"s,
      .sentence = "Where the shortest edge is looked for; mesh is the paper's."},
     {.path = "time.max-step",

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <system_error>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus {
 
 using schema::Dimension;
@@ -41,7 +43,7 @@ const Value& Settings::own_value(const std::string& path) {
   MENISCUS_ASSERT(key != nullptr, "no key {} in the schema", path);
   const auto given = document_.values.find(path);
   if (given != document_.values.end()) return used_[path] = given->second.value;
-  if (!key->value) reject_input("{}: {} is missing", place(path), name(path));
+  if (!key->value) reject_input("{}: {} is missing", source(path), name(path));
   // Times the unit, to be divided by it again: what run.json shows then reads back to the same
   // bits.
   return used_[path] = schema::scaled(*key->value, unit_of(path));
@@ -51,6 +53,7 @@ Value Settings::dimensionless_value(const std::string& path) {
   const Value& own = own_value(path);
   const schema::Key* key = schema::find_key(schema::generic_path(path));
   const double unit = unit_of(path);
+  MENISCUS_ASSERT(unit > 0.0, "the unit of {} is {:g}", path, unit);
   Value value = own;
   if (const auto* real = std::get_if<double>(&own)) value = *real / unit;
   if (const auto* v = std::get_if<Vec3>(&own)) value = Vec3(*v / unit);
@@ -97,9 +100,9 @@ double Settings::number_or(const std::string& path, double fallback) {
   return number(path);
 }
 
-std::string Settings::place(const std::string& path) const {
+std::string Settings::source(const std::string& path) const {
   const auto given = document_.values.find(path);
-  if (given != document_.values.end()) return given->second.place;
+  if (given != document_.values.end()) return given->second.source;
   std::string_view around = path;
   while (!around.empty()) {
     const auto table = document_.tables.find(std::string(around));
@@ -121,8 +124,8 @@ void Settings::reject_value(const std::string& path, const std::string& complain
   const Value* value = given != document_.values.end() ? &given->second.value
                        : known != used_.end()          ? &known->second
                                                        : nullptr;
-  if (value == nullptr) reject_input("{}: {} {}", place(path), name(path), complaint);
-  reject_input("{}: {} = {} {}", place(path), name(path), schema::to_toml(*value), complaint);
+  if (value == nullptr) reject_input("{}: {} {}", source(path), name(path), complaint);
+  reject_input("{}: {} = {} {}", source(path), name(path), schema::to_toml(*value), complaint);
 }
 
 void Settings::require_all_used(const std::map<std::string, Value>& used_without_overrides) const {
@@ -131,8 +134,9 @@ void Settings::require_all_used(const std::map<std::string, Value>& used_without
     if (!given.is_override && used_without_overrides.contains(path)) continue;
     const schema::Key* key = schema::find_key(schema::generic_path(path));
     if (key->applies.empty())
-      reject_input("{}: {} has no effect in this case", given.place, name(path));
-    reject_input("{}: {} has no effect here: it applies {}", given.place, name(path), key->applies);
+      reject_input("{}: {} has no effect in this case", given.source, name(path));
+    reject_input("{}: {} has no effect here: it applies {}", given.source, name(path),
+                 key->applies);
   }
 }
 

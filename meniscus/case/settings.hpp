@@ -53,11 +53,9 @@ class Settings {
   [[nodiscard]] std::filesystem::path file(const std::string& path);
   /// A dimensionless default that follows from other keys.
   [[nodiscard]] double number_or(const std::string& path, double fallback);
-  /// Asks for a key whose value is not needed.
-  void note(const std::string& path) { (void)own_value(path); }
-  template <class Enum>
-  [[nodiscard]] Enum choice(const std::string& path,
-                            std::initializer_list<std::pair<std::string_view, Enum>> words);
+  /// The meaning of a key's word, of a list of words (case/words.hpp).
+  template <class Words>
+  [[nodiscard]] auto choice(const std::string& path, const Words& words);
 
   /// From here on the word is what a key that is not given means, here and in the checkpoints.
   void prefer(const std::string& path, const std::string& word) {
@@ -68,12 +66,12 @@ class Settings {
   [[nodiscard]] const std::optional<Scale>& scale() const { return scale_; }
 
   /// "case.toml:7", of the key, else of the nearest table around it, else "case.toml".
-  [[nodiscard]] std::string place(const std::string& path) const;
+  [[nodiscard]] std::string source(const std::string& path) const;
   /// Whether an array's table, "drop[1]", was begun by --set.
   [[nodiscard]] bool is_added(const std::string& table) const {
     return document_.added_tables.contains(table);
   }
-  /// The key as it should appear after its place.
+  /// The key as it should appear after its source.
   [[nodiscard]] std::string name(const std::string& path) const;
   /// Throws InvalidInput: "case.toml:7: drop.radius = 2.0 <complaint>".
   template <class... Args>
@@ -102,14 +100,13 @@ class Settings {
   std::map<std::string, schema::Value> used_;
 };
 
-template <class Enum>
-Enum Settings::choice(const std::string& path,
-                      std::initializer_list<std::pair<std::string_view, Enum>> words) {
-  const std::string word = text(path);
-  for (const auto& [name, value] : words)
-    if (name == word) return value;
-  MENISCUS_ASSERT(false, "{} = {}: a word of the schema without a meaning", path, word);
-  return words.begin()->second;
+template <class Words>
+auto Settings::choice(const std::string& path, const Words& words) {
+  const std::string given = text(path);
+  for (const auto& [word, meaning] : words)
+    if (word == given) return meaning;
+  MENISCUS_ASSERT(false, "{} = {}: a word of the schema without a meaning", path, given);
+  return words[0].meaning;
 }
 
 }  // namespace meniscus

@@ -1,18 +1,19 @@
 #include "meniscus/case/surface_source.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "meniscus/core/log.hpp"
-#include "meniscus/evolve/interface_motion.hpp"
 #include "meniscus/io/archive_file.hpp"
+#include "meniscus/io/run_files.hpp"
 #include "meniscus/io/surface_file.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
-#include "meniscus/surface/even_out.hpp"
+#include "meniscus/surface/isotropic_remesh.hpp"
+#include "meniscus/surface/reconstructed_surface.hpp"
 #include "meniscus/surface/remesh.hpp"
+#include "meniscus/surface/restore_volume.hpp"
 
 namespace meniscus {
 namespace {
@@ -23,20 +24,7 @@ void require_existence(const Case& c, const std::string& path, const std::filesy
 }
 
 void require_fit(const Case& c, const std::string& path, const SurfaceMesh& mesh) {
-  const std::string defect = find_defect(mesh);
-  if (!defect.empty()) c.settings.reject(path, "is unfit: {}", defect);
-}
-
-/// The step in "checkpoint-<step>.h5"; none for another name.
-std::optional<std::int64_t> checkpoint_step(const std::string& name) {
-  constexpr std::string_view kPrefix = "checkpoint-", kSuffix = ".h5";
-  if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix)) return std::nullopt;
-  std::int64_t step = 0;
-  const char* first = name.data() + kPrefix.size();
-  const char* last = name.data() + name.size() - kSuffix.size();
-  const auto [end, error] = std::from_chars(first, last, step);
-  if (error != std::errc{} || end != last) return std::nullopt;
-  return step;
+  if (const auto defect = find_defect(mesh)) c.settings.reject(path, "is unfit: {}", defect->text);
 }
 
 std::filesystem::path newest_checkpoint(const Case& c, const std::string& path,
@@ -44,17 +32,9 @@ std::filesystem::path newest_checkpoint(const Case& c, const std::string& path,
   require_existence(c, path, folder);
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error)) c.settings.reject(path, "is not a folder");
-  std::filesystem::path newest;
-  std::int64_t newest_step = -1;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    const auto step = checkpoint_step(entry.path().filename().string());
-    if (!step || *step <= newest_step) continue;
-    newest_step = *step;
-    newest = entry.path();
-  }
-  if (newest.empty())
-    c.settings.reject(path, "holds no run: no checkpoint-<step>.h5 in the folder");
-  return newest;
+  const auto all = io::checkpoints(folder);
+  if (all.empty()) c.settings.reject(path, "holds no run: no checkpoint-<step>.h5 in the folder");
+  return all.back().second;
 }
 
 /// Index of the interface of the wanted drop in an archive.
@@ -105,7 +85,8 @@ void shift(SurfaceMesh& mesh, const Vec3& by) {
 /// What a surface encloses: its faces, or the smooth surface through its vertices where faces are
 /// curved. A rough one (a cube, a scan) stands for no smooth one.
 double given_volume(const SurfaceMesh& mesh, SurfaceShape faces) {
-  return is_rough(mesh, SurfaceTopology(mesh)) ? enclosed_volume(mesh) : volume_of(mesh, faces);
+  const bool is_smooth = !is_rough(mesh, SurfaceTopology(mesh));
+  return ReconstructedSurface(mesh, is_smooth ? faces : SurfaceShape::faceted).volume();
 }
 
 /// Gives a surface the vertex density of its drop and the volume it had. Where faces are curved the
@@ -113,14 +94,13 @@ double given_volume(const SurfaceMesh& mesh, SurfaceShape faces) {
 /// edge, and taking that back evenly thins the necks. A surface that the remesher leaves as it was
 /// is still sound, and said to be coarse or fine in the log.
 void resolve(SurfaceMesh& mesh, const DropCase& drop, SurfaceShape faces, int index) {
+  MENISCUS_ASSERT(drop.nodes >= kFewestVertices, "drop {} of {} nodes", index, drop.nodes);
   const double volume = given_volume(mesh, faces);
-  RemeshOptions options;
-  options.C0 = drop.nodes / (4.0 * std::numbers::pi);
+  RemeshOptions options = sound_remeshing(drop.nodes / (4.0 * std::numbers::pi));
   options.restores_volume = faces == SurfaceShape::faceted;
   const RemeshReport report = remesh(mesh, options);
-  if (!report.ok)
-    log::warning("drop {}: its surface stays as given, remeshing failed: {}", index,
-                 report.failure);
+  if (!report.ok())
+    log::warning("drop {}: its surface stays as given, remeshing failed: {}", index, report.text());
   if (faces != SurfaceShape::faceted) restore_volume(mesh, volume, faces);
 }
 

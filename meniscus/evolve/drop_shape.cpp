@@ -9,6 +9,7 @@
 #include "meniscus/evolve/plane_section.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/curvature.hpp"
+#include "meniscus/surface/reconstructed_surface.hpp"
 
 namespace meniscus {
 namespace {
@@ -117,11 +118,12 @@ void measure_general(const FittedSurface& surface, DropShape& shape) {
 
 }  // namespace
 
-DropShape drop_shape(const SurfaceMesh& mesh, FlowFamily family) {
+DropShape drop_shape(const SurfaceMesh& mesh, FlowFamily family, SurfaceShape faces) {
   const FittedSurface surface(mesh);
+  const ReconstructedSurface reconstructed(mesh, faces);
   DropShape shape;
-  shape.volume = enclosed_volume(mesh);
-  shape.area = surface_area(mesh);
+  shape.volume = reconstructed.volume();
+  shape.area = reconstructed.area();
   shape.centroid = enclosed_centroid(mesh);
   switch (family) {
     case FlowFamily::planar:
@@ -139,7 +141,7 @@ DropShape drop_shape(const SurfaceMesh& mesh, FlowFamily family) {
   shape.extent_x = half_extent(surface, Vec3::UnitX());
   for (const VertexCurvature& fit : surface.fit)
     shape.H_max = std::max(shape.H_max, fit.half_sum());
-  shape.D_inertia = inertial_deformation(enclosed_second_moments(mesh), shape.volume);
+  shape.D_inertia = inertial_deformation(reconstructed.second_moments(), shape.volume);
   return shape;
 }
 

@@ -4,12 +4,13 @@
 
 #include "meniscus/mesh/surface_mesh.hpp"
 #include "meniscus/scene/imposed_flow.hpp"
+#include "meniscus/surface/edge_middles.hpp"
 
 namespace meniscus {
 
 /// The measures of one drop as drops.csv has them (definitions: docs/notation.md). Lengths are
 /// those of the smooth interface through the vertices, volume, area and D_inertia those of the
-/// triangulation.
+/// faces, flat or not, and the centroid that of the flat ones.
 struct DropShape {
   double volume = 0.0, area = 0.0;
   Vec3 centroid = Vec3::Zero();
@@ -21,7 +22,8 @@ struct DropShape {
   double D_inertia = 0.0;           ///< of the ellipsoid with the same second moments
 };
 /// Planar flows lie in the x-y plane with x the flow direction, axial ones have x as their axis.
-[[nodiscard]] DropShape drop_shape(const SurfaceMesh& mesh, FlowFamily family);
+[[nodiscard]] DropShape drop_shape(const SurfaceMesh& mesh, FlowFamily family,
+                                   SurfaceShape surface = SurfaceShape::faceted);
 
 /// (a − c)/(a + c), a and c the largest and the smallest half-axis of the ellipsoid with these
 /// second moments ∫ (x − c)(x − c)ᵀ dV about its centroid: along an axis a it is V a²/5.

@@ -2,27 +2,24 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "meniscus/core/fault.hpp"
 #include "meniscus/evolve/interface_motion.hpp"
 #include "meniscus/evolve/measures.hpp"
+#include "meniscus/evolve/notices.hpp"
 #include "meniscus/evolve/options.hpp"
 #include "meniscus/evolve/state.hpp"
-#include "meniscus/mesh/surface_tree.hpp"
+#include "meniscus/evolve/volume_restoration.hpp"
 
 namespace meniscus {
 
-/// How a part of the evolution ended; a failure has already been retried with less ambition.
-struct [[nodiscard]] EvolutionReport {
-  bool ok = true;
-  std::string failure;
-  bool is_final = false;  ///< no shorter step would do: what comes must not happen
-};
-
 /// A state that evolves in time: its interfaces move with the velocity a flow solver gives, and are
 /// kept fit for the next step. Between calls it stands at t_k with interfaces remeshed and the
-/// mesh made; the order of calls is prepare (or load), then solve, advance, solve, advance…
+/// mesh made; the order of calls is prepare (or load), then solve, advance, solve, advance… A fault
+/// that a call reports has already been answered with less ambition.
 class Evolution {
  public:
   /// `mesh` is given where the flow solver needs one.
@@ -30,12 +27,12 @@ class Evolution {
             std::optional<MovingMesh> mesh = std::nullopt);
 
   /// Remeshes the initial interfaces and makes the mesh: step 0.
-  EvolutionReport prepare();
+  Report prepare();
   /// The flow at t_k (first line of the paper's Table 1).
-  EvolutionReport solve();
+  Report solve();
   /// From t_k to t_{k+1}: the rest of Table 1. A step that fails is undone and tried at half the
   /// length, down to `min_step`.
-  EvolutionReport advance();
+  Report advance();
 
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] double t() const { return state_.t; }
@@ -47,11 +44,14 @@ class Evolution {
   [[nodiscard]] const InterfaceMotion& motion() const { return motion_; }
   /// The changes of topology in the step that led to t_k.
   [[nodiscard]] const std::vector<TopologyEvent>& events() const { return state_.events; }
-  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+  /// What its user should know of the steps so far.
+  [[nodiscard]] const std::vector<Notice>& notices() const { return notices_; }
+  /// Told of each notice at once.
+  void set_listener(NoticeListener listener) { listener_ = std::move(listener); }
   /// Seconds spent in a phase by the evolution, its mesh and its solver.
   [[nodiscard]] double seconds_in(const std::string& phase) const;
 
-  /// Δt = step_factor · min(1, 1/tension) · l_min within its bounds, for the shapes as they are.
+  /// The length that the next step is tried with first, for the shapes as they are.
   [[nodiscard]] double step_length() const;
 
   /// The rows of the last solve.
@@ -68,25 +68,30 @@ class Evolution {
   void load(const Archive& archive);
 
  private:
-  EvolutionReport try_step(double dt);
-  EvolutionReport finish_step(const Scene& start, const InterfaceMotion& motion,
-                              const FlowSolution& flow, double dt);
-  EvolutionReport move_whole_step(const Scene& start, const InterfaceMotion& motion, double dt);
-  void carry_fields(Interface& interface, const SurfaceMesh& before);
+  Report try_step(const Scene& start, double dt);
+  Report finish_step(const Scene& start, const InterfaceMotion& motion, const FlowSolution& flow,
+                     double dt);
+  Report move_whole_step(const Scene& start, const InterfaceMotion& motion, double dt);
+  void accept_step(double dt);
   void carry_fields_of_mesh(const Scene& start, const FlowSolution& flow, double dt);
-  EvolutionReport follow_interfaces(const RegionSources& sources = {});
-  [[nodiscard]] EvolutionReport move_mesh(const Scene& start, const InterfaceMotion& motion,
-                                          const FlowSolution& flow, double dt);
+  Report follow_interfaces(const RegionSources& sources = {});
+  [[nodiscard]] Report move_mesh(const Scene& start, const InterfaceMotion& motion,
+                                 const FlowSolution& flow, double dt);
   [[nodiscard]] bool is_remesh_due() const {
     return (state_.step + 1) % options_.remesh_every == 0;
   }
-  [[nodiscard]] std::vector<SurfaceTree> trees_for_gaps() const;
   bool remesh_interfaces();
-  [[nodiscard]] EvolutionReport refuse_touching(bool are_remeshed) const;
-  EvolutionReport change_topology(const Scene& moved, const InterfaceMotion& motion);
+  bool remesh_interfaces(std::span<const std::size_t> interfaces);
+  Report refuse_contact(bool are_remeshed);
+  Report change_topology(const Scene& moved, const InterfaceMotion& motion);
   void restore_volumes();
-  double restore_volume_of(Interface& interface);
+  Report judge_volume_shift(double dt);
   FlowSolution solve_flow(const Instant& instant);
+  void give_notice(Notice notice);
+  template <class What>
+  void give_notice(What what) {
+    give_notice(Notice{.t = state_.t, .what = std::move(what)});
+  }
 
   EvolutionOptions options_;
   std::unique_ptr<FlowSolver> solver_;
@@ -95,7 +100,9 @@ class Evolution {
   FlowSolution flow_;                   // at t_k
   InterfaceMotion motion_;              // n n·v at t_k
   mutable PhaseTimes times_;            // the clock is no part of the state
-  std::vector<std::string> warnings_;
+  ShiftJudge shift_judge_;              // of the attempts at the step from t_k
+  std::vector<Notice> notices_;
+  NoticeListener listener_;
 };
 
 }  // namespace meniscus

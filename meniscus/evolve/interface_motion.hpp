@@ -31,10 +31,4 @@ void translate_interfaces(Scene& scene, const Vec3& shift);
 [[nodiscard]] double surface_energy_rate(const Scene& scene, const InterfaceMotion& motion,
                                          SurfaceShape surface = SurfaceShape::faceted);
 
-/// The volume enclosed by what the vertices stand for [R0³].
-[[nodiscard]] double volume_of(const SurfaceMesh& mesh, SurfaceShape surface);
-/// Shifts all vertices by the same length along their area vectors so that this volume becomes the
-/// one given; returns the length [R0].
-double restore_volume(SurfaceMesh& mesh, double volume, SurfaceShape surface);
-
 }  // namespace meniscus

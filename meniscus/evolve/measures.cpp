@@ -3,10 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/evolve/drop_stress.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
 #include "meniscus/scene/scene_gap.hpp"
-#include "meniscus/surface/curved_measures.hpp"
+#include "meniscus/surface/smooth_surface.hpp"
 #include "meniscus/topology/necks.hpp"
 #include "meniscus/volume/quality.hpp"
 
@@ -39,6 +40,8 @@ HistoryRow history_row(const State& state, const FlowSolution& flow, const Inter
                        SurfaceShape surface) {
   const Scene& scene = state.scene;
   HistoryRow row;
+  MENISCUS_ASSERT(motion.size() == scene.interfaces.size(), "{} motions of {} interfaces",
+                  motion.size(), scene.interfaces.size());
   row.step = state.step;
   row.t = state.t;
   row.dt = state.dt;
@@ -65,18 +68,15 @@ HistoryRow history_row(const State& state, const FlowSolution& flow, const Inter
 
 std::vector<DropRow> drop_rows(const State& state, SurfaceShape surface, double breakup_radius) {
   std::vector<DropRow> rows;
+  MENISCUS_ASSERT(state.volume_shift.size() == state.scene.interfaces.size(),
+                  "{} shifts of {} interfaces", state.volume_shift.size(),
+                  state.scene.interfaces.size());
   for (std::size_t i = 0; i < state.scene.interfaces.size(); ++i) {
     const Interface& interface = state.scene.interfaces[i];
     DropRow& row = rows.emplace_back();
     row.drop = interface.drop;
     row.parent = interface.parent;
-    row.shape = drop_shape(interface.mesh, state.scene.flow.family());
-    if (surface != SurfaceShape::faceted) {
-      const CurvedMeasures curved = curved_measures(interface.mesh, surface);
-      row.shape.volume = curved.volume;
-      row.shape.area = curved.area;
-      row.shape.D_inertia = inertial_deformation(curved.second_moments, curved.volume);
-    }
+    row.shape = drop_shape(interface.mesh, state.scene.flow.family(), surface);
     row.volume_drift = row.shape.volume / interface.initial_volume - 1.0;
     row.volume_correction = state.volume_shift[i];
     if (breakup_radius > 0.0) row.neck_radius = thinnest_neck(interface, surface);

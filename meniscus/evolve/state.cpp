@@ -60,6 +60,8 @@ Interface load_interface(const Archive& archive, std::size_t i) {
 // The liquids of the regions change with the interfaces.
 void save_liquids(const Scene& scene, Archive& archive) {
   std::vector<double>& values = archive.reals["evolution/liquids"];
+  MENISCUS_ASSERT(scene.liquids.size() > static_cast<std::int32_t>(scene.interfaces.size()),
+                  "{} liquids for {} interfaces", scene.liquids.size(), scene.interfaces.size());
   for (const Liquid& liquid : scene.liquids)
     values.insert(values.end(), {liquid.viscosity, liquid.body_force.x(), liquid.body_force.y(),
                                  liquid.body_force.z()});
@@ -119,10 +121,13 @@ void set_interface_fields(State& state, std::vector<SurfaceFields> fields) {
 
 void save(const State& state, Archive& archive) {
   const std::vector<Interface>& interfaces = state.scene.interfaces;
+  MENISCUS_ASSERT(state.volume_shift.size() == interfaces.size(), "{} shifts of {} interfaces",
+                  state.volume_shift.size(), interfaces.size());
   archive.reals["evolution/time"] = {state.t, state.dt};
   archive.integers["evolution/step"] = {state.step, state.iterations};
   archive.integers["evolution/interfaces"] = {static_cast<std::int64_t>(interfaces.size())};
   archive.reals["evolution/corrections"] = state.volume_shift;
+  archive.integers["evolution/tolerates-shift"] = {state.tolerates_shift ? 1 : 0};
   const Vec3& start = state.start_centroid;
   archive.reals["evolution/field-excess"] = {state.field_excess.above, state.field_excess.below};
   archive.reals["evolution/centroid"] = {start.x(), start.y(), start.z()};
@@ -148,6 +153,7 @@ void load(State& state, const Archive& archive) {
   state.scene.liquids = load_liquids(archive, count);
   state.events = load_events(archive);
   state.volume_shift = entry_of_size(archive.reals, "evolution/corrections", count);
+  state.tolerates_shift = entry_of_size(archive.integers, "evolution/tolerates-shift", 1)[0] != 0;
   const auto& excess = entry_of_size(archive.reals, "evolution/field-excess", 2);
   state.field_excess = {excess[0], excess[1]};
   state.start_centroid = Vec3(entry_of_size(archive.reals, "evolution/centroid", 3).data());

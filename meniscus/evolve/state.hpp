@@ -21,7 +21,12 @@ struct State {
   std::int64_t connectivity = 0;
   Vec3 start_centroid = Vec3::Zero();  ///< of the drops at step 0
   std::vector<double> volume_shift;    ///< by interface: that by the last restoration of volume
-  std::vector<TopologyEvent> events;   ///< of the step that led to t
+  /// Largest shift of a vertex by a restoration of volume in the step that led to t, over the mean
+  /// edge there.
+  double shift_over_edge = 0.0;
+  /// Steps are not made shorter for the sake of that shift: it did not help.
+  bool tolerates_shift = false;
+  std::vector<TopologyEvent> events;  ///< of the step that led to t
   /// The most that carried fields left the range they had, in any step so far.
   FieldExcess field_excess;
   int iterations = 0;  ///< linear ones since the last solve at the start of a step

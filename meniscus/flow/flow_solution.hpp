@@ -2,8 +2,10 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "meniscus/core/fault.hpp"
 #include "meniscus/mesh/tet_mesh.hpp"
 
 namespace meniscus {
@@ -24,9 +26,7 @@ struct BulkFlow {
 };
 
 /// The flow at one instant, or why there is none. Failure is an outcome that evolution answers.
-struct [[nodiscard]] FlowSolution {
-  bool ok = true;
-  std::string failure = {};
+struct [[nodiscard]] FlowSolution : Report {
   int iterations = 0;                      ///< linear iterations, all Newton steps together
   std::vector<std::string> warnings = {};  ///< what was done in another way than asked for
 
@@ -40,10 +40,9 @@ struct [[nodiscard]] FlowSolution {
 };
 
 /// A solution that was not found.
-[[nodiscard]] inline FlowSolution failed_flow(std::string text, int iterations = 0) {
+[[nodiscard]] inline FlowSolution failed_flow(Fault fault, int iterations = 0) {
   FlowSolution solution;
-  solution.ok = false;
-  solution.failure = std::move(text);
+  solution.fault = std::move(fault);
   solution.iterations = iterations;
   return solution;
 }

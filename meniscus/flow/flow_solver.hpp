@@ -31,13 +31,17 @@ struct FlowDomain {
 
 /// What evolution asks of a flow solver, be it finite elements on a volume mesh or boundary
 /// integrals on the interfaces alone. A solver keeps what it derives from a domain (spaces,
-/// preconditioners, the last solution as a first guess) while the connectivity stands.
+/// preconditioners) while the connectivity stands, and the last solution as a first guess beyond.
 class FlowSolver {
  public:
   virtual ~FlowSolver() = default;
 
   /// The flow in a domain at one instant.
   virtual FlowSolution solve(const FlowDomain& domain, const Instant& instant) = 0;
+
+  /// The mesh was made anew for this domain: what is kept of the last solution goes along. Only
+  /// solvers that keep something on the mesh override it.
+  virtual void follow(const MeshChange& /*change*/, const FlowDomain& /*domain*/) {}
 
   /// All that is needed to go on in this domain bit for bit.
   virtual void save(Archive& archive, const FlowDomain& domain) const = 0;

@@ -57,10 +57,12 @@ int write_and_sync(const fs::path& path, std::string_view bytes) {
   return file.close() == 0 ? 0 : errno;
 }
 
-/// Makes a rename last through a power cut, where the file system can.
-void sync_folder(const fs::path& folder) {
+/// Makes a rename last through a power cut; 0, or the error number.
+int sync_folder(const fs::path& folder) {
   const Descriptor handle(folder.empty() ? fs::path(".") : folder, O_RDONLY | O_CLOEXEC);
-  if (handle.is_open()) ::fsync(handle.get());
+  // A folder that may not be read can be written all the same.
+  if (!handle.is_open() || ::fsync(handle.get()) == 0 || errno == EINVAL) return 0;
+  return errno;
 }
 
 bool is_device(const fs::path& path) {
@@ -92,7 +94,7 @@ void write_file(const fs::path& path, std::string_view bytes) {
     ::unlink(temporary.c_str());
     fail_writing(path, error);
   }
-  sync_folder(path.parent_path());
+  if (const int failed = sync_folder(path.parent_path()); failed != 0) fail_writing(path, failed);
 }
 
 std::string read_file(const fs::path& path) {

@@ -17,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kLargestCoordinate = 1e100;  // products of three are taken, of volumes
+
 std::string lower_extension(const fs::path& path) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(),
@@ -81,6 +83,13 @@ void check(const fs::path& path, const RawTriangles& triangles) {
   for (std::size_t i = 0; i < triangles.points.size(); ++i) {
     if (!triangles.points[i].allFinite()) {
       reject_input("{}: point {} has a coordinate that is not finite", path.string(), i);
+    }
+    const double largest = triangles.points[i].cwiseAbs().maxCoeff();
+    if (largest > kLargestCoordinate) {
+      reject_input(
+          "{}: point {} has a coordinate of size {:g}, which is too large; at most {:g} is "
+          "allowed",
+          path.string(), i, largest, kLargestCoordinate);
     }
   }
 }

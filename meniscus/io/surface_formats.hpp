@@ -20,7 +20,8 @@ struct RawTriangles {
 };
 
 // Each reads the bytes of a file; `path` serves the messages. Throws InvalidInput with the line.
-// Own readers, because those of VTK keep coordinates in single precision and trust their input.
+// Own readers: VTK's keep coordinates in single precision and trust their input; CGAL's give no
+// line and accept some broken files (docs/surface-remeshing.md has the comparison).
 [[nodiscard]] RawTriangles parse_stl(const std::filesystem::path& path, std::string_view bytes);
 [[nodiscard]] RawTriangles parse_ply(const std::filesystem::path& path, std::string_view bytes);
 [[nodiscard]] RawTriangles parse_obj(const std::filesystem::path& path, std::string_view bytes);

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -16,6 +15,7 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include "meniscus/core/child_process.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/atomic_file.hpp"
 #include "meniscus/io/vtk_file.hpp"
@@ -25,6 +25,8 @@ namespace meniscus::io {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr unsigned kMostSeconds = 600;  // of processor time; a gigabyte takes some ten
 
 /// Whether each array of numbers says of which type it is. VTK 9.1 follows a null pointer where an
 /// array among the field data does not.
@@ -56,11 +58,10 @@ auto read_data_set(const fs::path& path, const char* kind) {
   vtkNew<Reader> reader;
   reader->ReadFromInputStringOn();
   reader->SetInputString(bytes);
-  try {
-    reader->Update();
-  } catch (const std::exception&) {  // an absurd length asks for more memory than there is
-    reject_foreign(path, kind);
-  }
+  // VTK 9.1 trusts what a file says of itself: an absurd length asks for more memory than there is,
+  // and blocks that are not where they should be end the process.
+  const ChildResult read = run_in_child([&] { reader->Update(); }, kMostSeconds);
+  if (!read.failure.empty()) reject_foreign(path, kind);
   if (messages.any() || reader->GetErrorCode() != 0 || reader->GetOutput() == nullptr) {
     reject_foreign(path, kind);
   }

@@ -8,12 +8,13 @@
 #include <thread>
 #include <vector>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/linear/petsc_objects.hpp"
 
 namespace meniscus::linear {
 namespace {
 
-// PETSc sends on copies of its communicators: no message of its own has this tag here.
+// PETSc sends on copies of its communicators: no message of its local has this tag here.
 constexpr int kArrivalTag = 4711;
 
 /// FNV-1a of the numbers' bits, taken in four strands: one alone waits for each of its products.
@@ -32,42 +33,44 @@ MPI_Comm handle_of(Communicator communicator) { return mpi_communicator(communic
 
 }  // namespace
 
-double sum(Communicator communicator, double own) {
-  if (communicator.size() == 1) return own;
+double sum(Communicator communicator, double local) {
+  if (communicator.size() == 1) return local;
   double all = 0.0;
-  MPI_Allreduce(&own, &all, 1, MPI_DOUBLE, MPI_SUM, handle_of(communicator));
+  MPI_Allreduce(&local, &all, 1, MPI_DOUBLE, MPI_SUM, handle_of(communicator));
   return all;
 }
 
-std::int64_t sum(Communicator communicator, std::int64_t own) {
-  if (communicator.size() == 1) return own;
+std::int64_t sum(Communicator communicator, std::int64_t local) {
+  if (communicator.size() == 1) return local;
   std::int64_t all = 0;
-  MPI_Allreduce(&own, &all, 1, MPI_INT64_T, MPI_SUM, handle_of(communicator));
+  MPI_Allreduce(&local, &all, 1, MPI_INT64_T, MPI_SUM, handle_of(communicator));
   return all;
 }
 
-double norm(Communicator communicator, double own) {
-  return communicator.size() == 1 ? own : std::sqrt(sum(communicator, own * own));
+double norm(Communicator communicator, double local) {
+  return communicator.size() == 1 ? local : std::sqrt(sum(communicator, local * local));
 }
 
-bool any(Communicator communicator, bool own) { return sum(communicator, std::int64_t{own}) > 0; }
+bool any(Communicator communicator, bool local) {
+  return sum(communicator, std::int64_t{local}) > 0;
+}
 
-bool agree(Communicator communicator, std::uint64_t own) {
+bool agree(Communicator communicator, std::uint64_t local) {
   if (communicator.size() == 1) return true;
-  // The largest of a number and of its complement: both are one's own where all are equal.
-  const std::array<std::uint64_t, 2> mine = {own, ~own};
+  // The largest of a number and of its complement: both are one's local where all are equal.
+  const std::array<std::uint64_t, 2> mine = {local, ~local};
   std::array<std::uint64_t, 2> largest{};
   MPI_Allreduce(mine.data(), largest.data(), 2, MPI_UINT64_T, MPI_MAX, handle_of(communicator));
   return largest[0] == ~largest[1];
 }
 
-bool agree(Communicator communicator, std::span<const std::int32_t> own) {
+bool agree(Communicator communicator, std::span<const std::int32_t> local) {
   return communicator.size() == 1 ||
-         agree(communicator, fingerprint<std::int32_t, std::uint32_t>(own));
+         agree(communicator, fingerprint<std::int32_t, std::uint32_t>(local));
 }
 
-bool agree(Communicator communicator, std::span<const double> own) {
-  return communicator.size() == 1 || agree(communicator, fingerprint<double, std::uint64_t>(own));
+bool agree(Communicator communicator, std::span<const double> local) {
+  return communicator.size() == 1 || agree(communicator, fingerprint<double, std::uint64_t>(local));
 }
 
 void barrier(Communicator communicator) {
@@ -88,10 +91,10 @@ void broadcast(Communicator communicator, std::span<std::int32_t> numbers) {
             handle_of(communicator));
 }
 
-void gather(Communicator communicator, std::span<const double> own,
+void gather(Communicator communicator, std::span<const double> local,
             std::span<const std::int32_t> counts, std::span<double> all) {
   if (communicator.size() == 1) {
-    std::ranges::copy(own, all.begin());
+    std::ranges::copy(local, all.begin());
     return;
   }
   std::vector<int> starts;
@@ -100,8 +103,13 @@ void gather(Communicator communicator, std::span<const double> own,
     starts.push_back(next);
     next += count;
   }
-  MPI_Allgatherv(own.data(), static_cast<int>(own.size()), MPI_DOUBLE, all.data(), counts.data(),
-                 starts.data(), MPI_DOUBLE, handle_of(communicator));
+  MENISCUS_ASSERT(
+      counts.size() == std::size_t(communicator.size()) && std::size_t(next) == all.size(),
+      "{} counts, {} of {} values", counts.size(), next, all.size());
+  MENISCUS_ASSERT(local.size() == std::size_t(counts[std::size_t(communicator.rank())]), "{}",
+                  local.size());
+  MPI_Allgatherv(local.data(), static_cast<int>(local.size()), MPI_DOUBLE, all.data(),
+                 counts.data(), starts.data(), MPI_DOUBLE, handle_of(communicator));
 }
 
 bool all_arrive(Communicator communicator, std::chrono::milliseconds patience) {

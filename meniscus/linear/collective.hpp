@@ -9,30 +9,31 @@
 
 namespace meniscus::linear {
 
-// What all ranks of a communicator do together: every rank must call, in the same order. On one
-// rank each returns what it was given. Results are the same on every rank, bit for bit.
+// Collective operations: every rank of a communicator must call them, in the same order. On one
+// rank each returns its argument. Results are the same on every rank, bit for bit.
 
-[[nodiscard]] double sum(Communicator communicator, double own);
-[[nodiscard]] std::int64_t sum(Communicator communicator, std::int64_t own);
+[[nodiscard]] double sum(Communicator communicator, double local);
+[[nodiscard]] std::int64_t sum(Communicator communicator, std::int64_t local);
 /// Euclidean norm of the ranks' norms.
-[[nodiscard]] double norm(Communicator communicator, double own);
-/// Whether one rank or more says so.
-[[nodiscard]] bool any(Communicator communicator, bool own);
+[[nodiscard]] double norm(Communicator communicator, double local);
+/// Whether `local` is true on one rank or more.
+[[nodiscard]] bool any(Communicator communicator, bool local);
 /// Whether all ranks give the same number.
-[[nodiscard]] bool agree(Communicator communicator, std::uint64_t own);
-/// Whether all ranks give as many numbers and the same, bit for bit, as far as 64 bits can tell.
-[[nodiscard]] bool agree(Communicator communicator, std::span<const std::int32_t> own);
-[[nodiscard]] bool agree(Communicator communicator, std::span<const double> own);
+[[nodiscard]] bool agree(Communicator communicator, std::uint64_t local);
+/// Whether all ranks give equal lists of numbers, bit for bit, as far as a hash of 64 bits tells.
+[[nodiscard]] bool agree(Communicator communicator, std::span<const std::int32_t> local);
+[[nodiscard]] bool agree(Communicator communicator, std::span<const double> local);
 void barrier(Communicator communicator);
-/// Everyone's becomes what rank 0 has; a text's length goes with it, a span's must be the same.
+/// Sends the value of rank 0 to all. A text takes rank 0's length, a span must have it already.
 void broadcast(Communicator communicator, std::string& text);
 void broadcast(Communicator communicator, std::span<std::int32_t> numbers);
-/// Writes the ranks' parts one after the other to everyone's `all`; `counts` are their lengths.
-void gather(Communicator communicator, std::span<const double> own,
+/// Gathers the ranks' parts, one after the other, in `all` on every rank; `counts` are their
+/// lengths.
+void gather(Communicator communicator, std::span<const double> local,
             std::span<const std::int32_t> counts, std::span<double> all);
 
-/// For a rank that has met an error, and may be alone with it while the others wait in a collective
-/// call: whether all ranks call this within the time. If not, `abort` is what is left.
+/// Whether all ranks call this within the time. For a rank that has met an error: if the others
+/// have not, they wait in another collective call, and only `abort` can end them.
 [[nodiscard]] bool all_arrive(Communicator communicator, std::chrono::milliseconds patience);
 /// Ends all ranks, wherever they are; programs end with `status`.
 [[noreturn]] void abort(Communicator communicator, int status);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/linear/petsc_objects.hpp"
 
 // Present when PETSc is linked with Scotch.
@@ -42,6 +43,10 @@ Partitioner best_partitioner() {
 
 std::vector<std::int32_t> partition(const WeightedGraph& graph, int num_parts,
                                     Partitioner partitioner) {
+  MENISCUS_ASSERT(graph.row_start.size() == graph.vertex_weights.size() + 1 &&
+                      graph.neighbours.size() == graph.edge_weights.size(),
+                  "{} vertices, {} rows, {} edges, {} weights", graph.num_vertices(),
+                  graph.row_start.size(), graph.neighbours.size(), graph.edge_weights.size());
   start_petsc();
   const bool is_scotch = partitioner == Partitioner::ptscotch;
   // Its random numbers go on from call to call; a resumed run has made fewer calls.

@@ -2,6 +2,7 @@
 
 #include <exception>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/core/processor_time.hpp"
 #include "meniscus/linear/petsc_matrix.hpp"
 #include "meniscus/linear/petsc_objects.hpp"
@@ -63,6 +64,8 @@ KrylovSolver gmres(const Matrix& matrix, const MatrixFreeOptions& options) {
 LinearReport solve_matrix_free(const LinearOperator& matrix,
                                std::span<const double> right_hand_side, std::span<double> solution,
                                const MatrixFreeOptions& options) {
+  MENISCUS_ASSERT(right_hand_side.size() == solution.size(), "{} {}", right_hand_side.size(),
+                  solution.size());
   LinearReport report;
   const double start = processor_seconds();
   try {

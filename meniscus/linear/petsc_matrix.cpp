@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/linear/collective.hpp"
 
 namespace meniscus::linear {
@@ -35,6 +36,8 @@ struct SplitRows {
   Part own, others;
 
   SplitRows(const CsrView& csr, PetscInt first_column) {
+    MENISCUS_ASSERT(csr.row_start.size() > at(csr.num_rows), "{} rows, {} starts", csr.num_rows,
+                    csr.row_start.size());
     find_starts(csr, first_column);
     for (Part* part : {&own, &others}) {
       const auto num_entries = static_cast<std::size_t>(part->start.back());
@@ -49,10 +52,14 @@ struct SplitRows {
     take_values(csr);
   }
 
-  /// Of a matrix on the same sparsity.
+  /// Copies the values of a matrix on the same sparsity.
   void take_values(const CsrView& csr) {
+    MENISCUS_ASSERT(std::size_t(csr.num_rows) + 1 == own.start.size(), "{} rows of {}",
+                    csr.num_rows, own.start.size() - 1);
     for (std::int32_t i = 0; i < csr.num_rows; ++i) {
       const auto [begin, middle, end] = row(csr, i);
+      MENISCUS_ASSERT(end - middle == others.start[at(i) + 1] - others.start[at(i)],
+                      "row {} is of another sparsity", i);
       const double* values = csr.values.data();
       std::copy(values + begin, values + middle, own.values.get() + own.start[at(i)]);
       std::copy(values + middle, values + end, others.values.get() + others.start[at(i)]);
@@ -113,7 +120,7 @@ void keep_with(Mat matrix, std::unique_ptr<SplitRows> rows) {
               "PetscObjectCompose");
 }
 
-/// Of a shared matrix; what PETSc made of the old values it does not know to be stale.
+/// Copies values into a shared matrix. PETSc is not told: what it derived from old values is stale.
 void take_values(Mat matrix, const CsrView& csr) {
   PetscObject container = nullptr;
   void* rows = nullptr;
@@ -121,6 +128,7 @@ void take_values(Mat matrix, const CsrView& csr) {
               "PetscObjectQuery");
   petsc_check(PetscContainerGetPointer(reinterpret_cast<PetscContainer>(container), &rows),
               "PetscContainerGetPointer");
+  MENISCUS_ASSERT(rows != nullptr, "a matrix that was not made of rows");
   static_cast<SplitRows*>(rows)->take_values(csr);
 }
 
@@ -167,6 +175,10 @@ void add_pin(Mat matrix, std::int32_t num_velocities, double pin) {
 
 Matrix borrowed_matrix(MPI_Comm comm, const CsrView& csr) {
   if (is_shared(comm)) return shared_matrix(comm, csr);
+  MENISCUS_ASSERT(
+      csr.row_start.size() > std::size_t(csr.num_rows) && csr.columns.size() == csr.values.size(),
+      "{} rows, {} starts, {} columns, {} values", csr.num_rows, csr.row_start.size(),
+      csr.columns.size(), csr.values.size());
   Matrix matrix;
   // PETSc's interface is not const-correct: it neither writes nor frees these arrays.
   petsc_check(MatCreateSeqAIJWithArrays(comm, csr.num_rows, csr.num_columns,

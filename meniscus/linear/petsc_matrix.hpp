@@ -12,7 +12,7 @@ namespace meniscus::linear {
 
 /// A PETSc matrix of this rank's rows: on the caller's arrays where there is one rank, else a copy.
 [[nodiscard]] Matrix borrowed_matrix(MPI_Comm comm, const CsrView& csr);
-/// The same, always a copy.
+/// A PETSc matrix of this rank's rows on arrays of its own.
 [[nodiscard]] Matrix copied_matrix(MPI_Comm comm, const CsrView& csr);
 /// A PETSc vector of `size` zeros here.
 [[nodiscard]] Vector zero_vector(MPI_Comm comm, PetscInt size);
@@ -30,7 +30,8 @@ struct NestedOperator {
 /// False, and nothing done, where a new one is due: on one rank, whose matrices are the caller's
 /// arrays; and where one of the two has a lower left block of its own and the other has not.
 [[nodiscard]] bool take_values(MPI_Comm comm, const SaddleSystem& system, NestedOperator& nested);
-/// The same as one matrix [A Bᵀ; sB −sC], with `pin` as `merged` takes it, numbered as the nest is.
+/// The system as one matrix [A Bᵀ; sB −sC], with `pin` as `merged` takes it, numbered as the nest
+/// is.
 struct MergedMatrix {
   CsrMatrix arrays;  ///< those that the handle borrows
   Matrix handle;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/linear/collective.hpp"
 
 namespace meniscus::linear {
@@ -114,8 +115,13 @@ VelocityMultigrid::VelocityMultigrid(Communicator communicator, const SaddleSyst
       laplacian_of_(system.laplacian_of),
       component_r_(zero_vector(mpi_communicator(communicator), num_nodes_)),
       component_z_(zero_vector(mpi_communicator(communicator), num_nodes_)) {
+  MENISCUS_ASSERT(
+      system.interpolations.empty() || system.interpolations.size() == system.laplacians.size(),
+      "{} interpolations, {} Laplacians", system.interpolations.size(), system.laplacians.size());
   MPI_Comm comm = mpi_communicator(communicator);
   for (std::size_t k = 0; k < system.laplacians.size(); ++k) {
+    MENISCUS_ASSERT(system.laplacians[k].num_rows == num_nodes_, "{} {}",
+                    system.laplacians[k].num_rows, num_nodes_);
     Matrix copy = copied_matrix(comm, system.laplacians[k]);
     cycles_.push_back(multigrid_cycle(
         comm, copy.get(), system.interpolations.empty() ? nullptr : &system.interpolations[k]));
@@ -129,6 +135,7 @@ void VelocityMultigrid::apply(Vec r, Vec z) const {
     with_arrays(r, component_r_.get(), [n, k](const double* from, double* to) {
       for (std::size_t i = 0; i < n; ++i) to[i] = from[3 * i + k];
     });
+    MENISCUS_ASSERT(std::size_t(laplacian_of_[k]) < cycles_.size(), "component {}", k);
     const KrylovSolver& cycle = cycles_[static_cast<std::size_t>(laplacian_of_[k])];
     petsc_check(KSPSolve(cycle.get(), component_r_.get(), component_z_.get()), "KSPSolve");
     with_arrays(component_z_.get(), z, [n, k](const double* from, double* to) {
@@ -150,6 +157,8 @@ PressureMass::PressureMass(Communicator communicator, const SaddleSystem& system
 }
 
 void PressureMass::apply(std::span<const double> r, double s, Vec z) const {
+  MENISCUS_ASSERT(r.size() == std::size_t(system_.num_pressures()), "{} {}", r.size(),
+                  system_.num_pressures());
   if (solver_) {
     const Vector right = borrowed_vector(mpi_communicator(communicator_), r);
     petsc_check(KSPSolve(solver_.get(), right.get(), z), "KSPSolve");

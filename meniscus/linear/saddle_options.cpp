@@ -13,8 +13,15 @@ constexpr const char* kPressureMass =
     " -p_ksp_type chebyshev -p_ksp_max_it 3 -p_ksp_norm_type none"
     " -p_ksp_chebyshev_eigenvalues 0.5,2.5 -p_pc_type jacobi";
 
-/// One algebraic cycle for a scalar Laplacian.
-std::string algebraic_multigrid(const std::string& prefix, bool is_hypre) {
+}  // namespace
+
+bool has_hypre() {
+  PetscBool has = PETSC_FALSE;
+  petsc_check(PetscHasExternalPackage("hypre", &has), "PetscHasExternalPackage");
+  return has == PETSC_TRUE;
+}
+
+std::string multigrid_options(const std::string& prefix, bool is_hypre) {
   if (!is_hypre) return fmt::format(" -{0}pc_type gamg -{0}pc_gamg_threshold 0.02", prefix);
   // HMIS coarsening, ext+i interpolation of at most 4 entries, and one sweep of Gauss–Seidel before
   // and one, backwards, after: the fastest of the variants tried on scalar Laplacians of
@@ -27,24 +34,14 @@ std::string algebraic_multigrid(const std::string& prefix, bool is_hypre) {
       prefix);
 }
 
-/// Coarsens twice at the finest level: half the set-up and a tenth of the iterations more, which
-/// GMRES with a triangular preconditioner gains from and MINRES does not.
 std::string aggressive_coarsening(const std::string& prefix) {
   return fmt::format(" -{0}pc_hypre_boomeramg_agg_nl 1 -{0}pc_hypre_boomeramg_agg_num_paths 2",
                      prefix);
 }
 
-}  // namespace
-
-bool has_hypre() {
-  PetscBool has = PETSC_FALSE;
-  petsc_check(PetscHasExternalPackage("hypre", &has), "PetscHasExternalPackage");
-  return has == PETSC_TRUE;
-}
-
 std::string default_options(SaddleMethod method, bool is_by_degree, bool is_hypre) {
   const std::string algebraic = is_by_degree ? "v_mg_coarse_" : "v_";
-  std::string multigrid = " -v_ksp_type preonly" + algebraic_multigrid(algebraic, is_hypre);
+  std::string multigrid = " -v_ksp_type preonly" + multigrid_options(algebraic, is_hypre);
   // One step of a smoother is as good as two or three, and the cheapest.
   if (is_by_degree)
     multigrid +=

@@ -109,10 +109,15 @@ class SaddleSolver::Implementation {
 
   LinearReport solve(const SaddleSystem& system, std::span<const double> right_hand_side,
                      std::span<double> solution, double rtol, Preconditioner preconditioner) {
+    MENISCUS_ASSERT(right_hand_side.size() == std::size_t(system.size()) &&
+                        solution.size() == right_hand_side.size(),
+                    "{} unknowns, {} and {} given", system.size(), right_hand_side.size(),
+                    solution.size());
+    MENISCUS_ASSERT(rtol > 0.0, "{}", rtol);
     LinearReport report;
     const OptionScope scope(table_.get());
     try {
-      if (preconditioner == Preconditioner::fresh) forget();
+      if (preconditioner == Preconditioner::fresh) drop_preconditioner();
       const double start = processor_seconds();
       prepare(system);
       report.setup_seconds = processor_seconds() - start;
@@ -120,10 +125,10 @@ class SaddleSolver::Implementation {
       report.solve_seconds = processor_seconds() - start - report.setup_seconds;
       if (!std::exchange(is_checked_, true)) warn_of_unused(table_.get(), options_.petsc_options);
     } catch (const PetscFailure& failure) {
-      require_company(failure);
+      abort_if_alone(failure);
       report.converged = false;
       report.reason = failure.what();
-      forget();
+      drop_preconditioner();
     }
     release();
     return report;
@@ -131,12 +136,12 @@ class SaddleSolver::Implementation {
 
   void keep(const SaddleSystem& system) {
     const OptionScope scope(table_.get());
-    forget();
+    drop_preconditioner();
     try {
       prepare(system);
     } catch (const PetscFailure& failure) {  // the solve that wants it will report why
-      require_company(failure);
-      forget();
+      abort_if_alone(failure);
+      drop_preconditioner();
     }
     release();
   }
@@ -144,21 +149,21 @@ class SaddleSolver::Implementation {
  private:
   [[nodiscard]] MPI_Comm comm() const { return mpi_communicator(communicator_); }
 
-  /// An error that one rank meets alone leaves the others waiting for it forever.
-  void require_company(const PetscFailure& failure) const {
+  /// Ends all ranks when one rank alone has met an error: the others would wait for it for ever.
+  void abort_if_alone(const PetscFailure& failure) const {
     if (all_arrive(communicator_, kPatience)) return;
     log::write(log::Level::error,
                fmt::format("rank {} alone: {}", communicator_.rank(), failure.what()));
     abort(communicator_, 1);
   }
 
-  void forget() {
+  void drop_preconditioner() {
     multigrid_.reset();
     factorization_.reset();
     nested_ = {};
   }
 
-  /// The operator, and a preconditioner for it: what was kept of one, and what is cheap anew.
+  /// Makes the operator, and the preconditioner but for the parts that were kept.
   void prepare(const SaddleSystem& system) {
     const bool is_paper = options_.method == SaddleMethod::paper_gmres;
     if (is_paper) {
@@ -236,7 +241,7 @@ class SaddleSolver::Implementation {
       remove_mean(communicator_, solution.subspan(std::size_t(system.num_velocities())));
   }
 
-  /// Of a singular operator a Krylov space may end, its own residual zero, where no solution is.
+  /// On a singular operator a Krylov space may end with a zero residual of its own and no solution.
   void check_breakdown(Vec b, Vec x, double rtol, LinearReport& report) const {
     Vector residual;
     double norm = 0.0, first = 0.0;
@@ -252,7 +257,7 @@ class SaddleSolver::Implementation {
           fmt::format("singular block: breakdown at {:.1e} of the first residual", norm / first);
   }
 
-  /// What refers to the caller's arrays goes; what may be kept stays.
+  /// Drops what refers to the caller's arrays, keeps the preconditioner.
   void release() {
     apply_ = nullptr;
     block_.reset();

@@ -23,7 +23,7 @@ struct SaddleOptions {
   int max_iterations = 2000;
   /// Whether the systems come with interpolations (quadratic velocities).
   bool multigrid_by_degree = false;
-  /// As on PETSc's command line; stronger than the method's own choices. Prefixes: none for the
+  /// Options as on PETSc's command line; they override the method's own. Prefixes: none for the
   /// outer solver, v_ for the velocity block's multigrid; by degree v_mg_levels_ for its smoother
   /// and v_mg_coarse_ for the algebraic part; p_ for the pressure mass matrix, where there is one;
   /// f_ for the direct method's factorisation.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/linear/index.hpp"
 
 namespace meniscus::linear {
@@ -21,6 +22,8 @@ CsrMatrix transposed(const CsrView& matrix) {
   std::vector<std::int32_t> next(result.row_start.begin(), result.row_start.end() - 1);
   for (std::int32_t i = 0; i < matrix.num_rows; ++i)
     for (auto k = at(matrix.row_start[at(i)]); k < at(matrix.row_start[at(i) + 1]); ++k) {
+      MENISCUS_ASSERT(matrix.columns[k] >= 0 && matrix.columns[k] < matrix.num_columns,
+                      "column {} of {}", matrix.columns[k], matrix.num_columns);
       const std::size_t to = at(next[at(matrix.columns[k])]++);
       result.columns[to] = i;
       result.values[to] = matrix.values[k];

@@ -7,13 +7,13 @@
 
 namespace meniscus::linear {
 
-/// A sparse matrix in compressed rows, columns rising in each row. The arrays are the caller's and
-/// must outlive every solver that was given the view.
+/// A sparse matrix in compressed rows; on one rank columns rise in each row. The arrays are the
+/// caller's and must outlive every solver that was given the view.
 ///
-/// Of a matrix that several processes share each has its own rows, and its own part of vectors: the
-/// `num_rows` first and `num_columns` first of those not taken by processes before it. `columns`
-/// holds the numbers that follow from that for the whole matrix, this process's own first in each
-/// row; arrays may go on beyond the last row.
+/// A matrix distributed over ranks has `num_rows` rows on each, and vectors that it is applied to
+/// have `num_columns` entries there; both are numbered rank by rank. `columns` holds global
+/// numbers, in each row the owned ones first, then the ghosts. Arrays may go on beyond the last
+/// row.
 struct CsrView {
   std::int32_t num_rows = 0, num_columns = 0;
   std::span<const std::int32_t> row_start;  ///< num_rows + 1
@@ -21,13 +21,14 @@ struct CsrView {
   std::span<const double> values;
 };
 
-/// The symmetric system of a mixed velocity-pressure problem with n nodes and m pressures,
+/// The system of a mixed velocity-pressure problem with n nodes and m pressures,
 ///   [A  Bᵀ] [v]   [f]
 ///   [B  −C] [p] = [g],
-/// the velocity's three components side by side at each node, all velocities before all pressures.
+/// symmetric unless `lower_left` replaces the lower left B. The velocity's three components stand
+/// side by side at each node, all velocities before all pressures.
 /// Constrained unknowns have been eliminated: their rows and columns hold the diagonal alone.
-/// Shared by several processes, n and m are their own, and each has its velocities, then its
-/// pressures.
+/// On several ranks n and m count the owned nodes and pressures, and each rank has its velocities,
+/// then its pressures.
 struct SaddleSystem {
   CsrView A;  ///< 3n × 3n, positive definite
   CsrView B;  ///< m × 3n
@@ -50,8 +51,8 @@ struct SaddleSystem {
   /// The pressure mass matrix ∫ψψ/μ before lumping, which stands for the Schur complement better
   /// where nothing stabilises. Empty: the lumped one does.
   CsrView consistent_mass = {};
-  /// Pressures in groups: those of group r that are all the same have the further inverse
-  /// χ w_r χᵀ, χ being 1 in the group, added to the mass matrix's. Empty: none.
+  /// Groups of pressures: χ w_r χᵀ, χ being 1 in group r and 0 elsewhere, is added to the inverse
+  /// of the mass matrix. Empty: no groups.
   std::span<const std::int32_t> group_of_pressure = {};
   std::span<const double> group_weights = {};  ///< w_r ≥ 0
 

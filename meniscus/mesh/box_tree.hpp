@@ -25,6 +25,10 @@ class BoxTree {
  public:
   explicit BoxTree(std::span<const Box> boxes);
 
+  /// Of a point from box i; zero within it.
+  [[nodiscard]] double distance(std::size_t i, const Vec3& point) const {
+    return boxes_[i].exteriorDistance(point);
+  }
   /// Calls visit(i) for every box i that is nearer to `query` than `reach` or just as near.
   template <class Visit>
   void visit_within(const Box& query, double reach, const Visit& visit) const;

@@ -11,7 +11,7 @@ namespace meniscus {
 using CgalKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using CgalMesh = CGAL::Surface_mesh<CgalKernel::Point_3>;
 
-/// The same vertices and faces, in the same order.
+/// A surface for CGAL. Vertices and faces keep their order.
 inline CgalMesh to_cgal(const SurfaceMesh& mesh) {
   CgalMesh result;
   for (const Vec3& x : mesh.x) result.add_vertex({x.x(), x.y(), x.z()});

@@ -8,6 +8,8 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus {
 namespace {
 
@@ -27,11 +29,12 @@ class Contour {
         corners, [&](const auto& c) { return lattice_.values[index(c)] < level_; });
     const auto num_inside = 4 - std::ssize(outside);
     if (num_inside == 0 || num_inside == 4) return;
-    const auto place = [&](std::size_t k) {
-      return lattice_.place(corners[k][0], corners[k][1], corners[k][2]);
+    const auto position = [&](std::size_t k) {
+      return lattice_.position(corners[k][0], corners[k][1], corners[k][2]);
     };
-    const bool is_right_handed =
-        (place(1) - place(0)).cross(place(2) - place(0)).dot(place(3) - place(0)) > 0.0;
+    const bool is_right_handed = (position(1) - position(0))
+                                     .cross(position(2) - position(0))
+                                     .dot(position(3) - position(0)) > 0.0;
     const auto at = [&](std::size_t a, std::size_t b) { return vertex(corners[a], corners[b]); };
     if (num_inside == 1) {
       add({at(0, 1), at(0, 2), at(0, 3)}, is_right_handed);
@@ -59,9 +62,10 @@ class Contour {
     const auto [found, is_new] = known_.try_emplace(key);
     if (!is_new) return found->second;
     const double a = lattice_.values[index(in)], b = lattice_.values[index(out)];
+    MENISCUS_ASSERT(a < level_ && b >= level_, "{} and {} about {}", a, b, level_);
     const double t = std::clamp((level_ - a) / (b - a), kClearance, 1.0 - kClearance);
-    const Vec3 from = lattice_.place(in[0], in[1], in[2]),
-               to = lattice_.place(out[0], out[1], out[2]);
+    const Vec3 from = lattice_.position(in[0], in[1], in[2]),
+               to = lattice_.position(out[0], out[1], out[2]);
     return found->second = surface_.x.add(from + t * (to - from));
   }
   /// Edges run from the lower of their ends by 0 or 1 along each axis.
@@ -87,6 +91,8 @@ constexpr std::array<std::array<std::size_t, 3>, 6> kPaths{
 }  // namespace
 
 SurfaceMesh contour(const Lattice& lattice, double level) {
+  MENISCUS_ASSERT(lattice.values.size() == lattice.index(0, 0, lattice.size[2]), "{} values",
+                  lattice.values.size());
   Contour surface(lattice, level);
   for (int k = 0; k + 1 < lattice.size[2]; ++k)
     for (int j = 0; j + 1 < lattice.size[1]; ++j)

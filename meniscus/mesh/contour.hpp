@@ -9,7 +9,7 @@ namespace meniscus {
 
 /// Values at the points of a cubic lattice, x fastest.
 struct Lattice {
-  Vec3 low = Vec3::Zero();  ///< place of the first point [R0]
+  Vec3 low = Vec3::Zero();  ///< position of the first point [R0]
   double spacing = 0.0;     ///< [R0]
   std::array<int, 3> size{};
   std::vector<double> values;
@@ -20,7 +20,7 @@ struct Lattice {
                (static_cast<std::size_t>(j) +
                 static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(k));
   }
-  [[nodiscard]] Vec3 place(int i, int j, int k) const { return low + spacing * Vec3(i, j, k); }
+  [[nodiscard]] Vec3 position(int i, int j, int k) const { return low + spacing * Vec3(i, j, k); }
 };
 
 /// The surface around the points whose values are below `level`, by linear interpolation in the six

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/geometry/predicates.hpp"
@@ -24,13 +25,9 @@ Triangle corners(const SurfaceMesh& mesh, FaceId f) {
 Vec3 low(const Triangle& x) { return x[0].cwiseMin(x[1]).cwiseMin(x[2]); }
 Vec3 high(const Triangle& x) { return x[0].cwiseMax(x[1]).cwiseMax(x[2]); }
 
-std::string place(const Vec3& x) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", x.x(), x.y(), x.z());
-}
-
 /// A point near which two triangles meet, for messages: the middle of the overlap of their boxes.
-std::string meeting_place(const Triangle& s, const Triangle& t) {
-  return place(0.5 * (low(s).cwiseMax(low(t)) + high(s).cwiseMin(high(t))));
+Vec3 meeting_point(const Triangle& s, const Triangle& t) {
+  return 0.5 * (low(s).cwiseMax(low(t)) + high(s).cwiseMin(high(t)));
 }
 
 /// Whether two faces of one surface meet elsewhere than in the vertices they share.
@@ -91,18 +88,21 @@ VertexField<char> fans(const SurfaceMesh& mesh) {
   return turns;
 }
 
-std::string find_self_intersection(const SurfaceMesh& mesh, const SurfaceTree& tree) {
+std::optional<Fault> find_self_intersection(const SurfaceMesh& mesh, const SurfaceTree& tree) {
   const VertexField<char> is_fan = fans(mesh);
   const auto lie_side_by_side = [&](FaceId f, FaceId g) {
     return std::ranges::any_of(mesh.faces[f], [&](VertexId v) {
       return is_fan[v] && std::ranges::find(mesh.faces[g], v) != mesh.faces[g].end();
     });
   };
-  std::string found;
+  std::optional<Fault> found;
   tree.visit_touching_pairs([&](FaceId f, const Triangle& s, FaceId g, const Triangle& t) {
     if (lie_side_by_side(f, g) || !meet_elsewhere(mesh, f, g)) return true;
-    found = fmt::format("surface meets itself near {} (faces {} and {})", meeting_place(s, t),
-                        std::min(f, g).value, std::max(f, g).value);
+    const Vec3 x = meeting_point(s, t);
+    found = Fault{FaultKind::self_intersection,
+                  fmt::format("surface meets itself near {} (faces {} and {})", text_of(x),
+                              std::min(f, g).value, std::max(f, g).value),
+                  x};
     return false;
   });
   return found;
@@ -131,7 +131,7 @@ bool has_vertices_out_of_range(const SurfaceMesh& mesh) {
 }
 
 /// The first vertex that no path of edges joins to vertex 0.
-std::string find_second_piece(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
+std::optional<Fault> find_second_piece(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
   VertexField<char> is_reached(mesh.num_vertices(), false);
   std::vector<VertexId> front{VertexId{0}};
   is_reached[VertexId{0}] = true;
@@ -146,59 +146,79 @@ std::string find_second_piece(const SurfaceMesh& mesh, const SurfaceTopology& to
   }
   for (const VertexId v : mesh.x.ids())
     if (!is_reached[v])
-      return fmt::format(
-          "surface is in more than one piece: vertex {} at {} is not joined to vertex 0 at {}",
-          v.value, place(mesh.x[v]), place(mesh.x[VertexId{0}]));
+      return Fault{FaultKind::several_pieces,
+                   fmt::format("surface is in more than one piece: vertex {} at {} is not joined "
+                               "to vertex 0 at {}",
+                               v.value, text_of(mesh.x[v]), text_of(mesh.x[VertexId{0}])),
+                   mesh.x[v]};
   return {};
 }
 
-std::string find_broken_topology(const SurfaceMesh& mesh) {
-  try {
-    const SurfaceTopology topology(mesh);
-    for (const VertexId v : mesh.x.ids())
-      if (topology.valence(v) == 0)
-        return fmt::format("vertex {} at {} belongs to no face", v.value, place(mesh.x[v]));
-    return find_second_piece(mesh, topology);
-  } catch (const InvalidInput& fault) {
-    return fault.what();
-  }
+std::optional<Fault> find_broken_topology(const SurfaceMesh& mesh) {
+  const auto built = SurfaceTopology::try_build(mesh);
+  if (const Fault* fault = std::get_if<Fault>(&built)) return *fault;
+  const auto& topology = std::get<SurfaceTopology>(built);
+  for (const VertexId v : mesh.x.ids())
+    if (topology.valence(v) == 0)
+      return Fault{FaultKind::connectivity,
+                   fmt::format("vertex {} at {} belongs to no face", v.value, text_of(mesh.x[v])),
+                   mesh.x[v]};
+  return find_second_piece(mesh, topology);
+}
+
+std::optional<Fault> find_vertex_not_finite(const SurfaceMesh& mesh) {
+  for (const VertexId v : mesh.x.ids())
+    if (!mesh.x[v].allFinite())
+      return Fault{FaultKind::not_finite, fmt::format("vertex {} is not finite", v.value)};
+  return {};
 }
 
 }  // namespace
 
-std::string find_defect(const SurfaceMesh& mesh) {
-  if (mesh.num_faces() == 0) return "surface has no faces";
-  if (has_vertices_out_of_range(mesh)) return "surface has a face that names a missing vertex";
-  for (const VertexId v : mesh.x.ids())
-    if (!mesh.x[v].allFinite()) return fmt::format("vertex {} is not finite", v.value);
-  if (std::string fault = find_broken_topology(mesh); !fault.empty()) return fault;
-  for (const FaceId f : mesh.faces.ids())
-    if (is_degenerate(corners(mesh, f)))
-      return fmt::format("face {} near {} has no area", f.value, place(corners(mesh, f)[0]));
-  if (std::string fault = find_self_intersection(mesh); !fault.empty()) return fault;
+std::optional<Fault> find_defect(const SurfaceMesh& mesh) {
+  if (mesh.num_faces() == 0) return Fault{FaultKind::connectivity, "surface has no faces"};
+  if (has_vertices_out_of_range(mesh))
+    return Fault{FaultKind::connectivity, "surface has a face that names a missing vertex"};
+  if (auto fault = find_vertex_not_finite(mesh)) return fault;
+  if (auto fault = find_broken_topology(mesh)) return fault;
+  if (auto fault = find_degenerate_face(mesh)) return fault;
+  if (auto fault = find_self_intersection(mesh)) return fault;
   if (const double volume = enclosed_volume(mesh); !(volume > 0.0))
-    return fmt::format("surface is inside out: it encloses the volume {:.6g}", volume);
+    return Fault{FaultKind::no_volume,
+                 fmt::format("surface is inside out: it encloses the volume {:.6g}", volume)};
   return {};
 }
 
-std::string find_self_intersection(const SurfaceMesh& mesh) {
-  if (!is_finite(mesh)) return "surface is not finite";
+std::optional<Fault> find_degenerate_face(const SurfaceMesh& mesh) {
+  for (const FaceId f : mesh.faces.ids())
+    if (const Triangle x = corners(mesh, f); is_degenerate(x))
+      return Fault{FaultKind::degenerate_face,
+                   fmt::format("face {} near {} has no area", f.value, text_of(x[0])), x[0]};
+  return {};
+}
+
+std::optional<Fault> find_self_intersection(const SurfaceMesh& mesh) {
+  if (!is_finite(mesh)) return Fault{FaultKind::not_finite, "surface is not finite"};
   return find_self_intersection(mesh, SurfaceTree(mesh));
 }
 
-std::string find_intersection(const SurfaceMesh& a, const SurfaceMesh& b) {
-  if (!is_finite(a) || !is_finite(b)) return "a surface is not finite";
+std::optional<Fault> find_intersection(const SurfaceMesh& a, const SurfaceMesh& b) {
+  if (!is_finite(a) || !is_finite(b))
+    return Fault{FaultKind::not_finite, "a surface is not finite"};
   const SurfaceTree tree(b);
-  std::string found;
+  std::optional<Fault> found;
   for (const FaceId f : a.faces.ids()) {
     const Triangle s = corners(a, f);
     tree.visit_box(low(s), high(s), [&](FaceId g, const Triangle& t) {
       if (!do_intersect(s, t)) return true;
-      found = fmt::format("surfaces meet near {} (face {} of the first, {} of the second)",
-                          meeting_place(s, t), f.value, g.value);
+      const Vec3 x = meeting_point(s, t);
+      found = Fault{FaultKind::intersection,
+                    fmt::format("surfaces meet near {} (face {} of the first, {} of the second)",
+                                text_of(x), f.value, g.value),
+                    x};
       return false;
     });
-    if (!found.empty()) break;
+    if (found) break;
   }
   return found;
 }

@@ -2,8 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <variant>
 #include <vector>
 
+#include "meniscus/core/fault.hpp"
 #include "meniscus/core/field.hpp"
 #include "meniscus/core/vec.hpp"
 
@@ -41,6 +44,8 @@ class SurfaceTopology {
  public:
   /// Throws InvalidInput naming an edge when the faces are not a closed oriented manifold.
   explicit SurfaceTopology(const SurfaceMesh& mesh);
+  /// The topology of a mesh, or the place where its faces are no closed oriented manifold.
+  [[nodiscard]] static std::variant<SurfaceTopology, Fault> try_build(const SurfaceMesh& mesh);
 
   [[nodiscard]] std::span<const SurfaceEdge> edges() const { return edges_; }
   /// Neighbours of v counter-clockwise seen from outside; the k-th face lies between the k-th and
@@ -52,10 +57,17 @@ class SurfaceTopology {
   }
 
  private:
+  SurfaceTopology() = default;
+  [[nodiscard]] std::optional<Fault> add_edges(const SurfaceMesh& mesh);
+  [[nodiscard]] std::optional<Fault> add_rings(const SurfaceMesh& mesh);
+
   std::vector<SurfaceEdge> edges_;
   std::vector<std::int32_t> first_;  // ring of v: [first_[v], first_[v + 1])
   std::vector<VertexId> ring_;
   std::vector<FaceId> around_;
 };
+
+/// Where the faces are not a closed oriented manifold.
+[[nodiscard]] std::optional<Fault> find_broken_connectivity(const SurfaceMesh& mesh);
 
 }  // namespace meniscus

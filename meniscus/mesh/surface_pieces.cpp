@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus {
 namespace {
 
@@ -40,6 +42,8 @@ std::vector<SurfaceMesh> connected_pieces(const SurfaceMesh& mesh) {
   VertexField<VertexId> vertex_in_piece(mesh.num_vertices());
   for (const VertexId v : mesh.x.ids()) {
     const std::int32_t piece = root_to_piece[sets.find(v)];
+    MENISCUS_ASSERT(piece < static_cast<std::int32_t>(pieces.size()), "{} {}", piece,
+                    pieces.size());
     if (piece >= 0) vertex_in_piece[v] = pieces[static_cast<std::size_t>(piece)].x.add(mesh.x[v]);
   }
   for (const FaceVertices& f : mesh.faces)
@@ -61,6 +65,7 @@ SurfaceMesh joined(std::span<const SurfaceMesh> pieces) {
 }
 
 int euler_characteristic(const SurfaceMesh& mesh) {
+  MENISCUS_ASSERT(mesh.num_faces() % 2 == 0, "{} faces of a closed surface", mesh.num_faces());
   return mesh.num_vertices() - mesh.num_faces() / 2;  // every edge is shared by two faces
 }
 

@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
 
@@ -86,6 +87,8 @@ void measure_valences(const SurfaceMesh& mesh, const SurfaceTopology& topology, 
 }  // namespace
 
 SurfaceQuality surface_quality(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
+  MENISCUS_ASSERT(2 * topology.edges().size() == 3 * static_cast<std::size_t>(mesh.num_faces()),
+                  "{} edges, {} faces", topology.edges().size(), mesh.num_faces());
   SurfaceQuality q;
   q.num_vertices = mesh.num_vertices();
   q.num_faces = mesh.num_faces();

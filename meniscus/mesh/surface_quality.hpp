@@ -22,7 +22,8 @@ struct SurfaceQuality {
   double share_of_valence_6 = 0.0;
 };
 
-/// Of a closed oriented manifold in any number of pieces, every face of positive area.
+/// The figures of a closed oriented manifold. It may have any number of pieces; every face must
+/// have an area.
 [[nodiscard]] SurfaceQuality surface_quality(const SurfaceMesh& mesh,
                                              const SurfaceTopology& topology);
 

@@ -15,7 +15,7 @@ struct CheckLine {
 [[nodiscard]] const char* word(CheckLine::Verdict verdict);
 /// The table in columns, for a terminal.
 [[nodiscard]] std::string check_text(const std::vector<CheckLine>& lines);
-/// The same as a page of its own. Throws RunFailure when it cannot be written.
+/// Writes the table as a page of its own. Throws RunFailure when it cannot be written.
 void write_check_page(const std::vector<CheckLine>& lines, const std::string& provenance,
                       const std::filesystem::path& file);
 

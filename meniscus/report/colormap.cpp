@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus::report {
 
 Color viridis(double s) {
@@ -30,18 +32,21 @@ Color viridis(double s) {
   return {part(0), part(1), part(2)};
 }
 
-Color scaled(const Color& color, double factor) {
+Color shade(const Color& color, double factor) {
   const auto part = [&](double value) { return std::clamp(factor * value, 0.0, 1.0); };
   return {part(color.red), part(color.green), part(color.blue)};
 }
 
-Color whitened(const Color& color, double share) {
+Color tint(const Color& color, double share) {
   const auto part = [&](double value) { return value + share * (1.0 - value); };
   return {part(color.red), part(color.green), part(color.blue)};
 }
 
 std::string hex(const Color& color) {
   const auto part = [](double value) { return std::lround(255.0 * value); };
+  MENISCUS_ASSERT(std::min({color.red, color.green, color.blue}) >= 0.0 &&
+                      std::max({color.red, color.green, color.blue}) <= 1.0,
+                  "the colour ({:g}, {:g}, {:g})", color.red, color.green, color.blue);
   return fmt::format("#{:02x}{:02x}{:02x}", part(color.red), part(color.green), part(color.blue));
 }
 

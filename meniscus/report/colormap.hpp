@@ -14,8 +14,8 @@ struct Color {
 /// without colour vision.
 [[nodiscard]] Color viridis(double s);
 /// Brightened or darkened by a factor; brightened towards white by a share in [0, 1].
-[[nodiscard]] Color scaled(const Color& color, double factor);
-[[nodiscard]] Color whitened(const Color& color, double share);
+[[nodiscard]] Color shade(const Color& color, double factor);
+[[nodiscard]] Color tint(const Color& color, double share);
 [[nodiscard]] std::string hex(const Color& color);  ///< "#rrggbb"
 
 /// The values that a part of viridis spans.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/report/history_curves.hpp"
 
 namespace meniscus::report {
@@ -68,6 +69,7 @@ std::vector<Difference> differences(const RunData& first, const RunData& run, do
 }
 
 double interpolated(std::span<const double> x, std::span<const double> y, double t) {
+  MENISCUS_ASSERT(x.size() == y.size(), "{} times of {} values", x.size(), y.size());
   const auto after = std::ranges::lower_bound(x, t);
   if (after == x.end()) return std::numeric_limits<double>::quiet_NaN();
   const auto i = static_cast<std::size_t>(after - x.begin());

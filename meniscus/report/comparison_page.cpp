@@ -120,7 +120,7 @@ std::string shapes_html(std::span<RunData> runs, std::span<const std::string> na
   for (RunData& run : runs) {
     frames.push_back(load_surfaces(run, nearest_frames(run.frames, times)));
     for (SurfaceFrame& frame : frames.back()) {
-      frame = coarsened(frame, most_faces / num_times / static_cast<int>(runs.size()));
+      frame = coarse_frame(frame, most_faces / num_times / static_cast<int>(runs.size()));
       all.push_back(frame);
     }
   }

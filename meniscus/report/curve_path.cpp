@@ -13,7 +13,8 @@ constexpr std::size_t most_points = 1000;
 
 bool is_gap(const PicturePoint& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); }
 
-/// Of each bucket of neighbours the lowest and the highest, in their order, and both ends.
+/// Keeps the lowest and the highest point of each bucket of neighbours, in their order, and both
+/// ends of the curve.
 std::vector<PicturePoint> thinned(std::span<const PicturePoint> points) {
   if (points.size() <= most_points) return {points.begin(), points.end()};
   std::vector<PicturePoint> kept = {points.front()};

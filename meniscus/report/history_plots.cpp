@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/report/history_curves.hpp"
 
 namespace meniscus::report {
@@ -34,6 +35,9 @@ Plot empty_plot(const PlotSpec& spec) {
 /// With one drop, or none, the quantities have the colours; with several the drops have them and
 /// the quantities their dashes.
 void add_curves(Plot& plot, const PlotSpec& spec, const std::vector<HistoryCurve>& curves) {
+  for ([[maybe_unused]] const HistoryCurve& curve : curves)
+    MENISCUS_ASSERT(curve.t.size() == curve.values.size(), "{} times of {} values", curve.t.size(),
+                    curve.values.size());
   std::set<int> drops;
   for (const HistoryCurve& curve : curves) drops.insert(curve.drop);
   const bool is_single = drops.size() <= 1;

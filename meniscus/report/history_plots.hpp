@@ -23,7 +23,7 @@ struct PlotGroup {
 /// whose columns are missing or empty is left out, and so is a group without plots.
 [[nodiscard]] std::vector<PlotGroup> history_plots(const RunData& run);
 
-/// The same of several runs over each other: a run has a colour, a quantity its dash.
+/// The plots of several runs over each other: a run has a colour, a quantity its dash.
 [[nodiscard]] std::vector<PlotGroup> overlaid_plots(std::span<const RunData> runs,
                                                     std::span<const std::string> names);
 

@@ -50,7 +50,7 @@ View flow_plane_view() {
 Color lit(const Color& color, const View& view, const Vec3& n) {
   const Vec3 light = (-0.45 * view.right + 0.6 * view.up + 0.75 * view.toward).normalized();
   const double share = std::max(0.0, n.dot(light));
-  return whitened(scaled(color, 0.72 + 0.36 * share), 0.16 * share * share);
+  return tint(shade(color, 0.72 + 0.36 * share), 0.16 * share * share);
 }
 
 Color face_color(const SurfaceFrame& frame, FaceId f, const ValueRange& range) {
@@ -130,8 +130,8 @@ std::string draw_surface(const SurfaceFrame& frame, const View& view, const Valu
     const Vec3 n = face_area_vector(frame.mesh, f).stableNormalized();
     const Color color = lit(face_color(frame, f, range), view, n);
     text += fmt::format(R"(<path fill="{}" stroke="{}" d="M{} {}l{} {} {} {}z"/>)", hex(color),
-                        hex(whitened(color, edge_whiteness)), a.x, a.y, b.x - a.x, b.y - a.y,
-                        c.x - b.x, c.y - b.y);
+                        hex(tint(color, edge_whiteness)), a.x, a.y, b.x - a.x, b.y - a.y, c.x - b.x,
+                        c.y - b.y);
   }
   return text + "</g>";
 }

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 
 namespace meniscus::report {
@@ -84,6 +85,7 @@ void add_loops(Curve& curve, const SurfaceMesh& mesh, const Plane& plane) {
 }  // namespace
 
 Curve section_through_centroids(const SurfaceFrame& frame, int normal) {
+  MENISCUS_ASSERT(normal == 1 || normal == 2, "a section normal to axis {}", normal);
   Curve curve;
   const std::set<int> drops(frame.drop.begin(), frame.drop.end());
   for (const int drop : drops) {

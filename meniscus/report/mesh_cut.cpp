@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus::report {
 namespace {
 
@@ -113,6 +115,7 @@ void add_polygons(MeshCut& cut, const io::VolumeFrame& mesh) {
 }
 
 MeshCut cut_through_drops(const io::VolumeFrame& mesh, int normal) {
+  MENISCUS_ASSERT(normal == 1 || normal == 2, "a cut normal to axis {}", normal);
   MeshCut cut;
   cut.normal = normal;
   const std::array<int, 2> axes = plane_axes(normal);

@@ -117,7 +117,7 @@ void write_movie(const fs::path& run_directory, const fs::path& out) {
   const fs::path unfinished = out.string() + ".tmp" + out.extension().string();
   Pipe ffmpeg(ffmpeg_command(to_px(picture.width), to_px(picture.height), unfinished));
   for (const SurfaceFrame& frame : frames) {
-    if (!ffmpeg.write(rasterized(movie_svg(frame, picture), 1.0).bytes)) break;
+    if (!ffmpeg.write(pixels_of(movie_svg(frame, picture), 1.0).bytes)) break;
   }
   if (const int status = ffmpeg.wait(); status != 0) {
     fs::remove(unfinished);

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/report/packing.hpp"
 
 namespace meniscus::report {
@@ -60,6 +61,8 @@ std::vector<VertexId> order_along_curve(const VertexField<Vec3>& x,
 
 template <class T>
 std::vector<T> reordered(const Field<VertexId, T>& values, const std::vector<VertexId>& order) {
+  MENISCUS_ASSERT(values.size() == static_cast<std::int32_t>(order.size()),
+                  "{} values in an order of {}", values.size(), order.size());
   std::vector<T> result;
   for (const VertexId v : order) result.push_back(values[v]);
   return result;

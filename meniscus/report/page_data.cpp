@@ -11,6 +11,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/atomic_file.hpp"
+#include "meniscus/io/run_files.hpp"
 #include "meniscus/report/packing.hpp"
 #include "meniscus/report/plot_catalogue.hpp"
 
@@ -44,7 +45,7 @@ std::vector<PackedFrame> load_all(RunData& run, std::span<const io::PvdEntry> en
 
 PackedFrame load_frame(const fs::path& path, double t, int most_faces) {
   const SurfaceFrame whole = load_surface(path, t);
-  PackedFrame frame = packed(coarsened(whole, most_faces));
+  PackedFrame frame = packed(coarse_frame(whole, most_faces));
   frame.num_faces_of_run = whole.mesh.num_faces();
   return frame;
 }
@@ -125,7 +126,7 @@ std::string thinned_rows(const std::string& text, std::int64_t n) {
 }
 
 /// The bytes of a table of the run for the page, fewer of them if need be.
-std::string packed_table(PageRun& page, const TableFile& table, const fs::path& file,
+std::string packed_table(PageRun& page, const io::RunTableFile& table, const fs::path& file,
                          std::size_t budget) {
   const std::string text = io::read_file(file);
   std::string result = base64(deflated(text));
@@ -216,11 +217,12 @@ std::string data_elements(std::string_view kind, std::span<const RunData> runs,
                           std::span<PageRun> pages, const PageBudget& budget) {
   std::string elements;
   Json list = Json::array();
+  MENISCUS_ASSERT(runs.size() == pages.size(), "{} pages of {} runs", pages.size(), runs.size());
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const std::string prefix = fmt::format("run{}-", r);
     PageRun& page = pages[r];
     Json tables = Json::array();
-    for (const TableFile& table : table_files()) {
+    for (const io::RunTableFile& table : io::RunFiles::tables) {
       const fs::path file = runs[r].folder / table.file;
       if (!fs::exists(file)) continue;
       tables.push_back(table.name);

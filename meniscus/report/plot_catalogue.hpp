@@ -30,7 +30,7 @@ struct PlotSpec {
 
 /// All of them, those of a group one after the other.
 [[nodiscard]] std::span<const PlotSpec> plot_catalogue();
-/// The same for the page: a list of objects in JSON.
+/// The catalogue for the page: a list of objects in JSON.
 [[nodiscard]] std::string plot_catalogue_json();
 
 }  // namespace meniscus::report

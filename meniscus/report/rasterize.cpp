@@ -58,7 +58,7 @@ cairo_status_t append(void* to, const unsigned char* bytes, unsigned int size) {
 
 }  // namespace
 
-Pixels rasterized(std::string_view svg, double scale) {
+Pixels pixels_of(std::string_view svg, double scale) {
   const Owned<cairo_surface_t> surface = drawn(svg, scale);
   Pixels pixels{cairo_image_surface_get_width(surface.get()),
                 cairo_image_surface_get_height(surface.get()),

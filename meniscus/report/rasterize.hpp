@@ -15,8 +15,8 @@ struct Pixels {
 
 /// An .svg file of ours drawn `scale` times as large, on white, without a display. Throws
 /// RunFailure with the library's reason.
-[[nodiscard]] Pixels rasterized(std::string_view svg, double scale);
-/// The same as the bytes of a .png file.
+[[nodiscard]] Pixels pixels_of(std::string_view svg, double scale);
+/// A picture as the bytes of a .png file.
 [[nodiscard]] std::string png_of(std::string_view svg, double scale);
 
 }  // namespace meniscus::report

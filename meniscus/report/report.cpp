@@ -9,6 +9,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/atomic_file.hpp"
+#include "meniscus/io/run_files.hpp"
 #include "meniscus/report/history_plots.hpp"
 #include "meniscus/report/interface_picture.hpp"
 #include "meniscus/report/interface_section.hpp"
@@ -39,7 +40,7 @@ struct PageFrames {
 PageFrames page_frames(RunData& run) {
   PageFrames page;
   for (const SurfaceFrame& frame : load_surfaces(run, spread_frames(run.frames, num_page_frames))) {
-    page.frames.push_back(coarsened(frame, most_faces / num_page_frames));
+    page.frames.push_back(coarse_frame(frame, most_faces / num_page_frames));
     page.is_coarsened |= page.frames.back().mesh.num_faces() < frame.mesh.num_faces();
   }
   return page;
@@ -166,7 +167,7 @@ LivePart live_surface(const fs::path& path, double t) {
   // A page asks for one frame at a time: it need not be as small as in a page that holds all.
   constexpr int most_live_faces = 60000;
   const SurfaceFrame whole = load_surface(path, t);
-  PackedFrame frame = packed(coarsened(whole, most_live_faces));
+  PackedFrame frame = packed(coarse_frame(whole, most_live_faces));
   frame.num_faces_of_run = whole.mesh.num_faces();
   return {entry_json(frame), std::move(frame.bytes)};
 }
@@ -178,7 +179,7 @@ LivePart live_cuts(const fs::path& path, double t) {
 
 void write_report(const fs::path& run_directory) {
   RunData run = load_run(run_directory);
-  io::write_file(run_directory / "report.html", page_html(run));
+  io::write_file(run_directory / io::RunFiles::page, page_html(run));
 }
 
 }  // namespace meniscus

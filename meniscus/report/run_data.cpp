@@ -1,13 +1,13 @@
 #include "meniscus/report/run_data.hpp"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 
 #include <nlohmann/json.hpp>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/atomic_file.hpp"
+#include "meniscus/io/run_files.hpp"
 #include "meniscus/report/text.hpp"
 
 namespace meniscus::report {
@@ -15,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+using io::RunFiles;
 
 /// A value as a case file would show it.
 std::string shown(const Json& value) {
@@ -78,7 +79,7 @@ RunFacts parse_facts(const Json& json) {
 }
 
 void load_facts(RunData& run) {
-  const fs::path path = run.folder / "run.json";
+  const fs::path path = run.folder / RunFiles::record;
   if (!fs::exists(path)) return;
   try {
     const Json json = Json::parse(io::read_file(path));
@@ -86,7 +87,7 @@ void load_facts(RunData& run) {
     run.facts = parse_facts(json);
   } catch (const std::exception& error) {
     run.facts = {};
-    run.faults.push_back(fmt::format("run.json cannot be read: {}", error.what()));
+    run.faults.push_back(fmt::format("{} cannot be read: {}", RunFiles::record, error.what()));
   }
 }
 
@@ -121,30 +122,21 @@ std::string RunFacts::case_value(const std::string& key) const {
   return found == case_values.end() ? std::string() : found->second;
 }
 
-std::span<const TableFile> table_files() {
-  static constexpr std::array<TableFile, 5> files = {{{"history", "history.csv"},
-                                                      {"drops", "drops.csv"},
-                                                      {"events", "events.csv"},
-                                                      {"timing", "timing.csv"},
-                                                      {"reference", "reference.csv"}}};
-  return files;
-}
-
 RunData load_run(const fs::path& folder) {
-  if (!fs::exists(folder / "run.json") && !fs::exists(folder / "history.csv")) {
-    reject_input("{}: not the folder of a run; it holds neither run.json nor history.csv",
-                 folder.string());
+  if (!fs::exists(folder / RunFiles::record) && !fs::exists(folder / RunFiles::history)) {
+    reject_input("{}: not the folder of a run; it holds neither {} nor {}", folder.string(),
+                 RunFiles::record, RunFiles::history);
   }
   RunData run;
   run.folder = folder;
   load_facts(run);
-  run.history = load_table(run, "history.csv");
-  run.drops = load_table(run, "drops.csv");
-  run.events = load_table(run, "events.csv");
-  run.timing = load_table(run, "timing.csv");
-  run.reference = load_table(run, "reference.csv", io::read_commented_table);
-  run.frames = load_frames(run, "surface.pvd");
-  run.volume_frames = load_frames(run, "volume.pvd");
+  run.history = load_table(run, RunFiles::history);
+  run.drops = load_table(run, RunFiles::drops);
+  run.events = load_table(run, RunFiles::events);
+  run.timing = load_table(run, RunFiles::timing);
+  run.reference = load_table(run, RunFiles::reference, io::read_commented_table);
+  run.frames = load_frames(run, RunFiles::surface_frames);
+  run.volume_frames = load_frames(run, RunFiles::volume_frames);
   return run;
 }
 

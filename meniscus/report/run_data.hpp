@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,12 +35,6 @@ struct RunData {
   std::vector<io::PvdEntry> volume_frames;  ///< likewise
   std::vector<std::string> faults;
 };
-
-/// The tables of a run that a page shows: name, and the file in its folder.
-struct TableFile {
-  const char *name, *file;
-};
-[[nodiscard]] std::span<const TableFile> table_files();
 
 /// Throws InvalidInput when the folder holds neither run.json nor history.csv.
 [[nodiscard]] RunData load_run(const std::filesystem::path& folder);

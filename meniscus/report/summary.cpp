@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "meniscus/report/text.hpp"
+#include "meniscus/report/volume_corrections.hpp"
 
 namespace meniscus::report {
 namespace {
@@ -105,6 +106,10 @@ std::string tiles_html(const RunData& run) {
     tiles.push_back({"Drops", readable_count(last(run.history, "drops")), ""});
   }
   tiles.push_back({"Volume drift", readable(drift, 2), ""});
+  if (run.drops) {
+    const double sum = volume_correction_sum(*run.drops).value_or(nan);
+    tiles.push_back({"Volume corrections, sum", readable(sum, 2), "R₀"});
+  }
   tiles.push_back({"Surface nodes", readable_count(last(run.history, "surface_nodes")), ""});
   tiles.push_back({"Tetrahedra", readable_count(tetrahedra), ""});
   if (run.facts.wall_seconds > 0.0) {

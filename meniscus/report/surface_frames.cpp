@@ -70,6 +70,7 @@ std::vector<io::PvdEntry> nearest_frames(std::span<const io::PvdEntry> frames,
 std::vector<io::PvdEntry> spread_frames(std::span<const io::PvdEntry> frames, int count) {
   if (frames.empty()) return {};
   std::vector<double> times;
+  MENISCUS_ASSERT(count > 1, "{} frames cannot be spread", count);
   const double first = frames.front().t, last = frames.back().t;
   for (int k = 0; k < count; ++k) times.push_back(first + (last - first) * k / (count - 1));
   return nearest_frames(frames, times);
@@ -93,6 +94,8 @@ namespace {
 VertexField<double> gathered(const VertexField<double>& values,
                              const VertexField<VertexId>& to_coarse,
                              const VertexField<double>& count) {
+  MENISCUS_ASSERT(values.empty() || values.size() == to_coarse.size(), "{} values of {} vertices",
+                  values.size(), to_coarse.size());
   VertexField<double> means(values.empty() ? 0 : count.size(), 0.0);
   for (const VertexId v : values.ids()) {
     const VertexId coarse = to_coarse[v];
@@ -103,8 +106,10 @@ VertexField<double> gathered(const VertexField<double>& values,
 
 }  // namespace
 
-SurfaceFrame coarsened(const SurfaceFrame& frame, int num_faces) {
+SurfaceFrame coarse_frame(const SurfaceFrame& frame, int num_faces) {
   if (frame.mesh.num_faces() <= num_faces) return frame;
+  MENISCUS_ASSERT(frame.drop.size() == frame.mesh.num_faces(), "{} drops of {} faces",
+                  frame.drop.size(), frame.mesh.num_faces());
   // A surface of area S crosses about 1.5 S/h² cells of edge h, each with two faces around it.
   const double h = std::sqrt(3.0 * surface_area(frame.mesh) / num_faces);
   SurfaceFrame result{.t = frame.t, .mesh = {}, .curvature = {}, .drop = {}};

@@ -49,6 +49,6 @@ struct SurfaceFrame {
 
 /// A mesh with about `num_faces` faces at most: vertices in one cell of a grid become their mean.
 /// For pictures only: it need not be a manifold. Returned as it is when it is small enough.
-[[nodiscard]] SurfaceFrame coarsened(const SurfaceFrame& frame, int num_faces);
+[[nodiscard]] SurfaceFrame coarse_frame(const SurfaceFrame& frame, int num_faces);
 
 }  // namespace meniscus::report

@@ -20,7 +20,7 @@ constexpr double letter_width = 6.6, title_line = 18.0, legend_line = 38.0, line
 constexpr double margin_right = 14.0, margin_bottom = 38.0, margin_side = 14.0;
 
 /// Where data lie on the picture.
-struct Frame {
+struct PlotArea {
   double left = 0.0, right = 0.0, top = 0.0, bottom = 0.0;  ///< [px], y downwards
   Ticks x, y;
   bool is_log = false;
@@ -98,35 +98,34 @@ bool has_legend(const Plot& plot) {
   return std::ranges::any_of(plot.curves, [](const Curve& c) { return !c.label.empty(); });
 }
 
-Frame make_frame(const Plot& plot) {
-  Frame frame{.left = margin_side + 44.0,
-              .right = plot.width - margin_right,
-              .top = has_legend(plot) ? 52.0 : 36.0,
-              .bottom = plot.height - margin_bottom,
-              .x = {},
-              .y = {},
-              .is_log = plot.is_log};
+PlotArea plot_area(const Plot& plot) {
+  PlotArea area{.left = margin_side + 44.0,
+                .right = plot.width - margin_right,
+                .top = has_legend(plot) ? 52.0 : 36.0,
+                .bottom = plot.height - margin_bottom,
+                .x = {},
+                .y = {},
+                .is_log = plot.is_log};
   Extents extents = data_extents(plot);
   if (plot.has_equal_scales) {
-    equalize_scales(extents, frame.right - frame.left, frame.bottom - frame.top);
+    equalize_scales(extents, area.right - area.left, area.bottom - area.top);
   }
   const bool is_rounded = !plot.has_equal_scales;
   const auto count = [](double length, double spacing) {
     return std::max(2, static_cast<int>(length / spacing));  // one mark in so many px
   };
-  frame.y = plot.is_log ? log_ticks(extents.y.low, extents.y.high)
-                        : linear_ticks(extents.y.low, extents.y.high,
-                                       count(frame.bottom - frame.top, 45.0), is_rounded);
+  area.y = plot.is_log ? log_ticks(extents.y.low, extents.y.high)
+                       : linear_ticks(extents.y.low, extents.y.high,
+                                      count(area.bottom - area.top, 45.0), is_rounded);
   double widest = 0.0;
-  for (const std::string& label : frame.y.labels) widest = std::max(widest, text_width(label));
+  for (const std::string& label : area.y.labels) widest = std::max(widest, text_width(label));
   const double label_room = plot.y_label.empty() ? 0.0 : 18.0;
-  if (!plot.has_equal_scales) frame.left = margin_side + widest + 8.0 + label_room;
-  frame.x =
-      linear_ticks(extents.x.low, extents.x.high, count(frame.right - frame.left, 75.0), false);
-  return frame;
+  if (!plot.has_equal_scales) area.left = margin_side + widest + 8.0 + label_room;
+  area.x = linear_ticks(extents.x.low, extents.x.high, count(area.right - area.left, 75.0), false);
+  return area;
 }
 
-std::string draw_axes(const Plot& plot, const Frame& f) {
+std::string draw_axes(const Plot& plot, const PlotArea& f) {
   std::string grid, labels;
   for (std::size_t i = 0; i < f.x.values.size(); ++i) {
     const double x = f.to_x(f.x.values[i]);
@@ -167,7 +166,7 @@ std::string stroke_of(const Curve& curve) {
   return fmt::format(R"(class="ln s{}{}")", curve.color % num_plot_colors, dash);
 }
 
-std::string draw_heading(const Plot& plot, const Frame& f) {
+std::string draw_heading(const Plot& plot, const PlotArea& f) {
   const std::string unit =
       plot.unit.empty() ? ""
                         : fmt::format(R"( <tspan class="unit">[{}]</tspan>)", escaped(plot.unit));
@@ -187,7 +186,7 @@ std::string draw_heading(const Plot& plot, const Frame& f) {
   return text;
 }
 
-std::string draw_marks(const Plot& plot, const Frame& f) {
+std::string draw_marks(const Plot& plot, const PlotArea& f) {
   std::string text;
   for (const Mark& mark : plot.marks) {
     if (!(mark.x >= f.x.min && mark.x <= f.x.max)) continue;
@@ -198,7 +197,7 @@ std::string draw_marks(const Plot& plot, const Frame& f) {
   return text;
 }
 
-std::string draw_curve(const Plot& plot, const Curve& curve, const Frame& f) {
+std::string draw_curve(const Plot& plot, const Curve& curve, const PlotArea& f) {
   std::vector<PicturePoint> points;
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
     points.push_back(is_drawable(curve, i, plot.is_log)
@@ -224,10 +223,10 @@ std::string draw_curve(const Plot& plot, const Curve& curve, const Frame& f) {
 }  // namespace
 
 std::string draw_plot(const Plot& plot) {
-  const Frame frame = make_frame(plot);
-  std::string content = draw_axes(plot, frame) + draw_marks(plot, frame);
-  for (const Curve& curve : plot.curves) content += draw_curve(plot, curve, frame);
-  return content + draw_heading(plot, frame);
+  const PlotArea area = plot_area(plot);
+  std::string content = draw_axes(plot, area) + draw_marks(plot, area);
+  for (const Curve& curve : plot.curves) content += draw_curve(plot, curve, area);
+  return content + draw_heading(plot, area);
 }
 
 std::string inline_svg(std::string_view content, double width, double height,

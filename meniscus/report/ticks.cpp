@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/report/text.hpp"
 
 namespace meniscus::report {
@@ -43,6 +44,7 @@ void widen(double& low, double& high) {
 }  // namespace
 
 Ticks linear_ticks(double low, double high, int count, bool is_rounded) {
+  MENISCUS_ASSERT(count > 0 && low <= high, "{} ticks from {:g} to {:g}", count, low, high);
   widen(low, high);
   const double step = nice_step((high - low) / count);
   // A thousandth of a step: a mark that the data miss by roundoff is still theirs.

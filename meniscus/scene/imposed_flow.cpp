@@ -2,12 +2,15 @@
 
 #include <algorithm>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus {
 
 Mat3 ImposedFlow::gradient(double t) const {
   Mat3 current = initial_;
   for (const Entry& entry : schedule_) {
     if (t < entry.time) break;
+    MENISCUS_ASSERT(entry.ramp >= 0.0, "ramp = {}", entry.ramp);
     const double progress = entry.ramp > 0.0 ? std::min(1.0, (t - entry.time) / entry.ramp) : 1.0;
     current = (1.0 - progress) * current + progress * entry.gradient;
   }

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 
 namespace meniscus {
 namespace {
-
-std::string place(const Vec3& x) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", x.x(), x.y(), x.z());
-}
 
 RegionId region_within(std::size_t interface) { return {static_cast<std::int32_t>(interface) + 1}; }
 
@@ -28,44 +26,49 @@ struct Bounds {
   Vec3 low, high;
 };
 
-std::string find_not_finite(const Scene& scene) {
+std::optional<Fault> find_not_finite(const Scene& scene) {
   for (const Interface& interface : scene.interfaces)
     if (interface.mesh.num_faces() == 0 || !is_finite(interface.mesh))
-      return fmt::format("drop {} has no surface, or one that is not finite", interface.drop);
+      return Fault{
+          FaultKind::not_finite,
+          fmt::format("drop {} has no surface, or one that is not finite", interface.drop)};
   return {};
 }
 
-std::string find_touching(const Scene& scene, const std::vector<Bounds>& bounds) {
+std::optional<Fault> find_touching(const Scene& scene, const std::vector<Bounds>& bounds) {
   const auto& interfaces = scene.interfaces;
   for (std::size_t i = 0; i < interfaces.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       if (!bounds[i].overlap(bounds[j])) continue;
-      const std::string meeting = find_intersection(interfaces[j].mesh, interfaces[i].mesh);
-      if (!meeting.empty())
-        return fmt::format("drops {} and {} touch: {}", interfaces[j].drop, interfaces[i].drop,
-                           meeting);
+      if (auto meeting = find_intersection(interfaces[j].mesh, interfaces[i].mesh))
+        return with_context(
+            fmt::format("drops {} and {} touch", interfaces[j].drop, interfaces[i].drop),
+            *std::move(meeting));
     }
   if (scene.is_unbounded) return {};
   for (const Interface& interface : interfaces)
-    if (std::string meeting = find_intersection(interface.mesh, scene.boundary.mesh);
-        !meeting.empty())
-      return fmt::format("drop {} touches the outer boundary: {}", interface.drop, meeting);
+    if (auto meeting = find_intersection(interface.mesh, scene.boundary.mesh))
+      return with_context(fmt::format("drop {} touches the outer boundary", interface.drop),
+                          *std::move(meeting));
   return {};
 }
 
 /// For surfaces that do not meet, one vertex tells on which side of the other a surface lies.
-std::string find_outside(const Scene& scene) {
+std::optional<Fault> find_outside(const Scene& scene) {
   if (scene.is_unbounded) return {};
   for (const Interface& interface : scene.interfaces)
     if (const Vec3& x = interface.mesh.x[VertexId{0}]; !encloses(scene.boundary.mesh, x))
-      return fmt::format("drop {} lies outside the outer boundary, at {}", interface.drop,
-                         place(x));
+      return Fault{
+          FaultKind::outside_domain,
+          fmt::format("drop {} lies outside the outer boundary, at {}", interface.drop, text_of(x)),
+          x};
   return {};
 }
 
 /// The innermost interface around each interface: the enclosing one that is itself enclosed most.
 std::vector<RegionId> surrounding_regions(const Scene& scene, const std::vector<Bounds>& bounds) {
   const std::size_t n = scene.interfaces.size();
+  MENISCUS_ASSERT(bounds.size() == n, "{} {}", bounds.size(), n);
   std::vector<std::vector<std::size_t>> enclosing(n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j)
@@ -81,19 +84,23 @@ std::vector<RegionId> surrounding_regions(const Scene& scene, const std::vector<
   return result;
 }
 
-std::string find_wrong_nesting(const Scene& scene, const std::vector<Bounds>& bounds) {
+std::optional<Fault> find_wrong_nesting(const Scene& scene, const std::vector<Bounds>& bounds) {
   const std::vector<RegionId> surrounding = surrounding_regions(scene, bounds);
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
     const Interface& interface = scene.interfaces[i];
+    const Vec3 x = mean_vertex(interface.mesh);
     if (interface.inside != region_within(i))
-      return fmt::format(
-          "drop {} at {}: its liquid is region {}, but interface {} encloses "
-          "region {}",
-          interface.drop, place(mean_vertex(interface.mesh)), interface.inside.value, i, i + 1);
+      return Fault{FaultKind::regions,
+                   fmt::format("drop {} at {}: its liquid is region {}, but interface {} encloses "
+                               "region {}",
+                               interface.drop, text_of(x), interface.inside.value, i, i + 1),
+                   x};
     if (interface.outside != surrounding[i])
-      return fmt::format("drop {} at {} lies in region {}, not in region {} as it says",
-                         interface.drop, place(mean_vertex(interface.mesh)), surrounding[i].value,
-                         interface.outside.value);
+      return Fault{
+          FaultKind::regions,
+          fmt::format("drop {} at {} lies in region {}, not in region {} as it says",
+                      interface.drop, text_of(x), surrounding[i].value, interface.outside.value),
+          x};
   }
   return {};
 }
@@ -102,11 +109,14 @@ std::string find_wrong_nesting(const Scene& scene, const std::vector<Bounds>& bo
 
 double imposed_flux(const Scene& scene, double t) {
   const OuterBoundary& boundary = scene.boundary;
+  MENISCUS_ASSERT(boundary.patch.size() == boundary.mesh.num_faces(), "{} {}",
+                  boundary.patch.size(), boundary.mesh.num_faces());
   double flux = 0.0;
   for (const FaceId f : boundary.mesh.faces.ids()) {
     const auto* imposed =
         std::get_if<ImposedVelocity>(&boundary.patches[boundary.patch[f]].condition);
     if (imposed == nullptr) continue;
+    MENISCUS_ASSERT(bool(imposed->velocity), "patch {}", boundary.patch[f].value);
     Vec3 mean = Vec3::Zero();
     for (const VertexId v : boundary.mesh.faces[f])
       mean += imposed->velocity(boundary.mesh.x[v], t) / 3.0;
@@ -131,12 +141,12 @@ void assign_regions(Scene& scene) {
   }
 }
 
-std::string find_conflict(const Scene& scene) {
-  if (std::string fault = find_not_finite(scene); !fault.empty()) return fault;
+std::optional<Fault> find_conflict(const Scene& scene) {
+  if (auto fault = find_not_finite(scene)) return fault;
   std::vector<Bounds> bounds;
   for (const Interface& interface : scene.interfaces) bounds.emplace_back(interface.mesh);
-  if (std::string fault = find_touching(scene, bounds); !fault.empty()) return fault;
-  if (std::string fault = find_outside(scene); !fault.empty()) return fault;
+  if (auto fault = find_touching(scene, bounds)) return fault;
+  if (auto fault = find_outside(scene)) return fault;
   return find_wrong_nesting(scene, bounds);
 }
 

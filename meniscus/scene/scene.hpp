@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "meniscus/core/fault.hpp"
 #include "meniscus/mesh/carried_fields.hpp"
 #include "meniscus/mesh/tet_mesh.hpp"
 #include "meniscus/scene/imposed_flow.hpp"
@@ -81,7 +83,7 @@ struct Scene {
 /// meet.
 void assign_regions(Scene& scene);
 /// Names the first place where interfaces touch each other or the boundary, or lie outside it, or
-/// where the nesting contradicts `inside`/`outside`; empty when the scene is sound.
-[[nodiscard]] std::string find_conflict(const Scene& scene);
+/// where the nesting contradicts `inside`/`outside`; none when the scene is sound.
+[[nodiscard]] std::optional<Fault> find_conflict(const Scene& scene);
 
 }  // namespace meniscus

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/box_tree.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
 

@@ -4,7 +4,7 @@
 
 namespace meniscus {
 
-/// The same viscosity at every rate of shear.
+/// A viscosity that does not depend on the rate of shear.
 struct Newtonian {
   friend bool operator==(const Newtonian&, const Newtonian&) = default;
 };

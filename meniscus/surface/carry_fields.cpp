@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <tuple>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
+#include "meniscus/surface/face_reconstruction.hpp"
 #include "meniscus/surface/keep_amounts.hpp"
 
 namespace meniscus {
@@ -97,7 +99,7 @@ double value_at(const SurfaceMesh& mesh, const VertexField<double>& values, Face
 /// A part of an old face that is gone, and what it goes to.
 struct Part {
   FaceId from;
-  Vec3 weights;  ///< of the corners of `from`
+  Vec3 weights;  ///< barycentric, in `from`
   double area;
   SurfaceTree::Hit to;
 };
@@ -108,6 +110,7 @@ class Replacement {
   Replacement(const SurfaceMesh& before, const SurfaceMesh& after)
       : before_(before),
         after_(after),
+        topology_(before),
         kept_(same_elements(before, after)),
         old_(same_elements(after, before)),
         centers_(part_centers(kCuts)),
@@ -131,15 +134,17 @@ class Replacement {
     return result;
   }
   [[nodiscard]] FaceField<double> interpolated(const FaceField<double>& values) const {
+    const FaceReconstruction linear(before_, topology_, values);
     FaceField<double> result(after_.num_faces(), 0.0);
     for (const FaceId f : result.ids()) {
       if (old_.faces[f].is_valid()) {
         result[f] = values[old_.faces[f]];
         continue;
       }
-      FieldRange range{1e300, -1e300};
+      FieldRange range{HUGE_VAL, -HUGE_VAL};
       for (const Vec3& center : centers_) {
-        const double value = values[old_tree_.closest(point(after_, f, center)).face];
+        const SurfaceTree::Hit hit = old_tree_.closest(point(after_, f, center));
+        const double value = linear.value(hit.face, hit.point);
         range = {std::min(range.low, value), std::max(range.high, value)};
         result[f] += value / static_cast<double>(centers_.size());
       }
@@ -188,6 +193,7 @@ class Replacement {
   }
 
   const SurfaceMesh &before_, &after_;
+  SurfaceTopology topology_;  // of `before_`
   SameElements kept_, old_;
   std::vector<Vec3> centers_;
   SurfaceTree old_tree_;
@@ -278,6 +284,7 @@ ReplacedFields replaced_fields(const SurfaceFields& fields, const SurfaceMesh& b
                                const SurfaceMesh& after, const SurfaceMesh& settled) {
   ReplacedFields result;
   if (fields.empty()) return result;
+  MENISCUS_ASSERT(after.faces == settled.faces, "settled on other faces");
   const Replacement replacement(before, after);
   result.fields.on_vertices =
       replaced(fields.on_vertices, replacement, vertex_shares(settled), result.excess);
@@ -307,6 +314,12 @@ std::vector<SurfaceFields> split_fields(const SurfaceFields& whole,
     vertices += piece.num_vertices();
     faces += piece.num_faces();
   }
+  for (const auto& field : whole.on_vertices)
+    MENISCUS_ASSERT(field.values.size() == vertices, "{} values for {} vertices",
+                    field.values.size(), vertices);
+  for (const auto& field : whole.on_faces)
+    MENISCUS_ASSERT(field.values.size() == faces, "{} values for {} faces", field.values.size(),
+                    faces);
   return parts;
 }
 

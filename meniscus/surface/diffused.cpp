@@ -4,12 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
-#include "meniscus/surface/even_out.hpp"
+#include "meniscus/surface/isotropic_remesh.hpp"
 #include "meniscus/surface/remesh.hpp"
+#include "meniscus/surface/restore_volume.hpp"
 
 namespace meniscus {
 namespace {
@@ -38,7 +40,7 @@ Lattice signed_distance(const SurfaceMesh& mesh, double edge) {
   for (int k = 0; k < lattice.size[2]; ++k)
     for (int j = 0; j < lattice.size[1]; ++j)
       for (int i = 0; i < lattice.size[0]; ++i) {
-        const Vec3 x = lattice.place(i, j, k);
+        const Vec3 x = lattice.position(i, j, k);
         const double distance = std::min(reach, tree.closest(x, reach).distance);
         lattice.values.push_back(encloses(tree, x) ? -distance : distance);
       }
@@ -53,6 +55,7 @@ void diffuse_along(Lattice& lattice, std::size_t axis, double weight) {
                                          : lattice.index(0, 0, 1);
   const std::size_t num = static_cast<std::size_t>(lattice.size[axis]);
   std::vector<double>& v = lattice.values;
+  MENISCUS_ASSERT(v.size() == lattice.index(0, 0, lattice.size[2]), "{} values", v.size());
   for (std::size_t first = 0; first < v.size(); ++first) {
     if (first / stride % num != 0) continue;
     double before = v[first];
@@ -69,7 +72,9 @@ void diffuse_along(Lattice& lattice, std::size_t axis, double weight) {
 }  // namespace
 
 DiffusedSurface::DiffusedSurface(const SurfaceMesh& mesh, double edge)
-    : volume_(enclosed_volume(mesh)), edge_(edge), distance_(signed_distance(mesh, edge)) {}
+    : volume_(enclosed_volume(mesh)), edge_(edge), distance_(signed_distance(mesh, edge)) {
+  MENISCUS_ASSERT(edge > 0.0 && volume_ > 0.0, "edge {}, volume {}", edge, volume_);
+}
 
 void DiffusedSurface::smooth_by(double variance) {
   const double step = 0.5 * distance_.spacing * distance_.spacing;
@@ -93,6 +98,7 @@ SurfaceMesh DiffusedSurface::contour_of_volume() const {
 }
 
 std::optional<SurfaceMesh> DiffusedSurface::smoothed(double length, double most_lost) {
+  MENISCUS_ASSERT(length >= 0.0 && most_lost > 0.0, "{} {}", length, most_lost);
   smooth_by(length * length - variance_);
   variance_ = std::max(variance_, length * length);
   std::vector<SurfaceMesh> pieces = connected_pieces(contour_of_volume());
@@ -100,7 +106,7 @@ std::optional<SurfaceMesh> DiffusedSurface::smoothed(double length, double most_
   SurfaceMesh largest = std::move(*std::ranges::max_element(
       pieces, {}, [](const SurfaceMesh& piece) { return enclosed_volume(piece); }));
   if (std::abs(enclosed_volume(largest) / volume_ - 1.0) > most_lost) return std::nullopt;
-  SurfaceMesh even = evened_out(largest, kEven * edge_, kNoCreases);
+  SurfaceMesh even = isotropic_remesh(largest, kEven * edge_, kNoCreases);
   restore_volume(even, volume_);
   return even;
 }

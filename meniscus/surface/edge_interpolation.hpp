@@ -27,6 +27,7 @@ class VertexInterpolation {
  private:
   VertexId vertex_;
   HeightPatch frame_;
+  double scale_ = 1.0;  // of an edge: the unit of length of the fit
   std::vector<VertexId> ring_;
   Eigen::Matrix<double, 5, Eigen::Dynamic> fit_;  // (value of ring − own value) ↦ coefficients
 };

@@ -6,29 +6,19 @@
 
 #include <Eigen/LU>
 
+#include "meniscus/core/error.hpp"
+#include "meniscus/surface/polynomial_fit.hpp"
 #include "meniscus/surface/rings.hpp"
 #include "meniscus/surface/trust.hpp"
 
 namespace meniscus {
 namespace {
 
-constexpr Eigen::Index kTerms = 15;  // of a polynomial of degree four
+constexpr Eigen::Index kTerms = 1 + num_monomials(4);
 // Vertices are taken in the order of their distance; more cost time and add nothing.
 constexpr std::size_t kMostPoints = 32;
-// Σ|weights| of the vertices: 1.6 to 3 where they are spread evenly. Above this the noise of
-// vertices is amplified more than the lower degree's truncation is worth. The spline fades out
-// until twice that, so that middles, and the volume under them, follow the vertices without jumps.
-constexpr double kMostAmplification = 4.0;
 
 using Vec2 = Eigen::Vector2d;
-
-Eigen::Matrix<double, kTerms, 1> monomials(const Vec2& at) {
-  const double u = at.x(), v = at.y(), uu = u * u, uv = u * v, vv = v * v;
-  Eigen::Matrix<double, kTerms, 1> m;
-  m << 1.0, u, v, uu, uv, vv, uu * u, uu * v, vv * u, vv * v, uu * uu, uu * uv, uu * vv, uv * vv,
-      vv * vv;
-  return m;
-}
 
 double spline(const Vec2& d) {
   const double squared = d.squaredNorm();
@@ -52,6 +42,7 @@ double interpolated_level(const LevelFrame& frame, std::span<const Vec3> points)
   const auto count = static_cast<Eigen::Index>(points.size());
   if (count < kTerms) return 0.0;
   const double h = (points.back() - frame.axes.x).norm();
+  MENISCUS_ASSERT(h > 0.0, "{} points in one place", count);
   std::vector<Vec2> at;
   for (const Vec3& p : points) {
     const Vec3 d = (p - frame.axes.x) / h;
@@ -63,11 +54,11 @@ double interpolated_level(const LevelFrame& frame, std::span<const Vec3> points)
     const Vec2& here = at[static_cast<std::size_t>(i)];
     for (Eigen::Index j = 0; j < i; ++j)
       matrix(i, j) = matrix(j, i) = spline(here - at[static_cast<std::size_t>(j)]);
-    matrix.row(i).tail<kTerms>() = monomials(here);
-    matrix.col(i).tail<kTerms>() = monomials(here);
+    matrix.row(i).tail<kTerms>() << 1.0, monomials<4>(here.x(), here.y()).transpose();
+    matrix.col(i).tail<kTerms>() = matrix.row(i).tail<kTerms>();
     side[i] = spline(here);
   }
-  side.tail<kTerms>() = monomials(Vec2::Zero());
+  side.tail<kTerms>() << 1.0, Eigen::Matrix<double, num_monomials(4), 1>::Zero();
   const Eigen::VectorXd weights = matrix.partialPivLu().solve(side).head(count);
   const double amplification = weights.lpNorm<1>();
   // A singular matrix leaves weights that are large or not numbers.
@@ -106,6 +97,21 @@ std::vector<Vec3> straight_middles(const SurfaceMesh& mesh, const SurfaceTopolog
 }
 
 }  // namespace
+
+FaceField<std::array<std::size_t, 3>> face_edges(const SurfaceMesh& mesh,
+                                                 const SurfaceTopology& topology) {
+  FaceField<std::array<std::size_t, 3>> edges(mesh.num_faces());
+  for (std::size_t e = 0; e < topology.edges().size(); ++e) {
+    const SurfaceEdge& edge = topology.edges()[e];
+    for (const auto& [f, from] : {std::pair{edge.left, edge.a}, std::pair{edge.right, edge.b}}) {
+      const FaceVertices& v = mesh.faces[f];
+      const auto k = static_cast<std::size_t>(std::ranges::find(v, from) - v.begin());
+      MENISCUS_ASSERT(k < 3, "edge {} does not leave vertex {} of face {}", e, from.value, f.value);
+      edges[f][k] = e;
+    }
+  }
+  return edges;
+}
 
 std::vector<Vec3> edge_middles(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                                SurfaceShape shape) {

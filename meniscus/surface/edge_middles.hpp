@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "meniscus/surface/smooth_surface.hpp"
@@ -11,6 +12,10 @@ namespace meniscus {
 /// cubic patches of SmoothSurface (the faces of the boundary integrals) or on splines (those of
 /// quadratic elements).
 enum class SurfaceShape { faceted, patched, splined };
+
+/// The edges 01, 12, 20 of every face by their numbers in the topology.
+[[nodiscard]] FaceField<std::array<std::size_t, 3>> face_edges(const SurfaceMesh& mesh,
+                                                               const SurfaceTopology& topology);
 
 /// A point of that surface over the middle of every edge, in the order of the topology.
 [[nodiscard]] std::vector<Vec3> edge_middles(const SurfaceMesh& mesh,

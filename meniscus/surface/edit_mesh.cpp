@@ -1,5 +1,7 @@
 #include "meniscus/surface/edit_mesh.hpp"
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus {
 namespace {
 
@@ -24,6 +26,8 @@ EditMesh::EditMesh(const SurfaceMesh& mesh, const SurfaceTopology& topology)
       out_[v] = {3 * f.value + k};
       ++valence_[v];
     }
+  MENISCUS_ASSERT(2 * topology.edges().size() == static_cast<std::size_t>(from_.size()), "{} {}",
+                  topology.edges().size(), from_.size());
   for (const SurfaceEdge& e : topology.edges())
     pair(halfedge_from(mesh, e.left, e.a), halfedge_from(mesh, e.right, e.b));
 }
@@ -35,6 +39,7 @@ bool EditMesh::are_joined(VertexId a, VertexId b) const {
 }
 
 VertexId EditMesh::split(HalfedgeId h) {
+  MENISCUS_ASSERT(is_alive(h) && is_alive(twin_[h]), "half-edge {}", h.value);
   const HalfedgeId t = twin_[h];
   const HalfedgeId h1 = next(h), t2 = previous(t);
   const VertexId b = to(h), c = opposite(h), d = opposite(t);
@@ -62,6 +67,8 @@ VertexId EditMesh::split(HalfedgeId h) {
 }
 
 void EditMesh::flip(HalfedgeId h) {
+  MENISCUS_ASSERT(is_alive(h) && is_alive(twin_[h]), "half-edge {}", h.value);
+  MENISCUS_ASSERT(!are_joined(opposite(h), opposite(twin_[h])), "half-edge {}", h.value);
   const HalfedgeId t = twin_[h];
   const HalfedgeId h1 = next(h), h2 = previous(h), t1 = next(t), t2 = previous(t);
   const VertexId a = from(h), b = from(t), c = from(h2), d = from(t2);
@@ -86,6 +93,7 @@ void EditMesh::flip(HalfedgeId h) {
   --valence_[b];
   ++valence_[c];
   ++valence_[d];
+  MENISCUS_ASSERT(valence_[a] >= 3 && valence_[b] >= 3, "{} {}", valence_[a], valence_[b]);
 }
 
 bool EditMesh::can_collapse(HalfedgeId h) const {
@@ -100,6 +108,7 @@ bool EditMesh::can_collapse(HalfedgeId h) const {
 }
 
 void EditMesh::collapse(HalfedgeId h) {
+  MENISCUS_ASSERT(is_alive(h) && can_collapse(h), "half-edge {}", h.value);
   const HalfedgeId t = twin_[h];
   const VertexId a = from(h), b = to(h), c = opposite(h), d = opposite(t);
   const HalfedgeId cb = twin_[next(h)], ac = twin_[previous(h)], da = twin_[next(t)],
@@ -119,6 +128,7 @@ void EditMesh::collapse(HalfedgeId h) {
   --valence_[c];
   --valence_[d];
   --num_alive_;
+  MENISCUS_ASSERT(valence_[b] >= 3 && num_alive_ >= 4, "{} {}", valence_[b], num_alive_);
 }
 
 EditMesh::Compacted EditMesh::compacted() const {
@@ -129,8 +139,12 @@ EditMesh::Compacted EditMesh::compacted() const {
     old_to_new[v] = {static_cast<std::int32_t>(result.vertices.size())};
     result.vertices.push_back(v);
   }
+  MENISCUS_ASSERT(static_cast<std::int32_t>(result.vertices.size()) == num_alive_, "{} {}",
+                  result.vertices.size(), num_alive_);
   for (std::int32_t i = 0; i < from_.size(); i += 3) {
     if (!is_alive(HalfedgeId{i})) continue;
+    MENISCUS_ASSERT(is_alive(from_[HalfedgeId{i}]), "a face with dead vertex {}",
+                    from_[HalfedgeId{i}].value);
     result.faces.add({old_to_new[from_[HalfedgeId{i}]], old_to_new[from_[HalfedgeId{i + 1}]],
                       old_to_new[from_[HalfedgeId{i + 2}]]});
   }

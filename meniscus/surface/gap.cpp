@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/mesh/box_tree.hpp"
 
 namespace meniscus {
 namespace {
@@ -13,6 +17,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFinerThanOpposite = 0.5;
 /// Start of a ray off its own vertex, over its reach: above round-off, below any gap of note.
 constexpr double kOffset = 1e-7;
+constexpr double kRoundOff = 1.0 + 1e-12;  // of a bound that leaves surfaces out
 
 /// Mean edge of the face that was hit.
 double edge_at(const SurfaceTree& tree, const SurfaceTree::Hit& hit) {
@@ -32,6 +37,17 @@ double width_along(const SurfaceTree& tree, const Vec3& x, const Vec3& direction
   return hit ? hit->distance : kInfinity;
 }
 
+/// Those of the neighbours whose boxes are within `reach` of that of a mesh.
+std::vector<const SurfaceTree*> within_reach(const SurfaceMesh& mesh, double reach,
+                                             std::span<const SurfaceTree* const> neighbours) {
+  const Box box = bounding_box(mesh);
+  std::vector<const SurfaceTree*> near;
+  for (const SurfaceTree* neighbour : neighbours)
+    if (box.exteriorDistance(Box(neighbour->low(), neighbour->high())) <= kRoundOff * reach)
+      near.push_back(neighbour);
+  return near;
+}
+
 }  // namespace
 
 OwnGaps own_gaps(const SurfaceMesh& mesh, const SurfaceTree& tree, const VertexField<Vec3>& normals,
@@ -47,13 +63,18 @@ OwnGaps own_gaps(const SurfaceMesh& mesh, const SurfaceTree& tree, const VertexF
 void bound_by_gaps(VertexField<double>& length, const SurfaceMesh& mesh,
                    const VertexField<Vec3>& normals, double layers,
                    std::span<const SurfaceTree* const> neighbours) {
+  MENISCUS_ASSERT(layers > 0.0, "layers = {}", layers);
+  MENISCUS_ASSERT(length.size() == mesh.num_vertices() && normals.size() == mesh.num_vertices(),
+                  "{} {} {}", length.size(), normals.size(), mesh.num_vertices());
   const double edges_per_width = kGapEdge / layers;
   VertexField<double> reach = length;  // beyond, a gap asks for no shorter an edge
   for (double& r : reach) r /= edges_per_width;
   const OwnGaps own = own_gaps(mesh, SurfaceTree(mesh), normals, reach);
+  const std::vector<const SurfaceTree*> near =
+      within_reach(mesh, std::ranges::max(reach), neighbours);
   for (const VertexId v : mesh.x.ids()) {
     length[v] = std::min(length[v], edges_per_width * std::min(own.inside[v], own.outside[v]));
-    for (const SurfaceTree* neighbour : neighbours) {
+    for (const SurfaceTree* neighbour : near) {
       const SurfaceTree::Hit hit = neighbour->closest(mesh.x[v], reach[v]);
       if (!hit.face.is_valid()) continue;
       const double opposite = kFinerThanOpposite * edge_at(*neighbour, hit);

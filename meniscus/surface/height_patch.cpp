@@ -2,38 +2,21 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+
+#include "meniscus/surface/polynomial_fit.hpp"
 
 namespace meniscus {
 namespace {
 
-/// Smallest pivot of the Cholesky factor over the largest; below it two or more directions of the
-/// polynomial space are told apart by less than the noise of a fit (columns have unit scale).
-constexpr double kSingularPivot = 1e-3;
-
 /// The functions that the coefficients c0, c1, … multiply; three terms make a sphere.
 template <int Terms>
-Eigen::Matrix<double, Terms, 1> monomials(double u, double v) {
-  Eigen::Matrix<double, Terms, 1> m;
-  m[0] = u;
-  m[1] = v;
-  if constexpr (Terms == 3) {
-    m[2] = 0.5 * (u * u + v * v);
-    return m;
-  } else {
-    m[2] = 0.5 * u * u;
-    m[3] = u * v;
-    m[4] = 0.5 * v * v;
-    if constexpr (Terms == 9) {
-      m[5] = u * m[2] / 3.0;
-      m[6] = m[2] * v;
-      m[7] = u * m[4];
-      m[8] = v * m[4] / 3.0;
-    }
-    return m;
-  }
+Eigen::Matrix<double, Terms, 1> patch_functions(double u, double v) {
+  if constexpr (Terms == 3)
+    return {u, v, 0.5 * (u * u + v * v)};
+  else
+    return monomials < Terms == 5 ? 2 : 3 > (u, v);
 }
 
 double root_mean_square_distance(const Vec3& x, std::span<const Vec3> points) {
@@ -47,23 +30,16 @@ std::optional<HeightPatch> fit_terms(const HeightPatch& frame, std::span<const V
   if (points.size() < Terms) return std::nullopt;
   // Lengths in units of h keep the normal equations well scaled.
   const double h = root_mean_square_distance(frame.x, points);
-  Eigen::Matrix<double, Terms, Terms> normal = Eigen::Matrix<double, Terms, Terms>::Zero();
+  PolynomialFit<Terms> fit;
   Eigen::Matrix<double, Terms, 1> rhs = Eigen::Matrix<double, Terms, 1>::Zero();
   for (const Vec3& p : points) {
     const Vec3 d = (p - frame.x) / h;
-    const auto m = monomials<Terms>(d.dot(frame.t1), d.dot(frame.t2));
-    const double weight = 1.0 / d.squaredNorm();
-    const Eigen::Matrix<double, Terms, 1> wm = weight * m;
-    // The lower triangle, in loops of constant bounds.
-    for (int j = 0; j < Terms; ++j)
-      for (int i = j; i < Terms; ++i) normal(i, j) += m[j] * wm[i];
-    rhs += d.dot(frame.n) * wm;
+    rhs += d.dot(frame.n) *
+           fit.add(patch_functions<Terms>(d.dot(frame.t1), d.dot(frame.t2)), 1.0 / d.squaredNorm());
   }
-  const Eigen::LLT<Eigen::Matrix<double, Terms, Terms>> factor(normal);
-  if (factor.info() != Eigen::Success) return std::nullopt;
-  const auto pivots = factor.matrixLLT().diagonal();
-  if (!(pivots.minCoeff() > kSingularPivot * pivots.maxCoeff())) return std::nullopt;
-  const Eigen::Matrix<double, Terms, 1> solution = factor.solve(rhs);
+  const auto factor = fit.factor();
+  if (!factor) return std::nullopt;
+  const Eigen::Matrix<double, Terms, 1> solution = factor->solve(rhs);
   HeightPatch patch = frame;
   patch.c.fill(0.0);
   for (int j = 0; j < Terms; ++j) {

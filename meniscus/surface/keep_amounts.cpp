@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 
 namespace meniscus {
@@ -45,6 +46,7 @@ bool take(Field<IdType, double>& values, Field<IdType, double>& missing,
           const Shares<IdType>& shares, const FieldRange& range) {
   bool is_left = false;
   for (const IdType i : values.ids()) {
+    MENISCUS_ASSERT(shares.measure[i] > 0.0, "element {} measures {}", i.value, shares.measure[i]);
     const double m = shares.measure[i], wanted = values[i] + missing[i] / m;
     const double value = std::clamp(wanted, range.low, range.high);
     missing[i] = m * (wanted - value);
@@ -142,6 +144,11 @@ template <class IdType>
 FieldExcess keep_amounts(Field<IdType, double>& values, Field<IdType, double> missing,
                          const std::vector<double>& amount_of_piece, const Shares<IdType>& shares,
                          const FieldRange& range) {
+  MENISCUS_ASSERT(values.size() == shares.measure.size() && missing.size() == values.size(),
+                  "{} values, {} amounts and {} measures", values.size(), missing.size(),
+                  shares.measure.size());
+  MENISCUS_ASSERT(amount_of_piece.size() == static_cast<std::size_t>(shares.num_pieces),
+                  "{} amounts of {} pieces", amount_of_piece.size(), shares.num_pieces);
   const Field<IdType, int> valence = valences(shares);
   bool is_left = true;
   for (int pass = 0; pass < kPasses && is_left; ++pass) {

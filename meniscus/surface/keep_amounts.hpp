@@ -16,8 +16,8 @@ struct FieldRange {
 template <class IdType>
 struct Shares {
   Field<IdType, double> measure;                 ///< [R0²], positive
-  std::vector<std::pair<IdType, IdType>> links;  ///< of elements beside each other
-  Field<IdType, int> piece;                      ///< of the connected pieces of the surface
+  std::vector<std::pair<IdType, IdType>> links;  ///< pairs of elements beside each other
+  Field<IdType, int> piece;                      ///< number of the connected piece that has it
   int num_pieces = 0;
 };
 /// The numbers of the connected pieces of a surface, by vertex, and how many there are.
@@ -36,8 +36,8 @@ template <class IdType>
 FieldExcess keep_amounts(Field<IdType, double>& values, const Field<IdType, double>& amounts,
                          const Shares<IdType>& shares, const FieldRange& range);
 
-/// The same where what is missing at each element is known otherwise, and the Σ value · measure of
-/// each piece.
+/// Gives `values` what is `missing` at each element, as an amount, in this way. In the end Σ value
+/// · measure over each piece is `amount_of_piece`.
 template <class IdType>
 FieldExcess keep_amounts(Field<IdType, double>& values, Field<IdType, double> missing,
                          const std::vector<double>& amount_of_piece, const Shares<IdType>& shares,

@@ -5,10 +5,13 @@
 #include <limits>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/foreseen_vertices.hpp"
+#include "meniscus/surface/restore_volume.hpp"
 #include "meniscus/surface/restructure.hpp"
 #include "meniscus/surface/sizing.hpp"
 #include "meniscus/surface/springs.hpp"
@@ -29,6 +32,8 @@ RemeshReference reference_surface(const SurfaceMesh& mesh, const SurfaceTopology
                                   const RemeshOptions& options) {
   SmoothSurface surface(mesh, topology);
   const VertexField<double> lengths = rest_lengths(mesh, topology, surface, options);
+  MENISCUS_ASSERT(lengths.size() == mesh.num_vertices(), "{} {}", lengths.size(),
+                  mesh.num_vertices());
   const VertexField<Vec3> slopes = length_slopes(lengths, mesh, topology, surface.vertex_normals());
   VertexField<RemeshReference::Corner> corners;
   for (const VertexId v : mesh.x.ids())
@@ -36,8 +41,14 @@ RemeshReference reference_surface(const SurfaceMesh& mesh, const SurfaceTopology
   return {std::move(surface), SurfaceWalk(mesh, topology), std::move(corners)};
 }
 
+ForeseenVertices foreseen_vertices(const SurfaceMesh& mesh, const RemeshReference& reference) {
+  VertexField<double> lengths;
+  for (const RemeshReference::Corner& corner : reference.corners) lengths.add(corner.rest_length);
+  return foresee_vertices(mesh, lengths);
+}
+
 double rest_tolerance(const RemeshState& state, const RemeshOptions& options) {
-  if (options.equilibrium > 0.0) return options.equilibrium;
+  if (options.spring_tolerance > 0.0) return options.spring_tolerance;
   // Tighter, and vertices that slide to and fro wear the shape (docs/surface-remeshing.md).
   return 0.006 * std::min(1.0, std::sqrt(1000.0 / state.mesh.num_vertices()));
 }
@@ -61,33 +72,22 @@ void equilibrate(RemeshState& state, const RemeshOptions& options, RemeshReport&
 }
 
 /// The new surface, and where its vertices lie on the old one.
-struct Assembled {
+struct NewSurface {
   SurfaceMesh mesh;
-  VertexField<SurfaceLocation> places;
+  VertexField<SurfaceLocation> points;
 };
-Assembled assembled(const RemeshState& state) {
+NewSurface new_surface(const RemeshState& state) {
   const EditMesh::Compacted compacted = state.mesh.compacted();
-  Assembled result;
+  MENISCUS_ASSERT(state.vertices.size() == state.mesh.num_vertex_slots(), "{} {}",
+                  state.vertices.size(), state.mesh.num_vertex_slots());
+  NewSurface result;
   result.mesh.faces = compacted.faces;
   result.mesh.x.reserve(static_cast<std::int32_t>(compacted.vertices.size()));
   for (const VertexId v : compacted.vertices) {
     result.mesh.x.add(state.vertices[v].x);
-    result.places.add(state.vertices[v].place);
+    result.points.add(state.vertices[v].point);
   }
   return result;
-}
-
-/// Mean length of the edges at each vertex.
-VertexField<double> mean_edges(const SurfaceMesh& mesh) {
-  VertexField<double> length(mesh.num_vertices(), 0.0);
-  VertexField<int> count(mesh.num_vertices(), 0);
-  for (const FaceVertices& v : mesh.faces)
-    for (std::size_t k = 0; k < 3; ++k) {  // every edge leaves each of its ends in one face
-      length[v[k]] += (mesh.x[v[(k + 1) % 3]] - mesh.x[v[k]]).norm();
-      ++count[v[k]];
-    }
-  for (const VertexId v : length.ids()) length[v] /= count[v];
-  return length;
 }
 
 /// Restores the volume and records by how much it had changed and how far vertices moved for it:
@@ -104,30 +104,81 @@ void correct_volume(SurfaceMesh& mesh, double volume_before, const RemeshOptions
   report.volume_shift = std::abs(fraction) * *std::ranges::max_element(edges);
 }
 
-/// Whether a face looks inward. Edits and springs keep faces within 60° of the surface; a surface
-/// that came with sharper places than that may keep them.
-bool has_fold(const RemeshState& state) {
+/// A face that looks inward. Edits and springs keep faces within 60° of the surface; a surface that
+/// came with sharper places than that may keep them.
+std::optional<Fault> find_fold(const RemeshState& state) {
   for (std::int32_t i = 0; i < state.mesh.num_halfedge_slots(); i += 3) {
     const HalfedgeId h{i};
     if (!state.mesh.is_alive(h)) continue;
     const RemeshVertex &a = state.vertices[state.mesh.from(h)],
                        &b = state.vertices[state.mesh.to(h)],
                        &c = state.vertices[state.mesh.opposite(h)];
-    if ((b.x - a.x).cross(c.x - a.x).dot(a.n + b.n + c.n) <= 0.0) return true;
+    if ((b.x - a.x).cross(c.x - a.x).dot(a.n + b.n + c.n) <= 0.0)
+      return Fault{FaultKind::folded_face, "a face is folded over", (a.x + b.x + c.x) / 3.0};
   }
-  return false;
+  return {};
 }
 
-std::string find_fault(const SurfaceMesh& mesh, double angle_before, const RemeshOptions& options,
-                       const RemeshReport& report) {
-  if (!is_finite(mesh)) return "a vertex is not finite";
-  static_cast<void>(SurfaceTopology(mesh));  // throws unless closed, manifold and oriented
+std::optional<Fault> find_fault(const SurfaceMesh& mesh, double angle_before,
+                                const RemeshOptions& options, const RemeshReport& report) {
+  if (!is_finite(mesh)) return Fault{FaultKind::not_finite, "a vertex is not finite"};
+  if (auto fault = find_broken_connectivity(mesh)) return fault;
   if (report.min_angle_deg < std::min(kLeastAngleDeg, angle_before))
-    return fmt::format("a face has an angle of {:.3g} degrees", report.min_angle_deg);
-  return options.find_fault ? options.find_fault(mesh) : std::string();
+    return Fault{FaultKind::degenerate_face,
+                 fmt::format("a face has an angle of {:.3g} degrees", report.min_angle_deg)};
+  return options.find_fault ? options.find_fault(mesh) : std::nullopt;
+}
+
+std::optional<Fault> find_unfit_start(const SurfaceMesh& mesh) {
+  if (!is_finite(mesh))
+    return Fault{FaultKind::not_finite, "a vertex of the given surface is not finite"};
+  if (const double volume = enclosed_volume(mesh); !(volume > 0.0))
+    return Fault{FaultKind::no_volume,
+                 fmt::format("the given surface encloses a volume of {:g}", volume)};
+  return {};
+}
+
+/// Rebuilds the surface and its fields, or leaves both and says why.
+std::optional<Fault> rebuild(SurfaceMesh& mesh, const RemeshOptions& options, SurfaceFields& fields,
+                             RemeshReport& report) {
+  if (auto fault = find_unfit_start(mesh)) return fault;
+  const auto built = SurfaceTopology::try_build(mesh);
+  if (const Fault* fault = std::get_if<Fault>(&built)) return *fault;
+  const auto& topology = std::get<SurfaceTopology>(built);
+  const RemeshReference reference = reference_surface(mesh, topology, options);
+  if (const ForeseenVertices foreseen = foreseen_vertices(mesh, reference); foreseen.is_too_many())
+    return Fault{FaultKind::too_large, too_many(foreseen, mesh)};
+  RemeshState state = start_state(reference, mesh, topology);
+  equilibrate(state, options, report);
+  lift_to_surface(state);
+  report.expected_vertices = expected_vertices(state);
+  if (auto fault = find_fold(state)) return fault;
+
+  auto [result, points] = new_surface(state);
+  correct_volume(result, enclosed_volume(mesh), options, report);
+  report.min_angle_deg = smallest_angle_deg(result);
+  if (auto fault = find_fault(result, smallest_angle_deg(mesh), options, report)) return fault;
+  auto [carried, excess] =
+      transferred(fields, {mesh, topology, reference.surface, reference.walk, result, points});
+  fields = std::move(carried);
+  report.field_excess = excess;
+  mesh = std::move(result);
+  return {};
 }
 
 }  // namespace
+
+VertexField<double> mean_edges(const SurfaceMesh& mesh) {
+  VertexField<double> length(mesh.num_vertices(), 0.0);
+  VertexField<int> count(mesh.num_vertices(), 0);
+  for (const FaceVertices& v : mesh.faces)
+    for (std::size_t k = 0; k < 3; ++k) {  // every edge leaves each of its ends in one face
+      length[v[k]] += (mesh.x[v[(k + 1) % 3]] - mesh.x[v[k]]).norm();
+      ++count[v[k]];
+    }
+  for (const VertexId v : length.ids()) length[v] /= count[v];
+  return length;
+}
 
 void RemeshOptions::validate() const {
   const auto require = [](bool holds, const char* field, double value, const char* range) {
@@ -142,7 +193,8 @@ void RemeshOptions::validate() const {
   require(gap_layers >= 0.0 && gap_layers <= 100.0, "gap_layers", gap_layers, "between 0 and 100");
   require(min_vertices >= 4, "min_vertices", min_vertices, "at least 4");
   require(max_sweeps >= 1, "max_sweeps", max_sweeps, "at least 1");
-  require(equilibrium >= 0.0 && equilibrium < 1.0, "equilibrium", equilibrium, "in [0, 1)");
+  require(spring_tolerance >= 0.0 && spring_tolerance < 1.0, "spring_tolerance", spring_tolerance,
+          "in [0, 1)");
 }
 
 RemeshOptions sound_remeshing(double C0, double edge_floor) {
@@ -161,38 +213,7 @@ RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options) {
 RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options, SurfaceFields& fields) {
   options.validate();
   RemeshReport report;
-  const auto fail = [&](std::string why) {
-    report.ok = false;
-    report.failure = std::move(why);
-    return report;
-  };
-  if (!is_finite(mesh)) return fail("a vertex of the given surface is not finite");
-  const double volume = enclosed_volume(mesh);
-  if (!(volume > 0.0))
-    return fail(fmt::format("the given surface encloses a volume of {:g}", volume));
-
-  try {
-    const SurfaceTopology topology(mesh);
-    const RemeshReference reference = reference_surface(mesh, topology, options);
-    RemeshState state = start_state(reference, mesh, topology);
-    equilibrate(state, options, report);
-    lift_to_surface(state);
-    report.expected_vertices = expected_vertices(state);
-    if (has_fold(state)) return fail("a face is folded over");
-
-    auto [result, places] = assembled(state);
-    correct_volume(result, volume, options, report);
-    report.min_angle_deg = smallest_angle_deg(result);
-    std::string fault = find_fault(result, smallest_angle_deg(mesh), options, report);
-    if (!fault.empty()) return fail(std::move(fault));
-    auto [carried, excess] =
-        transferred(fields, {mesh, topology, reference.surface, reference.walk, result, places});
-    fields = std::move(carried);
-    report.field_excess = excess;
-    mesh = std::move(result);
-  } catch (const InvalidInput& invalid) {  // from the topology check, before or after
-    return fail(invalid.what());
-  }
+  report.fault = rebuild(mesh, options, fields, report);
   return report;
 }
 

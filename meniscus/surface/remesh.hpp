@@ -1,33 +1,35 @@
 #pragma once
 
 #include <functional>
-#include <string>
+#include <optional>
 #include <vector>
 
+#include "meniscus/core/fault.hpp"
 #include "meniscus/mesh/surface_mesh.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
+#include "meniscus/surface/constants.hpp"
 #include "meniscus/surface/surface_fields.hpp"
 
 namespace meniscus {
 
 struct RemeshOptions {
-  double C0 = 8.75;             ///< ρ = C0⟨κ⟩² (eq. 1); C0 = N0/4π
-  double volume = 0.0;          ///< volume to restore [R0³]; 0: that of the surface as given
-  bool restores_volume = true;  ///< false: the change is reported and left
-  double edge_floor = 0.0;      ///< [R0] no edge is asked to be shorter
-  double edge_ceiling = 1e300;  ///< [R0] no edge is asked to be longer
-  double gradation = 0.5;       ///< largest |∇l0| of the rest length
-  int min_vertices = 42;  ///< however small or round the drop, its C0 is raised to give this many
+  double C0 = 8.75;               ///< ρ = C0⟨κ⟩² (eq. 1); C0 = N0/4π
+  double volume = 0.0;            ///< volume to restore [R0³]; 0: that of the surface as given
+  bool restores_volume = true;    ///< false: the change is reported and left
+  double edge_floor = 0.0;        ///< [R0] no edge is asked to be shorter
+  double edge_ceiling = 1e300;    ///< [R0] no edge is asked to be longer
+  double gradation = kGradation;  ///< largest |∇l0| of the rest length
+  int min_vertices =
+      kFewestVertices;  ///< however small or round the drop, its C0 is raised to give this many
   int max_sweeps = 20;
   /// Springs are at rest when every vertex is within this fraction of its l0 of its own rest. 0:
   /// what makes the result independent of the history, 0.006 (1000/N)^½ for N > 1000 vertices (a
   /// strain that varies over the whole surface moves no vertex by more than strain × l0/R).
-  double equilibrium = 0.0;
+  double spring_tolerance = 0.0;
   /// Further upper bound on the rest length at a point (gaps, user sizes) [R0]; may be empty.
   std::function<double(const Vec3& x)> size_bound = {};
-  /// What else makes the result unfit, in one line, else empty text (such as
-  /// `find_self_intersection`); may be empty.
-  std::function<std::string(const SurfaceMesh&)> find_fault = {};
+  /// What else makes the result unfit (such as `find_self_intersection`); may be empty.
+  std::function<std::optional<Fault>(const SurfaceMesh&)> find_fault = {};
   double gap_layers = 0.0;  ///< layers of tetrahedra asked for where sheets are close; 0: none
   /// Other surfaces that may be close; they must outlive the call.
   std::vector<const SurfaceTree*> neighbours = {};
@@ -35,12 +37,11 @@ struct RemeshOptions {
 };
 
 /// Options for a density of C0 = N0/4π vertices, edges of `edge_floor` [R0] or more, and a result
-/// that does not meet itself; the rest as `RemeshOptions` has it.
+/// that does not meet itself. All options of the program start from these.
 [[nodiscard]] RemeshOptions sound_remeshing(double C0, double edge_floor = 0.0);
 
-struct [[nodiscard]] RemeshReport {
-  bool ok = true;
-  std::string failure;  ///< why the surface was left as it was
+/// On failure the surface was left as it was.
+struct [[nodiscard]] RemeshReport : Report {
   int splits = 0, collapses = 0, flips = 0, sweeps = 0;
   double volume_change = 0.0;           ///< relative, by remeshing, before the correction
   double volume_shift = 0.0;            ///< largest shift of a vertex by the correction [R0]
@@ -54,14 +55,10 @@ struct [[nodiscard]] RemeshReport {
 /// vertex addition and removal, Delaunay reconnection and spring equilibration (cristini2001), and
 /// restores its volume. Transactional: on failure the mesh is unchanged and the report says why.
 RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options);
-/// The same, and fields follow; on failure they are unchanged as well.
+/// Remeshes a surface with its fields; on failure both are unchanged.
 RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options, SurfaceFields& fields);
 
-/// Shifts every vertex by the same multiple of its unit area vector A_i/|A_i| so that the enclosed
-/// volume becomes `volume` to 1e-13 relative; returns the size of the shift [R0], signed outward.
-double restore_volume(SurfaceMesh& mesh, double volume);
-/// The same with a shift of its own for each vertex: a common factor, which is returned, times its
-/// weight.
-double restore_volume(SurfaceMesh& mesh, double volume, const VertexField<double>& weights);
+/// Mean length of the edges at each vertex [R0].
+[[nodiscard]] VertexField<double> mean_edges(const SurfaceMesh& mesh);
 
 }  // namespace meniscus

@@ -13,35 +13,35 @@ constexpr double kUprightCosine = 0.5;
 
 }  // namespace
 
-RemeshVertex vertex_at(const RemeshReference& reference, const SurfaceLocation& place) {
-  const FaceVertices& corners = reference.walk.corners(place.face);
-  const Vec3 flat = reference.walk.flat_point(place);
+RemeshVertex vertex_at(const RemeshReference& reference, const SurfaceLocation& point) {
+  const FaceVertices& corners = reference.walk.corners(point.face);
+  const Vec3 flat = reference.walk.flat_point(point);
   Vec3 lift = Vec3::Zero(), n = Vec3::Zero();
   double length = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double b = place.weights[static_cast<int>(k)];
+    const double b = point.weights[static_cast<int>(k)];
     const RemeshReference::Corner& corner = reference.corners[corners[k]];
     const Vec3 back = reference.walk.vertex(corners[k]) - flat;
     lift += b * corner.n.dot(back) * corner.n;
     n += b * corner.n;
     length += b * (corner.rest_length - 0.5 * corner.slope.dot(back));
   }
-  return {.x = flat + 0.5 * lift, .rest_length = length, .n = n.normalized(), .place = place};
+  return {.x = flat + 0.5 * lift, .rest_length = length, .n = n.normalized(), .point = point};
 }
 
 void lift_to_surface(RemeshState& state) {
   for (const VertexId v : state.vertices.ids())
     if (state.mesh.is_alive(v))
-      state.vertices[v].x = state.reference.surface.point(state.vertices[v].place);
+      state.vertices[v].x = state.reference.surface.point(state.vertices[v].point);
 }
 
 RemeshVertex halfway(const RemeshReference& reference, const RemeshVertex& a,
                      const RemeshVertex& b) {
-  const Vec3 half = 0.5 * (reference.walk.flat_point(b.place) - reference.walk.flat_point(a.place));
-  return vertex_at(reference, reference.walk.moved(a.place, half));
+  const Vec3 half = 0.5 * (reference.walk.flat_point(b.point) - reference.walk.flat_point(a.point));
+  return vertex_at(reference, reference.walk.moved(a.point, half));
 }
 
-bool is_upright(const RemeshVertex& a, const RemeshVertex& b, const RemeshVertex& c) {
+bool is_consistently_oriented(const RemeshVertex& a, const RemeshVertex& b, const RemeshVertex& c) {
   const Vec3 area = (b.x - a.x).cross(c.x - a.x);
   const double least = std::min({area.dot(a.n), area.dot(b.n), area.dot(c.n)});
   return least > 0.0 && least * least > kUprightCosine * kUprightCosine * area.squaredNorm();

@@ -24,7 +24,7 @@ struct RemeshVertex {
   Vec3 x;              ///< near the smooth surface; on it after `lift_to_surface`
   double rest_length;  ///< l0 there
   Vec3 n;              ///< its unit normal there, interpolated linearly
-  SurfaceLocation place;
+  SurfaceLocation point;
 };
 
 /// A triangulation under way from the old to the new one. Most of it comes to rest early: flips and
@@ -52,18 +52,19 @@ struct RemeshState {
 
 [[nodiscard]] RemeshState start_state(const RemeshReference& reference, const SurfaceMesh& mesh,
                                       const SurfaceTopology& topology);
-/// The vertex at a place y = Σ b_k x_k of the reference surface, half of the way from there to the
+/// The vertex at a point y = Σ b_k x_k of the reference surface, half of the way from there to the
 /// tangent planes at the corners, ½ Σ b_k (n_k·(x_k − y)) n_k: where the curvature is even, the
 /// smooth surface, otherwise O(h³) away, at a fifth of the cost. Its rest length is
 /// Σ b_k (l0_k + ½ ∇l0_k·(y − x_k)), likewise O(h³).
 [[nodiscard]] RemeshVertex vertex_at(const RemeshReference& reference,
-                                     const SurfaceLocation& place);
+                                     const SurfaceLocation& point);
 /// Puts all vertices on the smooth surface.
 void lift_to_surface(RemeshState& state);
 /// The vertex half-way between two on the reference surface.
 [[nodiscard]] RemeshVertex halfway(const RemeshReference& reference, const RemeshVertex& a,
                                    const RemeshVertex& b);
 /// Whether the triangle of three points faces the way of the surface at its corners.
-[[nodiscard]] bool is_upright(const RemeshVertex& a, const RemeshVertex& b, const RemeshVertex& c);
+[[nodiscard]] bool is_consistently_oriented(const RemeshVertex& a, const RemeshVertex& b,
+                                            const RemeshVertex& c);
 
 }  // namespace meniscus

@@ -1,30 +1,86 @@
+#include "meniscus/surface/restore_volume.hpp"
+
 #include <cmath>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
-#include "meniscus/surface/remesh.hpp"
+#include "meniscus/surface/reconstructed_surface.hpp"
 
 namespace meniscus {
 namespace {
 
-constexpr double kVolumeTolerance = 1e-14;  // relative; a decade below what is promised
-constexpr int kMaxNewtonSteps = 20;         // V(s) is a cubic: a small shift takes two or three
+constexpr double kFlatTolerance = 1e-14;  // relative; a decade below what is promised
+constexpr int kMaxNewtonSteps = 20;       // V(s) is a cubic: a small shift takes two or three
+
+constexpr double kCurvedTolerance = 1e-12;  // relative
+// The first shift leaves the O(h²) part by which curved and flat volumes answer it differently, a
+// hundredth or so; from then on the secant knows it.
+constexpr int kMostShifts = 30;
+// What is left of the missing volume after the shifts is made up for by a change of scale, which is
+// exact and costs no more middles.
+constexpr double kLeftToScale = 0.1;
+
+double volume_of(const SurfaceMesh& mesh, SurfaceShape shape) {
+  return ReconstructedSurface(mesh, shape).volume();
+}
+
+double restore_flat_volume(SurfaceMesh& mesh, double volume) {
+  return restore_volume(mesh, volume, VertexField<double>(mesh.num_vertices(), 1.0));
+}
+
+/// From the volume that the curved surface has, by a change of scale about the centroid, which
+/// moves the middles as it moves the vertices, so that V ∝ scale³ exactly. Returns how far the
+/// surface moves on average, (scale − 1) 3V/A.
+double scale_to_volume(SurfaceMesh& mesh, double from, double to) {
+  // A surface far off is crumpled; its curved volume says nothing.
+  if (!(from > 0.5 * to && from < 2.0 * to)) return 0.0;
+  const Vec3 center = enclosed_centroid(mesh);
+  const double scale = std::cbrt(to / from);
+  for (Vec3& x : mesh.x) x = center + scale * (x - center);
+  return (scale - 1.0) * 3.0 * from / surface_area(mesh);
+}
+
+double restore_curved_volume(SurfaceMesh& mesh, double volume, SurfaceShape shape) {
+  double enclosed = volume_of(mesh, shape);
+  const double first = std::abs(volume - enclosed);
+  double shift = 0.0;
+  double gain = 1.0;  // what flat faces must gain for the curved ones to gain one
+  for (int step = 0; step < kMostShifts; ++step) {
+    const double missing = volume - enclosed;
+    if (std::abs(missing) <= kCurvedTolerance * volume) return shift;
+    if (step > 0 && std::abs(missing) <= kLeftToScale * first) break;
+    const VertexField<Vec3> before = mesh.x;
+    const double moved = restore_flat_volume(mesh, enclosed_volume(mesh) + gain * missing);
+    const double shifted = volume_of(mesh, shape), left = volume - shifted;
+    if (!(std::abs(left) < std::abs(missing))) {
+      mesh.x = before;
+      break;
+    }
+    gain *= missing / (missing - left);
+    shift += moved;
+    enclosed = shifted;
+  }
+  return shift + scale_to_volume(mesh, enclosed, volume);
+}
 
 }  // namespace
 
-double restore_volume(SurfaceMesh& mesh, double volume) {
-  return restore_volume(mesh, volume, VertexField<double>(mesh.num_vertices(), 1.0));
+double restore_volume(SurfaceMesh& mesh, double volume, SurfaceShape shape) {
+  MENISCUS_ASSERT(volume > 0.0, "volume = {}", volume);
+  return shape == SurfaceShape::faceted ? restore_flat_volume(mesh, volume)
+                                        : restore_curved_volume(mesh, volume, shape);
 }
 
 double restore_volume(SurfaceMesh& mesh, double volume, const VertexField<double>& weights) {
   MENISCUS_ASSERT(volume > 0.0, "volume = {}", volume);
+  MENISCUS_ASSERT(weights.size() == mesh.num_vertices(), "{} weights of {} vertices",
+                  weights.size(), mesh.num_vertices());
   VertexField<Vec3> direction = vertex_area_vectors(mesh);
   for (const VertexId v : direction.ids()) direction[v] *= weights[v] / direction[v].norm();
   const VertexField<Vec3> start = mesh.x;
   double shift = 0.0;
   double error = enclosed_volume(mesh) - volume;
-  for (int step = 0; step < kMaxNewtonSteps && std::abs(error) > kVolumeTolerance * volume;
-       ++step) {
+  for (int step = 0; step < kMaxNewtonSteps && std::abs(error) > kFlatTolerance * volume; ++step) {
     const VertexField<Vec3> area = vertex_area_vectors(mesh);
     double derivative = 0.0;  // dV/ds = Σ A_i·d_i
     for (const VertexId v : mesh.x.ids()) derivative += area[v].dot(direction[v]);

@@ -12,6 +12,7 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/surface/sizing.hpp"
 
 namespace meniscus {
@@ -96,6 +97,8 @@ class RingAverage {
     for (; count_ < count; ++count_) {
       std::ranges::fill(change_, 0.0);
       for (const DensityEdge& edge : edges_) {
+        MENISCUS_ASSERT(edge.a.value < values_.size() && edge.b.value < values_.size(), "{} {}",
+                        edge.a.value, edge.b.value);
         const double exchange = kExchange * (values_[edge.b] - values_[edge.a]);
         change_[edge.a] += exchange;
         change_[edge.b] -= exchange;
@@ -164,6 +167,7 @@ void split_edge(RemeshState& state, HalfedgeId h) {
                                       state.vertices[state.mesh.to(h)]);
   const VertexId c = state.mesh.opposite(h), d = state.mesh.opposite(state.mesh.twin(h));
   const VertexId m = state.mesh.split(h);
+  MENISCUS_ASSERT(m.value == state.vertices.size(), "{} {}", m.value, state.vertices.size());
   state.vertices.add(middle);
   for (const VertexId v : {m, c, d}) state.touch(v);
 }
@@ -178,7 +182,8 @@ bool try_collapse_edge(RemeshState& state, HalfedgeId h) {
   const auto check_fan = [&](VertexId center, VertexId other) {
     mesh.for_each_out(center, [&](HalfedgeId g) {
       const VertexId p = mesh.to(g), q = mesh.opposite(g);
-      if (p != other && q != other && !is_upright(merged, state.vertices[p], state.vertices[q]))
+      if (p != other && q != other &&
+          !is_consistently_oriented(merged, state.vertices[p], state.vertices[q]))
         is_sound = false;
     });
   };
@@ -217,7 +222,8 @@ bool try_flip(RemeshState& state, HalfedgeId h) {
   const double threshold = std::clamp(kAllowance * growth, -kLargestAllowance, kLargestAllowance);
   if (!is_angle_excess(state, h, threshold + kDelaunaySlack) || mesh.are_joined(c, d)) return false;
   const VertexField<RemeshVertex>& v = state.vertices;
-  if (!is_upright(v[d], v[c], v[a]) || !is_upright(v[c], v[d], v[b])) return false;
+  if (!is_consistently_oriented(v[d], v[c], v[a]) || !is_consistently_oriented(v[c], v[d], v[b]))
+    return false;
   state.mesh.flip(h);
   return true;
 }

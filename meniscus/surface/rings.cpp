@@ -1,5 +1,6 @@
 #include "meniscus/surface/rings.hpp"
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 
 namespace meniscus {
@@ -23,6 +24,7 @@ bool RingGatherer::mark(VertexId v, VertexId center) {
 }
 
 std::span<const Vec3> RingGatherer::gather(VertexId v, bool with_second_ring) {
+  MENISCUS_ASSERT(topology_.valence(v) >= 3, "vertex {}", v.value);
   points_.clear();
   // The mark of an earlier call for the same vertex would hide its rings.
   seen_from_[v] = v;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/surface/rings.hpp"
 #include "meniscus/surface/trust.hpp"
 
@@ -60,6 +61,8 @@ SmoothSurface::SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& top
     : patches_(mesh.num_vertices()), normals_(mesh.num_vertices()), faces_(mesh.faces) {
   RingGatherer rings(mesh, topology);
   curvature_ = osculating_curvature(mesh, topology, rings);
+  MENISCUS_ASSERT(curvature_.size() == mesh.num_vertices(), "{} {}", curvature_.size(),
+                  mesh.num_vertices());
   std::vector<Vec3> unrolled;
   for (const VertexId v : mesh.x.ids()) {
     HeightPatch& patch = patches_[v];
@@ -80,6 +83,7 @@ SmoothSurface::PointNormal SmoothSurface::at(const SurfaceLocation& location) co
   const Vec3 flat = flat_point(location);
   const Vec3 squares = location.weights.cwiseProduct(location.weights);
   const double total = squares.sum();
+  MENISCUS_ASSERT(!(total <= 0.0), "no weights on face {}", location.face.value);
   PointNormal result{.x = flat, .n = Vec3::Zero()};
   for (int k = 0; k < 3; ++k) {
     if (squares[k] == 0.0) continue;
@@ -112,27 +116,6 @@ Vec3 SmoothSurface::edge_point(VertexId a, VertexId b, double s) const {
   const double wa = (1.0 - s) * (1.0 - s), wb = s * s;
   return flat +
          (wa * height_above(pa, flat) * pa.n + wb * height_above(pb, flat) * pb.n) / (wa + wb);
-}
-
-VertexCurvature SmoothSurface::curvature(const SurfaceLocation& location) const {
-  const FaceVertices& v = faces_[location.face];
-  const Vec3 n = at(location).n;
-  Mat3 shape = Mat3::Zero();
-  for (int k = 0; k < 3; ++k) {
-    const VertexCurvature c = patches_[v[static_cast<std::size_t>(k)]].curvature();
-    // Directions turned with the normal by the smallest rotation, so that none is foreshortened.
-    const auto turned = [&](const Vec3& d) -> Vec3 {
-      return d - n.dot(d) / (1.0 + n.dot(c.n)) * (n + c.n);
-    };
-    const Vec3 d1 = turned(c.d1), d2 = turned(c.d2);
-    shape += location.weights[k] * (c.k1 * d1 * d1.transpose() + c.k2 * d2 * d2.transpose());
-  }
-  // In the tangent plane the operator is a symmetric 2 × 2 matrix.
-  HeightPatch tangent = flat_patch(Vec3::Zero(), n);
-  tangent.c[2] = -tangent.t1.dot(shape * tangent.t1);
-  tangent.c[3] = -tangent.t1.dot(shape * tangent.t2);
-  tangent.c[4] = -tangent.t2.dot(shape * tangent.t2);
-  return tangent.curvature();
 }
 
 }  // namespace meniscus

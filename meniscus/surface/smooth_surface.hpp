@@ -19,10 +19,10 @@ struct SurfaceLocation {
 /// where (u, v) are the coordinates of the flat point y in the frame of patch k. It passes through
 /// every vertex with the tangent plane of the vertex's patch; over an edge it depends on the
 /// patches of the two ends alone, so that faces join without gaps. Position error O(h⁴), normal
-/// O(h³), curvature O(h²) on smooth surfaces; a sphere to O(h⁶). Where fewer than two rings can be
-/// seen (filaments as thin as an edge, solids of few vertices), or a patch swings away from the
-/// edges at its vertex (crumpled surfaces), patches fall back to lower degree. A value: it keeps
-/// what it needs of the mesh.
+/// O(h³), a patch's curvature at its vertex O(h²) on smooth surfaces; a sphere to O(h⁶). Where
+/// fewer than two rings can be seen (filaments as thin as an edge, solids of few vertices), or a
+/// patch swings away from the edges at its vertex (crumpled surfaces), patches fall back to lower
+/// degree. A value: it keeps what it needs of the mesh.
 class SmoothSurface {
  public:
   SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& topology);
@@ -40,9 +40,6 @@ class SmoothSurface {
   [[nodiscard]] const VertexField<Vec3>& vertex_normals() const { return normals_; }
   /// S over the edge from a (s = 0) to b (s = 1): the same point as from either face.
   [[nodiscard]] Vec3 edge_point(VertexId a, VertexId b, double s) const;
-  /// Principal curvatures: the shape operators of the corners' patches, interpolated linearly.
-  /// Second order on any mesh, unlike the one-ring fits.
-  [[nodiscard]] VertexCurvature curvature(const SurfaceLocation& location) const;
 
   /// The osculating fit at the vertices.
   [[nodiscard]] const VertexField<VertexCurvature>& vertex_curvature() const { return curvature_; }

@@ -12,7 +12,8 @@ namespace {
 /// and folding that springs at their rest length lack. The shorter, the better the angles around
 /// vertices of valence 5 and 7, and the less the springs hold their lengths.
 constexpr double kShortening = 0.8;
-/// Of the move that would bring a vertex to rest: long waves settle in fewer rounds.
+/// A vertex moves by this multiple of the move that would bring it to rest: long waves settle in
+/// fewer rounds.
 constexpr double kOverRelaxation = 1.2;
 constexpr double kLongestMove = 0.25;  // of l0 at a time: no vertex can cross its ring
 /// Least stiffness of a spring on average; compressed ones push a vertex aside and have little.
@@ -32,8 +33,8 @@ class PulledVertices {
     insert(v);
     mesh_.for_each_out(v, [&](HalfedgeId h) { insert(mesh_.to(h)); });
   }
-  /// Those of one round. Each is to be released when it is looked at: what is inserted meanwhile
-  /// and still to come in this round does not come again in the next.
+  /// The vertices of one round. Each is to be released when it is looked at: one that is inserted
+  /// meanwhile and still to come in this round does not come again in the next.
   [[nodiscard]] std::vector<VertexId> next_round() { return std::exchange(members_, {}); }
   void release(VertexId v) { is_pulled_[v] = 0; }
 
@@ -74,7 +75,9 @@ bool would_fold(const RemeshState& state, VertexId v, const RemeshVertex& moved)
   state.mesh.for_each_out(v, [&](HalfedgeId h) {
     const RemeshVertex &a = state.vertices[state.mesh.to(h)],
                        &b = state.vertices[state.mesh.opposite(h)];
-    if (!folds && !is_upright(moved, a, b) && is_upright(state.vertices[v], a, b)) folds = true;
+    if (!folds && !is_consistently_oriented(moved, a, b) &&
+        is_consistently_oriented(state.vertices[v], a, b))
+      folds = true;
   });
   return folds;
 }
@@ -84,7 +87,7 @@ bool try_move(RemeshState& state, VertexId v, Vec3 d) {
   RemeshVertex& vertex = state.vertices[v];
   for (int attempt = 0; attempt < kMostAttempts; ++attempt, d *= 0.5) {
     const RemeshVertex moved =
-        vertex_at(state.reference, state.reference.walk.moved(vertex.place, d));
+        vertex_at(state.reference, state.reference.walk.moved(vertex.point, d));
     if (would_fold(state, v, moved)) continue;
     vertex = moved;
     return true;
@@ -94,7 +97,7 @@ bool try_move(RemeshState& state, VertexId v, Vec3 d) {
 
 }  // namespace
 
-void relax_springs(RemeshState& state, double equilibrium, int max_rounds) {
+void relax_springs(RemeshState& state, double spring_tolerance, int max_rounds) {
   PulledVertices pulled(state.mesh, state.unrelaxed.take());
   for (int round = 0; round < max_rounds; ++round) {
     const std::vector<VertexId> vertices = pulled.next_round();
@@ -103,7 +106,7 @@ void relax_springs(RemeshState& state, double equilibrium, int max_rounds) {
       pulled.release(v);
       const Vec3 d = move_to_rest(state, v);
       const double over_length = d.norm() / state.vertices[v].rest_length;
-      if (over_length <= equilibrium) continue;
+      if (over_length <= spring_tolerance) continue;
       if (!try_move(state, v, std::min(kOverRelaxation, kLongestMove / over_length) * d)) continue;
       state.unflipped.insert(v);
       pulled.insert_ring(v);

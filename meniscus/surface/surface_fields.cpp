@@ -5,17 +5,15 @@
 #include <cmath>
 #include <optional>
 
-#include <Eigen/Cholesky>
-
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
+#include "meniscus/surface/face_reconstruction.hpp"
 #include "meniscus/surface/keep_amounts.hpp"
+#include "meniscus/surface/polynomial_fit.hpp"
 
 namespace meniscus {
 namespace {
-
-/// Smallest over largest pivot of a fit; below, a polynomial of lower degree is used.
-constexpr double kSingularPivot = 1e-3;
 
 struct Range {
   double low, high;
@@ -26,43 +24,35 @@ struct Range {
   [[nodiscard]] double clamped(double value) const { return std::clamp(value, low, high); }
 };
 
-/// value + c0 u + c1 v + c2 u² + c3 uv + c4 v² in the frame of the smooth surface's patch.
+/// The value at a vertex plus monomials in the frame of the smooth surface's patch.
 struct Quadratic {
   double value = 0.0;
-  std::array<double, 5> c{};
-  [[nodiscard]] double at(double u, double v) const {
-    return value + u * (c[0] + c[2] * u + c[3] * v) + v * (c[1] + c[4] * v);
-  }
+  Eigen::Matrix<double, 5, 1> c = Eigen::Matrix<double, 5, 1>::Zero();
+  [[nodiscard]] double at(double u, double v) const { return value + monomials<2>(u, v).dot(c); }
 };
 
 struct Sample {
   double u, v, difference;
 };
 
-/// Weighted least squares of the first Terms terms; false where they are not determined.
-template <int Terms>
+/// Weighted least squares of the monomials up to a degree; false where they are not determined.
+template <int Degree>
 bool fit(std::span<const Sample> samples, Quadratic& quadratic) {
-  if (samples.size() < Terms) return false;
+  constexpr int kTerms = num_monomials(Degree);
+  if (samples.size() < kTerms) return false;
   double squared = 0.0;
   for (const Sample& s : samples) squared += s.u * s.u + s.v * s.v;
   const double h = std::sqrt(squared / static_cast<double>(samples.size()));
-  Eigen::Matrix<double, Terms, Terms> normal = Eigen::Matrix<double, Terms, Terms>::Zero();
-  Eigen::Matrix<double, Terms, 1> rhs = Eigen::Matrix<double, Terms, 1>::Zero();
+  PolynomialFit<kTerms> fit;
+  Eigen::Matrix<double, kTerms, 1> rhs = Eigen::Matrix<double, kTerms, 1>::Zero();
   for (const Sample& s : samples) {
     const double u = s.u / h, v = s.v / h;
-    const std::array<double, 5> all{u, v, u * u, u * v, v * v};
-    const Eigen::Map<const Eigen::Matrix<double, Terms, 1>> m(all.data());
-    const double weight = 1.0 / (u * u + v * v);
-    normal += weight * m * m.transpose();
-    rhs += weight * s.difference * m;
+    rhs += s.difference * fit.add(monomials<Degree>(u, v), 1.0 / (u * u + v * v));
   }
-  const Eigen::LLT<Eigen::Matrix<double, Terms, Terms>> factor(normal);
-  if (factor.info() != Eigen::Success) return false;
-  const auto pivots = factor.matrixLLT().diagonal();
-  if (!(pivots.minCoeff() > kSingularPivot * pivots.maxCoeff())) return false;
-  const Eigen::Matrix<double, Terms, 1> solution = factor.solve(rhs);
-  for (int k = 0; k < Terms; ++k)
-    quadratic.c[static_cast<std::size_t>(k)] = solution[k] / (k < 2 ? h : h * h);
+  const auto factor = fit.factor();
+  if (!factor) return false;
+  const Eigen::Matrix<double, kTerms, 1> solution = factor->solve(rhs);
+  for (int k = 0; k < kTerms; ++k) quadratic.c[k] = solution[k] / (k < 2 ? h : h * h);
   return true;
 }
 
@@ -71,6 +61,8 @@ class VertexInterpolant {
  public:
   VertexInterpolant(const SurfaceChange& change, const VertexField<double>& values)
       : change_(change), patches_(values.size()), ranges_(values.size()) {
+    MENISCUS_ASSERT(values.size() == change.before.num_vertices(), "{} values of {} vertices",
+                    values.size(), change.before.num_vertices());
     std::vector<Sample> samples;
     for (const VertexId v : values.ids()) {
       const HeightPatch& frame = change.surface.patch(v);
@@ -82,7 +74,7 @@ class VertexInterpolant {
         range.include({values[w], values[w]});
       }
       patches_[v].value = values[v];
-      if (!fit<5>(samples, patches_[v])) fit<2>(samples, patches_[v]);
+      if (!fit<2>(samples, patches_[v])) fit<1>(samples, patches_[v]);
       ranges_[v] = range;
     }
   }
@@ -109,92 +101,10 @@ class VertexInterpolant {
   VertexField<Range> ranges_;
 };
 
-/// The three faces across the edges of each face.
-FaceField<std::array<FaceId, 3>> neighbours(const SurfaceMesh& mesh,
-                                            const SurfaceTopology& topology) {
-  FaceField<std::array<FaceId, 3>> result(mesh.num_faces());
-  FaceField<std::size_t> count(mesh.num_faces(), 0);
-  for (const SurfaceEdge& e : topology.edges()) {
-    result[e.left][count[e.left]++] = e.right;
-    result[e.right][count[e.right]++] = e.left;
-  }
-  return result;
-}
-
 Vec3 center(const SurfaceMesh& mesh, FaceId f) {
   const FaceVertices& v = mesh.faces[f];
   return (mesh.x[v[0]] + mesh.x[v[1]] + mesh.x[v[2]]) / 3.0;
 }
-
-/// A face field as a function on the old surface.
-class FaceInterpolant {
- public:
-  FaceInterpolant(const SurfaceChange& change, const FaceField<double>& values,
-                  const FaceField<std::array<FaceId, 3>>& beside)
-      : change_(change), values_(values), gradients_(values.size()), ranges_(values.size()) {
-    for (const FaceId f : values.ids()) {
-      const Vec3 here = center(change.before, f);
-      const Vec3 normal = face_area_vector(change.before, f).normalized();
-      const HeightPatch frame = flat_patch(here, normal);
-      std::array<Sample, 3> samples{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        const FaceId g = beside[f][k];
-        // Turned into the plane of the face about the common edge, nearly: at its own distance.
-        const Vec3 d = center(change.before, g) - here;
-        const Vec3 flat = d - d.dot(normal) * normal;
-        const double stretch = d.norm() / flat.norm();
-        samples[k] = {stretch * flat.dot(frame.t1), stretch * flat.dot(frame.t2),
-                      values[g] - values[f]};
-      }
-      Quadratic linear;
-      fit<2>(samples, linear);
-      gradients_[f] = linear.c[0] * frame.t1 + linear.c[1] * frame.t2;
-    }
-    find_ranges();
-    for (const FaceId f : values.ids()) limit_gradient(f);
-  }
-
-  [[nodiscard]] double at(const SurfaceLocation& place) const {
-    const Vec3 d = change_.walk.flat_point(place) - center(change_.before, place.face);
-    return ranges_[place.face].clamped(values_[place.face] + gradients_[place.face].dot(d));
-  }
-
-  /// The function of a face, continued to a point near it.
-  [[nodiscard]] double continued(FaceId f, const Vec3& x) const {
-    return values_[f] + gradients_[f].dot(x - center(change_.before, f));
-  }
-
- private:
-  /// Of a face and all that it shares a vertex with: the three beside it do not reach as far as its
-  /// own corners do.
-  void find_ranges() {
-    const SurfaceMesh& mesh = change_.before;
-    for (const FaceId f : values_.ids()) {
-      ranges_[f] = {values_[f], values_[f]};
-      for (const VertexId v : mesh.faces[f])
-        for (const FaceId g : change_.topology.faces_around(v))
-          ranges_[f].include({values_[g], values_[g]});
-    }
-  }
-
-  /// Flattens the face's function until its corners are within range: cut off there instead, it
-  /// would no longer have the mean that the face has.
-  void limit_gradient(FaceId f) {
-    const Vec3 here = center(change_.before, f);
-    double factor = 1.0;
-    for (const VertexId v : change_.before.faces[f]) {
-      const double rise = gradients_[f].dot(change_.before.x[v] - here);
-      const double room = rise > 0.0 ? ranges_[f].high - values_[f] : ranges_[f].low - values_[f];
-      if (std::abs(rise) > std::abs(room)) factor = std::min(factor, room / rise);
-    }
-    gradients_[f] *= factor;
-  }
-
-  const SurfaceChange& change_;
-  const FaceField<double>& values_;
-  FaceField<Vec3> gradients_;
-  FaceField<Range> ranges_;
-};
 
 /// Four points of a new face, the centres of the quarters it is cut into by its mid-edges, on the
 /// old surface.
@@ -276,12 +186,13 @@ class Conservation {
   /// Both are compared at the centre of the new face: at the part itself the slope would count, and
   /// with it how parts happen to lie.
   FieldExcess keep(FaceField<double>& values, const FaceField<double>& before,
-                   const FaceInterpolant& interpolant) const {
+                   const FaceReconstruction& reconstruction) const {
     FaceField<double> missing(values.size(), 0.0);
     for (const Part& part : parts_)
       missing[part.to.face] +=
-          part.area * (interpolant.continued(part.from.face, center(change_.after, part.to.face)) -
-                       values[part.to.face]);
+          part.area *
+          (reconstruction.continued(part.from.face, center(change_.after, part.to.face)) -
+           values[part.to.face]);
     std::vector<double> amounts(static_cast<std::size_t>(old_pieces_.count), 0.0);
     for (const FaceId f : before.ids())
       amounts[static_cast<std::size_t>(old_pieces_.piece[change_.before.faces[f][0]])] +=
@@ -329,6 +240,8 @@ bool has_conserved(const SurfaceFields& fields) {
 ReplacedFields transferred(const SurfaceFields& fields, const SurfaceChange& change) {
   ReplacedFields result;
   if (fields.empty()) return result;
+  MENISCUS_ASSERT(change.places.size() == change.after.num_vertices(), "{} places of {} vertices",
+                  change.places.size(), change.after.num_vertices());
   std::optional<Conservation> conservation;
   if (has_conserved(fields)) conservation.emplace(change);
   for (const CarriedField<VertexId>& field : fields.on_vertices) {
@@ -341,15 +254,14 @@ ReplacedFields transferred(const SurfaceFields& fields, const SurfaceChange& cha
         {field.name, field.unit, field.transfer, std::move(values)});
   }
   if (fields.on_faces.empty()) return result;
-  const auto beside = neighbours(change.before, change.topology);
   for (const CarriedField<FaceId>& field : fields.on_faces) {
-    const FaceInterpolant interpolant(change, field.values, beside);
+    const FaceReconstruction reconstruction(change.before, change.topology, field.values);
     FaceField<double> values(change.after.num_faces(), 0.0);
     for (const FaceId f : values.ids())
       for (const SurfaceLocation& place : sample_places(change, f))
-        values[f] += 0.25 * interpolant.at(place);
+        values[f] += 0.25 * reconstruction.value(place.face, change.walk.flat_point(place));
     if (field.transfer == FieldTransfer::conserved)
-      widen(result.excess, conservation->keep(values, field.values, interpolant));
+      widen(result.excess, conservation->keep(values, field.values, reconstruction));
     result.fields.on_faces.push_back({field.name, field.unit, field.transfer, std::move(values)});
   }
   return result;

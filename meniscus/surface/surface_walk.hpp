@@ -6,21 +6,21 @@
 
 namespace meniscus {
 
-/// Finds places on a triangulation by walking from face to face: the vertices of a remesh move by
-/// fractions of an edge, so that the next place is a face or two away from the last and no search
+/// Finds points on a triangulation by walking from face to face. The vertices of a remesh move by
+/// fractions of an edge, so that the next point is a face or two away from the last and no search
 /// tree is needed.
 class SurfaceWalk {
  public:
   SurfaceWalk(const SurfaceMesh& mesh, const SurfaceTopology& topology);
 
-  /// The place reached from `start` on its flat face by the displacement d: where the walk from
+  /// The point reached from `start` on its flat face by the displacement d: where the walk from
   /// face to face toward the target ends. Zero displacement returns the start. Beyond an edge that
-  /// bends away, where the target is above no face, the nearest place on that edge.
+  /// bends away, where the target is above no face, it is the nearest point on that edge.
   [[nodiscard]] SurfaceLocation moved(const SurfaceLocation& start, const Vec3& d) const;
   /// The point of the flat face.
-  [[nodiscard]] Vec3 flat_point(const SurfaceLocation& place) const {
-    const FaceVertices& v = charts_[place.face].corners;
-    return place.weights[0] * x_[v[0]] + place.weights[1] * x_[v[1]] + place.weights[2] * x_[v[2]];
+  [[nodiscard]] Vec3 flat_point(const SurfaceLocation& point) const {
+    const FaceVertices& v = charts_[point.face].corners;
+    return point.weights[0] * x_[v[0]] + point.weights[1] * x_[v[1]] + point.weights[2] * x_[v[2]];
   }
   [[nodiscard]] const FaceVertices& corners(FaceId f) const { return charts_[f].corners; }
   [[nodiscard]] const Vec3& vertex(VertexId v) const { return x_[v]; }

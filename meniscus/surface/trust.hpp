@@ -2,12 +2,9 @@
 
 #include <algorithm>
 
-namespace meniscus {
+#include "meniscus/surface/constants.hpp"
 
-/// Over the middle of an edge a fitted surface is trusted to this many of the edge's lengths, a
-/// little more than the height of a circle over the sides of its regular triangle. Where vertices
-/// lie as on a crease, fits swing out by a hundred.
-constexpr double kHighestMiddle = 0.3;
+namespace meniscus {
 
 /// How far a fit is to be trusted: 1 up to a limit of what it is judged by, fading out until twice
 /// that, so that what is fitted follows the vertices without jumps.

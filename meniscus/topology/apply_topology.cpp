@@ -11,15 +11,16 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/box_tree.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
-#include "meniscus/surface/even_out.hpp"
-#include "meniscus/surface/repair.hpp"
+#include "meniscus/surface/isotropic_remesh.hpp"
+#include "meniscus/surface/repair/mend.hpp"
 #include "meniscus/surface/sizing.hpp"
 #include "meniscus/topology/bridge_gap.hpp"
+#include "meniscus/topology/constants.hpp"
 #include "meniscus/topology/cut_neck.hpp"
-#include "meniscus/topology/mend.hpp"
 #include "meniscus/topology/successors.hpp"
 
 namespace meniscus {
@@ -28,16 +29,8 @@ namespace {
 /// Distance from a place dealt with, in neck radii or gaps, within which nothing else is due in the
 /// same call: beyond the band that was cut and the hole that was opened.
 constexpr double kWaiting = 4.0;
-/// Area that an event may add, of that of the sphere as large as the largest parent. Cuts and
-/// bridges take area off but where the liquid of a wide neck or film swells small or crumpled
-/// drops; a thinner one swells them less.
-constexpr double kMostAddedArea = 1e-3;
 /// Far beyond what one step can bring about: ends a scene of events that make each other.
 constexpr int kMaxEvents = 1000;
-
-std::string text_of(const Vec3& x) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", x.x(), x.y(), x.z());
-}
 
 /// The places that a call has dealt with.
 class DonePlaces {
@@ -110,25 +103,28 @@ bool clips_an_end(const Surgery& surgery, double radius) {
 }
 
 double most_added_area(const Scene& scene, std::span<const std::size_t> parents) {
+  MENISCUS_ASSERT(!parents.empty());
   double volume = 0.0;
   for (const std::size_t i : parents)
     volume = std::max(volume, enclosed_volume(scene.interfaces[i].mesh));
+  MENISCUS_ASSERT(volume > 0.0, "parents of volume {}", volume);
   const double radius = std::cbrt(0.75 * volume / std::numbers::pi);
-  return kMostAddedArea * 4.0 * std::numbers::pi * radius * radius;
+  return kMostAddedByEvent * 4.0 * std::numbers::pi * radius * radius;
 }
 
-/// `succeed`, all or nothing in what it does to the area too.
-std::string succeed_with_little_area(Scene& scene, Succession succession, TopologyEvent& event) {
+/// `replace_interfaces`, all or nothing in what it does to the area too.
+std::optional<Fault> replace_with_little_area(Scene& scene, Succession succession,
+                                              TopologyEvent& event) {
   const double most_added = most_added_area(scene, succession.parents);
   Scene after = scene;
-  if (std::string failure = succeed(after, std::move(succession), event); !failure.empty())
-    return failure;
-  if (event.area_after - event.area_before > most_added) return "it would add area";
+  if (auto fault = replace_interfaces(after, std::move(succession), event)) return fault;
+  if (event.area_after - event.area_before > most_added)
+    return Fault{FaultKind::added_area, "it would add area", event.place};
   scene = std::move(after);
   return {};
 }
 
-std::string cut(Scene& scene, const DueNeck& due, Surgery surgery, TopologyEvent& event) {
+std::optional<Fault> cut(Scene& scene, const DueNeck& due, Surgery surgery, TopologyEvent& event) {
   event.place = due.neck.center;
   if (due.side == Side::inside) {
     event.kind = EventKind::breakup;
@@ -137,8 +133,8 @@ std::string cut(Scene& scene, const DueNeck& due, Surgery surgery, TopologyEvent
     event.kind = EventKind::coalescence;
     event.gap = 2.0 * due.neck.radius;
   }
-  if (!surgery.failure.empty()) return surgery.failure;
-  return succeed_with_little_area(
+  if (surgery.fault) return std::move(surgery.fault);
+  return replace_with_little_area(
       scene, {{due.interface}, std::move(surgery.pieces), std::move(surgery.refined)}, event);
 }
 
@@ -153,19 +149,18 @@ void cut_necks(Scene& scene, const TopologyOptions& options, const SurfaceMotion
     Surgery surgery = cut_neck(scene.interfaces[due->interface].mesh, due->neck);
     if (clips_an_end(surgery, due->neck.radius)) continue;
     TopologyEvent event;
-    const std::string failure = cut(scene, *due, std::move(surgery), event);
-    if (failure.empty()) {
-      report.events.push_back(std::move(event));
-    } else {
+    if (const auto fault = cut(scene, *due, std::move(surgery), event)) {
       report.warnings.push_back(fmt::format(
           "the neck of radius {:.4g} of drop {} at {} was not cut: {}", due->neck.radius,
-          scene.interfaces[due->interface].drop, text_of(due->neck.center), failure));
+          scene.interfaces[due->interface].drop, text_of(due->neck.center), fault->text));
+    } else {
+      report.events.push_back(std::move(event));
     }
   }
 }
 
-/// Why two drops may not merge; empty when they may.
-std::string unlikeness(const Scene& scene, const Gap& gap) {
+/// Why two drops may not merge; none when they may.
+std::optional<std::string> unlikeness(const Scene& scene, const Gap& gap) {
   if (gap.a == gap.b) return {};
   const Interface &a = scene.interfaces[gap.a], &b = scene.interfaces[gap.b];
   const bool is_nested = a.outside != b.outside;
@@ -180,42 +175,44 @@ std::string unlikeness(const Scene& scene, const Gap& gap) {
   return {};
 }
 
-std::string open_gap(Scene& scene, const Gap& gap, const TopologyOptions& options,
-                     TopologyEvent& event) {
+std::optional<Fault> open_gap(Scene& scene, const Gap& gap, const TopologyOptions& options,
+                              TopologyEvent& event) {
   event.kind = EventKind::coalescence;
   event.place = gap.middle();
   event.gap = gap.width;
   Surgery surgery = bridge_gap(scene, gap, {options.coalescence_gap, options.edge_floor});
-  if (!surgery.failure.empty()) return surgery.failure;
+  if (surgery.fault) return std::move(surgery.fault);
   Succession succession{{gap.a}, std::move(surgery.pieces), std::move(surgery.refined)};
   if (gap.b != gap.a) succession.parents.push_back(gap.b);
-  return succeed_with_little_area(scene, std::move(succession), event);
+  return replace_with_little_area(scene, std::move(succession), event);
 }
 
 void open_gaps(Scene& scene, const TopologyOptions& options, const SurfaceMotion& motion,
                DonePlaces& done, TopologyReport& report) {
+  GapSearch search(options.coalescence_gap, motion);
   for (int i = 0; i < kMaxEvents; ++i) {
-    const std::vector<Gap> gaps = find_gaps(scene, options.coalescence_gap, motion);
+    const std::vector<Gap> gaps = search.gaps(scene);
     const auto due =
         std::ranges::find_if(gaps, [&](const Gap& gap) { return !done.contain(gap.middle()); });
     if (due == gaps.end()) return;
     done.add(due->middle(), options.coalescence_gap);
     const int a = scene.interfaces[due->a].drop, b = scene.interfaces[due->b].drop;
-    if (const std::string why = unlikeness(scene, *due); !why.empty()) {
-      report.refusal = fmt::format(
-          "drops {} and {} have come within {:.4g} of each other at {} and would merge, but their "
-          "liquids are unlike ({})",
-          a, b, due->width, text_of(due->middle()), why);
+    if (const auto why = unlikeness(scene, *due)) {
+      report.refusal =
+          Fault{FaultKind::unlike_liquids,
+                fmt::format("drops {} and {} have come within {:.4g} of each other at {} and would "
+                            "merge, but their liquids are unlike ({})",
+                            a, b, due->width, text_of(due->middle()), *why),
+                due->middle()};
       return;
     }
     TopologyEvent event;
-    const std::string failure = open_gap(scene, *due, options, event);
-    if (failure.empty()) {
-      report.events.push_back(std::move(event));
-    } else {
+    if (const auto fault = open_gap(scene, *due, options, event)) {
       report.warnings.push_back(
           fmt::format("the gap of {:.4g} between drops {} and {} at {} was not bridged: {}",
-                      due->width, a, b, text_of(due->middle()), failure));
+                      due->width, a, b, text_of(due->middle()), fault->text));
+    } else {
+      report.events.push_back(std::move(event));
     }
   }
 }
@@ -231,8 +228,8 @@ int next_id(const Scene& scene) {
 void give_vertices(Interface& interface, const RemeshOptions& options, FieldExcess& excess) {
   const double area = surface_area(interface.mesh), volume = enclosed_volume(interface.mesh);
   const double edge = length_of_density(1.5 * static_cast<double>(options.min_vertices) / area);
-  std::optional<Repaired> even =
-      repaired(interface.mesh, interface.fields, evened_out(interface.mesh, edge), volume);
+  std::optional<Replacement> even = sound_replacement(
+      interface.mesh, interface.fields, isotropic_remesh(interface.mesh, edge), volume);
   if (!even) return;
   interface.mesh = std::move(even->surface.mesh);
   interface.fields = std::move(even->surface.fields);
@@ -254,12 +251,12 @@ FieldExcess finish_new_interfaces(Scene& scene, int first_id, const TopologyOpti
     for (int i = 0; i < kRemeshings; ++i) {
       const RemeshReport report = remesh_or_mend(interface.mesh, options, interface.fields).remesh;
       widen(excess, report.field_excess);
-      if (!report.ok) break;
+      if (!report.ok()) break;
     }
     if (interface.mesh.num_vertices() < options.min_vertices)
       give_vertices(interface, options, excess);
   }
-  if (find_conflict(scene).empty()) return excess;
+  if (!find_conflict(scene)) return excess;
   scene = before;
   return {};
 }
@@ -276,7 +273,7 @@ TopologyReport apply_topology(Scene& scene, const TopologyOptions& options,
   cut_necks(scene, options, motion, done, report);
   if (options.coalescence && options.coalescence_gap > 0.0)
     open_gaps(scene, options, motion, done, report);
-  if (!report.refusal.empty()) {
+  if (report.refusal) {
     scene = before;
     report.events.clear();
   }
@@ -285,7 +282,7 @@ TopologyReport apply_topology(Scene& scene, const TopologyOptions& options,
   return report;
 }
 
-std::string find_touching_drops(const Scene& scene) {
+std::optional<Fault> find_touching_drops(const Scene& scene) {
   std::vector<Box> bounds;
   for (const Interface& interface : scene.interfaces)
     bounds.push_back(bounding_box(interface.mesh));
@@ -293,17 +290,18 @@ std::string find_touching_drops(const Scene& scene) {
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
     for (const std::size_t j : boxes.earlier_within(i, 0.0)) {
       const Interface &a = scene.interfaces[j], &b = scene.interfaces[i];
-      const std::string meeting = find_intersection(a.mesh, b.mesh);
-      if (!meeting.empty())
-        return fmt::format("drops {} and {} touch: {}", a.drop, b.drop, meeting);
+      if (auto meeting = find_intersection(a.mesh, b.mesh))
+        return with_context(fmt::format("drops {} and {} touch", a.drop, b.drop),
+                            *std::move(meeting));
     }
   return {};
 }
 
-std::string find_folded_drop(const Scene& scene) {
+std::optional<Fault> find_folded_drop(const Scene& scene) {
   for (const Interface& interface : scene.interfaces)
-    if (const std::string meeting = find_self_intersection(interface.mesh); !meeting.empty())
-      return fmt::format("drop {} touches itself: {}", interface.drop, meeting);
+    if (auto meeting = find_self_intersection(interface.mesh))
+      return with_context(fmt::format("drop {} touches itself", interface.drop),
+                          *std::move(meeting));
   return {};
 }
 

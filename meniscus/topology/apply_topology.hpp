@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "meniscus/core/fault.hpp"
 #include "meniscus/scene/scene.hpp"
 #include "meniscus/topology/events.hpp"
 #include "meniscus/topology/surface_motion.hpp"
@@ -23,10 +25,10 @@ struct TopologyOptions {
 struct [[nodiscard]] TopologyReport {
   std::vector<TopologyEvent> events;  ///< in the order in which they were carried out
   std::vector<std::string> warnings;  ///< places due whose surgery failed: left as they were
-  /// Why what is due must not happen (unlike liquids); the scene is then as it was given.
-  std::string refusal;
-  /// Of fields over their range, by the remeshing of the children at the end; the events have what
-  /// the cuts and bridges themselves did.
+  /// Why an event that is due must not happen (`unlike_liquids`); the scene is then as given.
+  std::optional<Fault> refusal;
+  /// By how much the remeshing of the children at the end took fields over their range. The events
+  /// hold what the cuts and bridges did.
   FieldExcess finishing_excess = {};
 };
 
@@ -44,9 +46,9 @@ struct [[nodiscard]] TopologyReport {
 TopologyReport apply_topology(Scene& scene, const TopologyOptions& options,
                               const SurfaceMotion& motion);
 
-/// The first two drops whose surfaces touch, with the place; empty when none do.
-[[nodiscard]] std::string find_touching_drops(const Scene& scene);
-/// The first drop whose surface meets itself, with the place; empty when none does.
-[[nodiscard]] std::string find_folded_drop(const Scene& scene);
+/// The first two drops whose surfaces touch, with the place; none when no two do.
+[[nodiscard]] std::optional<Fault> find_touching_drops(const Scene& scene);
+/// The first drop whose surface meets itself, with the place; none when no surface does.
+[[nodiscard]] std::optional<Fault> find_folded_drop(const Scene& scene);
 
 }  // namespace meniscus

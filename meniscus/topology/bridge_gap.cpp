@@ -10,32 +10,26 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
 #include "meniscus/surface/remesh.hpp"
-#include "meniscus/topology/face_patch.hpp"
-#include "meniscus/topology/smooth_fill.hpp"
-#include "meniscus/topology/zip.hpp"
+#include "meniscus/surface/repair/face_patch.hpp"
+#include "meniscus/surface/repair/smooth_fill.hpp"
+#include "meniscus/surface/repair/tube_faces.hpp"
+#include "meniscus/surface/restore_volume.hpp"
+#include "meniscus/topology/constants.hpp"
 
 namespace meniscus {
 namespace {
 
-/// Radius of the hole, in limits. A tube of length h and radius a has less area than the two discs
-/// it stands for from a = h on; twice that leaves room for a patch that is no circle.
-constexpr double kHole = 2.0;
 /// The holes that are tried, and whether they take all of the thin film around with them: smaller
 /// ones where the rim of a larger one comes round to the back of a drop or to another fold.
 constexpr std::array<std::pair<double, bool>, 5> kHoles{
     {{kHole, true}, {kHole, false}, {1.5, false}, {1.0, false}, {0.5, false}}};
-/// Area that an opening may add, in limits²; at the default limit of 0.01 it is 1.5e-4. Taking much
-/// film out adds more, where its liquid swells the rest.
-constexpr double kMostAddedArea = 1.5;
 /// Edges at the hole, in limits: the rim of the film turns round within one limit.
 constexpr double kEdge = 0.5;
-/// Of the liquid: an opening moves of the order of the limit cubed, but of drops no larger than the
-/// hole, or flat ones, it would take most.
-constexpr double kMostMoved = 0.1;
 constexpr int kRefinements = 8;  // remeshings at most: each can make edges four times shorter
 /// A patch of film wider than this many of its edges is refined less: its rim is what matters.
 constexpr double kPatchVertices = 2000.0;
@@ -44,6 +38,7 @@ constexpr int kSmoothRings = 2;  // rings of faces around the tube that are smoo
 
 /// The edge that the surfaces are given around a gap.
 double edge_at(const Gap& gap, const BridgeOptions& options) {
+  MENISCUS_ASSERT(options.limit > 0.0, "limit = {}", options.limit);
   double spread = 0.0;
   for (const Vec3& x : gap.patch) spread = std::max(spread, (x - gap.middle()).norm());
   const double patch_area = std::numbers::pi * spread * spread;
@@ -52,7 +47,7 @@ double edge_at(const Gap& gap, const BridgeOptions& options) {
 }
 
 /// An interface's surface refined around the gap; as it is where that fails.
-CarryingSurface refined(const Interface& interface, const Gap& gap, double edge) {
+CarryingSurface refined_surface(const Interface& interface, const Gap& gap, double edge) {
   CarryingSurface surface{interface.mesh, interface.fields};
   RemeshOptions options = sound_remeshing(interface.C0);
   const double hole = kHole / kEdge * edge;
@@ -64,7 +59,7 @@ CarryingSurface refined(const Interface& interface, const Gap& gap, double edge)
   options.size_bound = [&](const Vec3& x) { return edge + options.gradation * distance(x); };
   for (int i = 0; i < kRefinements; ++i) {
     const RemeshReport report = remesh(surface.mesh, options, surface.fields);
-    if (!report.ok || (report.splits == 0 && report.collapses == 0)) break;
+    if (!report.ok() || (report.splits == 0 && report.collapses == 0)) break;
   }
   return surface;
 }
@@ -72,9 +67,9 @@ CarryingSurface refined(const Interface& interface, const Gap& gap, double edge)
 /// Both surfaces as one, outward from the liquid that the bridge belongs to.
 CarryingSurface refined_surfaces(const Scene& scene, const Gap& gap, double edge) {
   const Interface &a = scene.interfaces[gap.a], &b = scene.interfaces[gap.b];
-  CarryingSurface first = refined(a, gap, edge);
+  CarryingSurface first = refined_surface(a, gap, edge);
   if (gap.a == gap.b) return first;
-  CarryingSurface second = refined(b, gap, edge);
+  CarryingSurface second = refined_surface(b, gap, edge);
   if (a.inside == b.outside) turn_inside_out(second.mesh);
   if (b.inside == a.outside) turn_inside_out(first.mesh);
   return {joined(std::array{std::move(first.mesh), std::move(second.mesh)}),
@@ -115,6 +110,7 @@ FacePatch faces_around(const Film& film, std::vector<VertexId> vertices, double 
   FacePatch patch(film.mesh.num_faces(), false);
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     const VertexId v = vertices[k];
+    MENISCUS_ASSERT(origin[v].is_valid(), "vertex {}", v.value);
     for (const FaceId f : film.topology.faces_around(v)) patch[f] = true;
     for (const VertexId w : film.topology.ring(v)) {
       if (origin[w].is_valid() || (film.mesh.x[w] - film.mesh.x[origin[v]]).norm() > margin)
@@ -193,18 +189,21 @@ std::optional<Holes> holes(const Film& film, const std::array<VertexId, 2>& at, 
   return patches;
 }
 
-/// The surface with a tube between two holes in it.
-std::string join(const SurfaceMesh& mesh, const Holes& patches, SurfaceMesh& result) {
+/// Makes `result` the surface with a tube between two holes in it, unless that is unsound.
+std::optional<Fault> join(const SurfaceMesh& mesh, const Holes& patches, SurfaceMesh& result) {
   const auto first = boundary_curves(mesh, patches[0]), second = boundary_curves(mesh, patches[1]);
+  MENISCUS_ASSERT(first && second && first->size() == 1 && second->size() == 1,
+                  "holes that are no discs");
   FacePatch both = patches[0];
   for (const FaceId f : both.ids()) both[f] = both[f] || patches[1][f];
   result = without(mesh, both);
   const std::int32_t num_kept = result.num_faces();
-  for (const FaceVertices& f : zipped(mesh, first->front(), second->front())) result.faces.add(f);
+  for (const FaceVertices& f : tube_faces(mesh, first->front(), second->front()))
+    result.faces.add(f);
   FacePatch tube(result.num_faces(), false);
   for (std::int32_t f = num_kept; f < result.num_faces(); ++f) tube[FaceId{f}] = true;
   SurfaceMesh smooth = result;
-  if (smooth_part(smooth, tube, kSmoothRings) && find_self_intersection(smooth).empty()) {
+  if (smooth_part(smooth, tube, kSmoothRings) && !find_self_intersection(smooth)) {
     result = std::move(smooth);
     return {};
   }
@@ -213,10 +212,11 @@ std::string join(const SurfaceMesh& mesh, const Holes& patches, SurfaceMesh& res
 
 /// Why an opening is not to be taken although its surface is sound: with the volume restored it
 /// has more area, or meets itself.
-std::string find_harm(const SurfaceMesh& before, SurfaceMesh after, double most_added_area) {
+std::optional<Fault> find_harm(const SurfaceMesh& before, SurfaceMesh after,
+                               double most_added_area) {
   restore_volume(after, enclosed_volume(before));
   if (surface_area(after) - surface_area(before) > most_added_area)
-    return "the bridge would add area";
+    return Fault{FaultKind::added_area, "the bridge would add area"};
   return find_self_intersection(after);
 }
 
@@ -229,22 +229,21 @@ struct Opening {
 /// One opening; why it is none, else.
 Opening opening(const Film& film, const Holes& patches, double unit) {
   SurfaceMesh result;
-  std::string failure = join(film.mesh, patches, result);
-  if (!failure.empty()) return {{{}, std::move(failure)}};
+  if (auto fault = join(film.mesh, patches, result)) return {{{}, std::move(fault)}};
   std::vector<SurfaceMesh> pieces = connected_pieces(result);  // without the vertices taken out
   SurfaceMesh whole = joined(pieces);
   const double moved = std::abs(enclosed_volume(whole) / enclosed_volume(film.mesh) - 1.0);
-  failure = find_harm(film.mesh, std::move(whole), kMostAddedArea * unit * unit);
-  if (!failure.empty()) return {{{}, std::move(failure)}};
+  if (auto fault = find_harm(film.mesh, std::move(whole), kMostAddedByOpening * unit * unit))
+    return {{{}, std::move(fault)}};
   return {{std::move(pieces), {}}, moved};
 }
 
 /// The first of the openings that leaves a sound surface, adds little area and moves little liquid;
 /// where all move much, the one that moves least. Why there is none, else.
-Opening opened(const Film& film, const std::array<VertexId, 2>& at, double edge,
-               const BridgeOptions& options) {
+Opening best_opening(const Film& film, const std::array<VertexId, 2>& at, double edge,
+                     const BridgeOptions& options) {
   const double unit = edge / kEdge;  // the limit, but for patches too large for its edges
-  Opening best{{{}, "no two discs can be opened there"}};
+  Opening best{{{}, Fault{FaultKind::no_surgery, "no two discs can be opened there"}}};
   for (const auto& [radius, takes_film] : kHoles) {
     const auto patches = holes(film, at, radius * unit, takes_film ? options.limit : 0.0, options);
     if (!patches) continue;
@@ -257,7 +256,7 @@ Opening opened(const Film& film, const std::array<VertexId, 2>& at, double edge,
 
 /// Where the smaller of two drops lies within the hole as a whole there is nothing to open it from:
 /// the other takes it up. None where it is larger, or holds another drop.
-std::optional<Surgery> taken_up(const Scene& scene, const Gap& gap, double hole) {
+std::optional<Surgery> absorption(const Scene& scene, const Gap& gap, double hole) {
   if (gap.a == gap.b) return std::nullopt;
   const Interface *large = &scene.interfaces[gap.a], *small = &scene.interfaces[gap.b];
   if (large->volume < small->volume) std::swap(large, small);
@@ -270,7 +269,7 @@ std::optional<Surgery> taken_up(const Scene& scene, const Gap& gap, double hole)
 }
 
 /// The bridge as `bridge_gap` makes it where both drops are larger than the hole.
-Opening bridged(const Scene& scene, const Gap& gap, const BridgeOptions& options) {
+Opening bridge_opening(const Scene& scene, const Gap& gap, const BridgeOptions& options) {
   const double edge = edge_at(gap, options);
   CarryingSurface surface = refined_surfaces(scene, gap, edge);
   const SurfaceMesh& mesh = surface.mesh;
@@ -288,8 +287,9 @@ Opening bridged(const Scene& scene, const Gap& gap, const BridgeOptions& options
   const Vec3 across = gap.to - gap.from;
   const std::array<VertexId, 2> at{nearest_vertex(film, gap.from, across),
                                    nearest_vertex(film, gap.to, -across)};
-  if (!at[0].is_valid() || !at[1].is_valid()) return {{{}, "the two sides are not to be found"}};
-  Opening result = opened(film, at, edge, options);
+  if (!at[0].is_valid() || !at[1].is_valid())
+    return {{{}, Fault{FaultKind::no_surgery, "the two sides are not to be found", gap.middle()}}};
+  Opening result = best_opening(film, at, edge, options);
   result.surgery.refined = std::move(surface);
   return result;
 }
@@ -297,9 +297,11 @@ Opening bridged(const Scene& scene, const Gap& gap, const BridgeOptions& options
 }  // namespace
 
 Surgery bridge_gap(const Scene& scene, const Gap& gap, const BridgeOptions& options) {
-  Opening bridge = bridged(scene, gap, options);
+  MENISCUS_ASSERT(gap.a < scene.interfaces.size() && gap.b < scene.interfaces.size(), "{} {}",
+                  gap.a, gap.b);
+  Opening bridge = bridge_opening(scene, gap, options);
   if (bridge.moved < kMostMoved) return std::move(bridge.surgery);
-  return taken_up(scene, gap, kHole * options.limit).value_or(std::move(bridge.surgery));
+  return absorption(scene, gap, kHole * options.limit).value_or(std::move(bridge.surgery));
 }
 
 }  // namespace meniscus

@@ -4,11 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/geometry/triangle.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
-#include "meniscus/topology/face_patch.hpp"
-#include "meniscus/topology/smooth_fill.hpp"
+#include "meniscus/surface/repair/face_patch.hpp"
+#include "meniscus/surface/repair/smooth_fill.hpp"
 
 namespace meniscus {
 namespace {
@@ -28,6 +29,7 @@ Triangle corners(const SurfaceMesh& mesh, FaceId f) {
 /// middle of the neck.
 FacePatch band_around(const SurfaceMesh& mesh, const FaceNeighbours& neighbours, const Neck& neck,
                       double reach) {
+  MENISCUS_ASSERT(!neck.faces.empty() && reach > 0.0, "reach = {}", reach);
   FacePatch band(mesh.num_faces(), false);
   std::vector<FaceId> front = neck.faces;
   for (const FaceId f : front) band[f] = true;
@@ -42,12 +44,13 @@ FacePatch band_around(const SurfaceMesh& mesh, const FaceNeighbours& neighbours,
   return band;
 }
 
-/// The surface with one band taken out and its ends closed; why not, else.
-std::string cut(const SurfaceMesh& mesh, const FacePatch& band, std::vector<SurfaceMesh>& pieces) {
+/// Takes one band out and closes its ends, unless that fails.
+std::optional<Fault> cut(const SurfaceMesh& mesh, const FacePatch& band,
+                         std::vector<SurfaceMesh>& pieces) {
   const std::vector<SurfaceMesh> open = connected_pieces(without(mesh, band));
   SurfaceMesh closed = joined(open);
-  if (!cap_holes(closed)) return "an end could not be closed";
-  if (std::string fault = find_self_intersection(closed); !fault.empty()) return fault;
+  if (!cap_holes(closed)) return Fault{FaultKind::no_surgery, "an end could not be closed"};
+  if (auto fault = find_self_intersection(closed)) return fault;
   pieces = connected_pieces(closed);
   return {};
 }
@@ -57,12 +60,13 @@ std::string cut(const SurfaceMesh& mesh, const FacePatch& band, std::vector<Surf
 Surgery cut_neck(const SurfaceMesh& mesh, const Neck& neck) {
   const SurfaceTopology topology(mesh);
   const FaceNeighbours neighbours = face_neighbours(mesh, topology);
-  Surgery surgery{{}, "the faces around the neck form no ring"};
+  Surgery surgery{
+      {}, Fault{FaultKind::no_surgery, "the faces around the neck form no ring", neck.center}};
   for (const double reach : kReaches) {
     FacePatch band = band_around(mesh, neighbours, neck, reach * neck.radius);
     if (!make_ring(mesh, topology, neighbours, band)) continue;
-    surgery.failure = cut(mesh, band, surgery.pieces);
-    if (surgery.failure.empty()) return surgery;
+    surgery.fault = cut(mesh, band, surgery.pieces);
+    if (!surgery.fault) return surgery;
   }
   return surgery;
 }

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <string>
+#include <optional>
 #include <vector>
 
+#include "meniscus/core/fault.hpp"
 #include "meniscus/surface/carry_fields.hpp"
 #include "meniscus/topology/necks.hpp"
 
@@ -11,7 +12,7 @@ namespace meniscus {
 /// What surgery leaves of a surface: its pieces, or why it could not be done.
 struct [[nodiscard]] Surgery {
   std::vector<SurfaceMesh> pieces;
-  std::string failure;
+  std::optional<Fault> fault = {};
   /// What the pieces were made of, where that is not the parents themselves but their surfaces
   /// refined, and what lives on it; no mesh otherwise.
   CarryingSurface refined = {};

@@ -8,6 +8,8 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus {
 namespace {
 
@@ -62,6 +64,9 @@ double cone_above(const SurfaceMesh& mesh, const Ground& ground, const Section& 
 
 CutOff cut_off(const SurfaceMesh& mesh, const FaceNeighbours& neighbours, const Section& section,
                double side) {
+  MENISCUS_ASSERT(side == 1.0 || side == -1.0, "side = {}", side);
+  MENISCUS_ASSERT(section.points.size() == section.faces.size(), "{} {}", section.points.size(),
+                  section.faces.size());
   const Ground ground{section.center, side * section.axis};
   CutOff result;
   FaceField<Mark> marks(mesh.num_faces(), Mark::unseen);
@@ -80,6 +85,7 @@ CutOff cut_off(const SurfaceMesh& mesh, const FaceNeighbours& neighbours, const 
     }
   }
   for (std::size_t k = 0; k < part.size(); ++k) {
+    MENISCUS_ASSERT(marks[part[k]] == Mark::seen, "face {}", part[k].value);
     result.volume += cone(mesh, ground.origin, part[k]);
     for (const VertexId v : mesh.faces[part[k]])
       result.reach = std::max(result.reach, std::abs(ground.height(mesh.x[v])));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meniscus/topology/face_patch.hpp"
+#include "meniscus/surface/repair/face_patch.hpp"
 #include "meniscus/topology/section.hpp"
 
 namespace meniscus {

@@ -6,6 +6,7 @@
 
 #include "meniscus/core/vec.hpp"
 #include "meniscus/mesh/carried_fields.hpp"
+#include "meniscus/scene/region_sources.hpp"
 
 namespace meniscus {
 
@@ -24,6 +25,8 @@ struct TopologyEvent {
   /// add up [R0³].
   double volume_moved = 0.0;
   FieldExcess field_excess = {};  ///< of the children's fields over the range of the parents'
+  /// Which liquid the regions of the scene took, for what lives in them; no checkpoint holds it.
+  RegionSources sources = {};
 };
 
 }  // namespace meniscus

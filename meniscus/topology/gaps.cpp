@@ -6,13 +6,15 @@
 #include <memory>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include <Eigen/Geometry>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/box_tree.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
-#include "meniscus/topology/face_patch.hpp"
+#include "meniscus/surface/repair/face_patch.hpp"
 
 namespace meniscus {
 namespace {
@@ -21,18 +23,14 @@ constexpr double kFacing = 0.5;    // cosine of 60°
 constexpr double kSameFilm = 6.0;  // limits: closer places of one film are one
 constexpr double kNearby = 3.0;    // limits: radius of the ball that must not join two parts
 
-/// What is known of one interface while gaps are looked for.
+/// One interface while gaps are looked for.
 struct Sheet {
-  explicit Sheet(const Interface& of)
-      : interface(&of), tree(of.mesh), area(vertex_area_vectors(of.mesh)) {}
-  const Interface* interface;
-  SurfaceTree tree;
-  VertexField<Vec3> area;
+  const SurfaceMesh& mesh;
+  const SurfaceTree& tree;
+  const VertexField<Vec3>& area;
 
-  [[nodiscard]] const SurfaceMesh& mesh() const { return interface->mesh; }
   [[nodiscard]] Vec3 normal(VertexId v) const { return area[v].normalized(); }
-  [[nodiscard]] Vec3 normal(FaceId f) const { return face_area_vector(mesh(), f).normalized(); }
-  [[nodiscard]] Box box() const { return {tree.low(), tree.high()}; }
+  [[nodiscard]] Vec3 normal(FaceId f) const { return face_area_vector(mesh, f).normalized(); }
 };
 
 /// A vertex of a with the nearest point across the film.
@@ -61,8 +59,8 @@ bool is_facing(const Contact& c) {
 void add_contacts(const Sheet& a, Side side_a, const Sheet& b, Side side_b, double limit,
                   bool is_swapped, std::vector<Contact>& contacts) {
   const Vec3 low = b.tree.low().array() - limit, high = b.tree.high().array() + limit;
-  for (const VertexId v : a.mesh().x.ids()) {
-    const Vec3& x = a.mesh().x[v];
+  for (const VertexId v : a.mesh.x.ids()) {
+    const Vec3& x = a.mesh.x[v];
     if ((x.array() < low.array()).any() || (x.array() > high.array()).any()) continue;
     const SurfaceTree::Hit hit = b.tree.closest(x, limit);
     if (!hit.face.is_valid()) continue;
@@ -93,38 +91,54 @@ std::optional<SurfaceTree::Hit> across_film(const SurfaceMesh& mesh, const Surfa
 
 std::vector<Contact> own_contacts(const Sheet& a, Side side, double limit) {
   std::vector<Contact> contacts;
-  for (const VertexId v : a.mesh().x.ids()) {
+  for (const VertexId v : a.mesh.x.ids()) {
     const Vec3 into = sign_of(side) * a.normal(v);
-    const auto hit = across_film(a.mesh(), a.tree, a.mesh().x[v], into, limit);
+    const auto hit = across_film(a.mesh, a.tree, a.mesh.x[v], into, limit);
     if (!hit) continue;
-    const Contact c{hit->distance, a.mesh().x[v], hit->point, into,
+    const Contact c{hit->distance, a.mesh.x[v], hit->point, into,
                     sign_of(side) * a.normal(hit->face)};
     if (is_facing(c)) contacts.push_back(c);
   }
   return contacts;
 }
 
-/// Whether faces within `radius` of the middle join the two sides of a film.
-bool are_joined_nearby(const Sheet& sheet, const FaceNeighbours& neighbours, const Contact& c,
-                       double radius) {
-  const SurfaceMesh& mesh = sheet.mesh();
-  const Vec3 middle = 0.5 * (c.from + c.to);
-  const FaceId start = sheet.tree.closest(c.from).face, goal = sheet.tree.closest(c.to).face;
-  FacePatch is_seen(mesh.num_faces(), false);
-  std::vector<FaceId> front{start};
-  is_seen[start] = true;
-  for (std::size_t k = 0; k < front.size(); ++k) {
-    if (front[k] == goal) return true;
-    for (const FaceId f : neighbours[front[k]]) {
-      if (is_seen[f]) continue;
-      is_seen[f] = true;
-      const FaceVertices& v = mesh.faces[f];
-      const Vec3 nearest = closest_point({mesh.x[v[0]], mesh.x[v[1]], mesh.x[v[2]]}, middle).point;
-      if ((nearest - middle).norm() < radius) front.push_back(f);
+/// Looks for faces that join the two sides of a film around its middle.
+class JoinSearch {
+ public:
+  explicit JoinSearch(const Sheet& sheet)
+      : sheet_(sheet),
+        neighbours_(face_neighbours(sheet.mesh, SurfaceTopology(sheet.mesh))),
+        seen_in_(sheet.mesh.num_faces(), 0) {}
+
+  /// Whether faces within `radius` of the middle do.
+  [[nodiscard]] bool are_joined(const Contact& c, double radius) {
+    const Vec3 middle = 0.5 * (c.from + c.to);
+    const FaceId start = sheet_.tree.closest(c.from).face, goal = sheet_.tree.closest(c.to).face;
+    ++search_;
+    front_.assign(1, start);
+    seen_in_[start] = search_;
+    for (std::size_t k = 0; k < front_.size(); ++k) {
+      if (front_[k] == goal) return true;
+      for (const FaceId f : neighbours_[front_[k]])
+        if (std::exchange(seen_in_[f], search_) != search_ && distance(f, middle) < radius)
+          front_.push_back(f);
     }
+    return false;
   }
-  return false;
-}
+
+ private:
+  [[nodiscard]] double distance(FaceId f, const Vec3& x) const {
+    const FaceVertices& v = sheet_.mesh.faces[f];
+    const Triangle corners{sheet_.mesh.x[v[0]], sheet_.mesh.x[v[1]], sheet_.mesh.x[v[2]]};
+    return (closest_point(corners, x).point - x).norm();
+  }
+
+  const Sheet& sheet_;
+  FaceNeighbours neighbours_;
+  FaceField<int> seen_in_;  // the last search that came to the face
+  int search_ = 0;
+  std::vector<FaceId> front_;
+};
 
 bool comes_before(const Contact& c, const Contact& d) {
   const Vec3 m = c.from + c.to, n = d.from + d.to;
@@ -162,31 +176,29 @@ void collect(std::vector<Contact> contacts, Gap gap, double limit, const Surface
   }
 }
 
-void collect_between(const std::vector<Sheet>& sheets, std::size_t a, std::size_t b, double limit,
-                     const SurfaceMotion& motion, std::vector<Gap>& gaps) {
-  const auto film = common_film(*sheets[a].interface, *sheets[b].interface);
-  if (!film) return;
+std::vector<Gap> gaps_between(const Sheet& a, const Sheet& b, const std::array<Side, 2>& film,
+                              double limit, const SurfaceMotion& motion) {
   std::vector<Contact> contacts;
-  add_contacts(sheets[a], film->front(), sheets[b], film->back(), limit, false, contacts);
-  add_contacts(sheets[b], film->back(), sheets[a], film->front(), limit, true, contacts);
+  add_contacts(a, film.front(), b, film.back(), limit, false, contacts);
+  add_contacts(b, film.back(), a, film.front(), limit, true, contacts);
+  std::vector<Gap> gaps;
   collect(
-      std::move(contacts), {.a = a, .b = b, .side = film->front()}, limit, motion,
+      std::move(contacts), {.side = film.front()}, limit, motion,
       [](const Contact&) { return true; }, gaps);
+  return gaps;
 }
 
-void collect_within(const Sheet& sheet, std::size_t index, double limit,
-                    const SurfaceMotion& motion, std::vector<Gap>& gaps) {
-  std::optional<FaceNeighbours> neighbours;
+std::vector<Gap> gaps_within(const Sheet& sheet, double limit, const SurfaceMotion& motion) {
+  std::vector<Gap> gaps;
+  std::optional<JoinSearch> joins;
   for (const Side side : {Side::outside, Side::inside}) {
     std::vector<Contact> contacts = own_contacts(sheet, side, limit);
     if (contacts.empty()) continue;
-    if (!neighbours) neighbours = face_neighbours(sheet.mesh(), SurfaceTopology(sheet.mesh()));
-    const auto is_film = [&](const Contact& c) {
-      return !are_joined_nearby(sheet, *neighbours, c, kNearby * limit);
-    };
-    collect(std::move(contacts), {.a = index, .b = index, .side = side}, limit, motion, is_film,
-            gaps);
+    if (!joins) joins.emplace(sheet);
+    const auto is_film = [&](const Contact& c) { return !joins->are_joined(c, kNearby * limit); };
+    collect(std::move(contacts), {.side = side}, limit, motion, is_film, gaps);
   }
+  return gaps;
 }
 
 }  // namespace
@@ -197,17 +209,55 @@ double film_width(const SurfaceMesh& mesh, const SurfaceTree& tree, const Vec3& 
   return hit ? hit->distance : std::numeric_limits<double>::infinity();
 }
 
-std::vector<Gap> find_gaps(const Scene& scene, double limit, const SurfaceMotion& motion) {
-  std::vector<Sheet> sheets;
-  for (const Interface& interface : scene.interfaces) sheets.emplace_back(interface);
+struct GapSearch::Surface {
+  explicit Surface(const SurfaceMesh& mesh) : tree(mesh), area(vertex_area_vectors(mesh)) {}
+  [[nodiscard]] Box box() const { return {tree.low(), tree.high()}; }
+  SurfaceTree tree;
+  VertexField<Vec3> area;
+};
+
+GapSearch::GapSearch(double limit, const SurfaceMotion& motion) : limit_(limit), motion_(motion) {}
+GapSearch::~GapSearch() = default;
+
+const GapSearch::Surface& GapSearch::surface_of(const Interface& interface) {
+  std::unique_ptr<Surface>& known = surfaces_[interface.drop];
+  if (!known) known = std::make_unique<Surface>(interface.mesh);
+  const Surface& surface = *known;
+  MENISCUS_ASSERT(surface.area.size() == interface.mesh.num_vertices(),
+                  "drop {} has another mesh than before", interface.drop);
+  return surface;
+}
+
+std::span<const Gap> GapSearch::gaps_of(const Interface& a, const Interface& b) {
+  const bool is_one = a.drop == b.drop;
+  const auto film = is_one ? std::array<Side, 2>{} : common_film(a, b);
+  if (!film) return {};
+  const auto [known, is_new] = known_.try_emplace({a.drop, b.drop, film->front(), film->back()});
+  if (!is_new) return known->second;
+  ++num_searches_;
+  const Surface &first = surface_of(a), &second = surface_of(b);
+  const Sheet sheet{a.mesh, first.tree, first.area};
+  known->second =
+      is_one ? gaps_within(sheet, limit_, motion_)
+             : gaps_between(sheet, {b.mesh, second.tree, second.area}, *film, limit_, motion_);
+  return known->second;
+}
+
+std::vector<Gap> GapSearch::gaps(const Scene& scene) {
   std::vector<Box> bounds;
-  for (const Sheet& sheet : sheets) bounds.push_back(sheet.box());
+  for (const Interface& interface : scene.interfaces) bounds.push_back(surface_of(interface).box());
   const BoxTree boxes(bounds);
   std::vector<Gap> gaps;
-  for (std::size_t i = 0; i < sheets.size(); ++i) {
-    for (const std::size_t j : boxes.earlier_within(i, limit))
-      collect_between(sheets, j, i, limit, motion, gaps);
-    collect_within(sheets[i], i, limit, motion, gaps);
+  const auto add = [&](std::size_t a, std::size_t b) {
+    for (Gap gap : gaps_of(scene.interfaces[a], scene.interfaces[b])) {
+      gap.a = a;
+      gap.b = b;
+      gaps.push_back(std::move(gap));
+    }
+  };
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+    for (const std::size_t j : boxes.earlier_within(i, limit_)) add(j, i);
+    add(i, i);
   }
   std::ranges::sort(gaps, [](const Gap& a, const Gap& b) {
     const Vec3 m = a.middle(), n = b.middle();
@@ -215,6 +265,10 @@ std::vector<Gap> find_gaps(const Scene& scene, double limit, const SurfaceMotion
            std::make_tuple(b.width, n.x(), n.y(), n.z());
   });
   return gaps;
+}
+
+std::vector<Gap> find_gaps(const Scene& scene, double limit, const SurfaceMotion& motion) {
+  return GapSearch(limit, motion).gaps(scene);
 }
 
 }  // namespace meniscus

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <tuple>
 #include <vector>
 
 #include "meniscus/scene/scene.hpp"
@@ -27,8 +32,38 @@ struct Gap {
 /// within 60° of both. Two parts of one surface count as facing only if no path on it shorter than
 /// the ball of 3 `limit` around the middle joins them: neither the rim of a film nor a neck is a
 /// gap. Of the places of one film that the limit joins, only the closest is given.
+/// O(n log n) in the number of drops as long as few are near each one.
 [[nodiscard]] std::vector<Gap> find_gaps(const Scene& scene, double limit,
                                          const SurfaceMotion& motion);
+
+/// The same, time and again while events change a scene: only what they changed is looked at anew.
+/// While this lives the id of a drop stands for one mesh.
+class GapSearch {
+ public:
+  GapSearch(double limit, const SurfaceMotion& motion);
+  ~GapSearch();
+  GapSearch(const GapSearch&) = delete;
+  GapSearch& operator=(const GapSearch&) = delete;
+
+  /// Those that `find_gaps` gives.
+  [[nodiscard]] std::vector<Gap> gaps(const Scene& scene);
+  /// How many drops and pairs of them have been searched: what it costs.
+  [[nodiscard]] std::int64_t num_searches() const { return num_searches_; }
+
+ private:
+  struct Surface;
+  [[nodiscard]] const Surface& surface_of(const Interface& interface);
+  /// Between two interfaces or, given the same twice, two parts of it; a and b of each are unset.
+  [[nodiscard]] std::span<const Gap> gaps_of(const Interface& a, const Interface& b);
+
+  /// Two drops' ids, and on which sides of them the film lies: an event may change that too.
+  using Key = std::tuple<int, int, Side, Side>;
+  double limit_;
+  const SurfaceMotion& motion_;
+  std::map<int, std::unique_ptr<Surface>> surfaces_;
+  std::map<Key, std::vector<Gap>> known_;
+  std::int64_t num_searches_ = 0;
+};
 
 /// The width of the film beyond a vertex of a closed surface whose two sides face each other across
 /// it; infinite where it is no film thinner than `limit`.

@@ -24,8 +24,7 @@ struct Neck {
 /// thinner; so neither a pointed end nor the roughness of a triangulation is one. A thread of the
 /// liquid outside is the hole of a torus. Necks closer than four radii count as one. What they are
 /// depends on the surface alone, not on the numbering of its vertices. A place
-/// tried costs O(|F|); how many are depends on the shape, not on |F|, but where the liquid is
-/// thinner than 3/2 `radius`: there each vertex without a thread is one.
+/// that is tried costs O(|F|); how many are `find_threads` says.
 [[nodiscard]] std::vector<Neck> find_necks(const SurfaceMesh& mesh, const SurfaceTree& tree,
                                            Side side, double radius, const SurfaceMotion& motion);
 

@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/geometry/triangle.hpp"
 
 namespace meniscus {
@@ -66,12 +67,13 @@ Crossings crossings_near(const SurfaceMesh& mesh, const SurfaceTree& tree, const
 Vec3 crossing_point(const SurfaceMesh& mesh, const Plane& plane, const EdgeKey& edge) {
   const Vec3 &a = mesh.x[edge.first], &b = mesh.x[edge.second];
   const double ha = plane.height(a), hb = plane.height(b);
+  MENISCUS_ASSERT((ha >= 0.0) != (hb >= 0.0), "heights {} and {}", ha, hb);
   return a + ha / (ha - hb) * (b - a);
 }
 
 /// Follows the curve from one edge; empty when it leaves the faces that were looked at.
-Section followed(const SurfaceMesh& mesh, const Plane& plane, EdgeKey start, Crossings& crossings,
-                 bool& is_closed) {
+Section curve_from(const SurfaceMesh& mesh, const Plane& plane, EdgeKey start, Crossings& crossings,
+                   bool& is_closed) {
   Section section;
   section.axis = plane.normal;
   EdgeKey at = start;
@@ -79,6 +81,7 @@ Section followed(const SurfaceMesh& mesh, const Plane& plane, EdgeKey start, Cro
   while (Crossing* crossing = crossing_from(crossings, at)) {
     section.points.push_back(crossing_point(mesh, plane, at));
     section.faces.push_back(crossing->face);
+    MENISCUS_ASSERT(section.faces.size() <= crossings.size(), "a curve that goes round twice");
     at = crossing->to;
     crossing->is_followed = true;
     if (at == start) {
@@ -90,6 +93,8 @@ Section followed(const SurfaceMesh& mesh, const Plane& plane, EdgeKey start, Cro
 }
 
 void measure(Section& section) {
+  MENISCUS_ASSERT(!section.points.empty() && section.points.size() == section.faces.size(), "{} {}",
+                  section.points.size(), section.faces.size());
   double perimeter = 0.0;
   Vec3 moment = Vec3::Zero(), area = Vec3::Zero();
   for (std::size_t k = 0; k < section.points.size(); ++k) {
@@ -132,7 +137,7 @@ SectionResult section_around(const SurfaceMesh& mesh, const SurfaceTree& tree, c
   for (const Crossing& crossing : crossings) {
     if (crossing.is_followed) continue;
     bool is_closed = false;
-    Section section = followed(mesh, plane, crossing.from, crossings, is_closed);
+    Section section = curve_from(mesh, plane, crossing.from, crossings, is_closed);
     const bool goes_around = is_closed && std::abs(turns_around(section, center)) > 0.5;
     const std::pair<bool, double> rank{!goes_around, distance_to(section, center)};
     if (rank >= best_rank) continue;

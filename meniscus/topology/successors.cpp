@@ -6,10 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
 #include "meniscus/surface/remesh.hpp"
+#include "meniscus/surface/restore_volume.hpp"
 
 namespace meniscus {
 namespace {
@@ -24,6 +26,13 @@ struct Child {
 /// A direction along which no two places of a symmetric scene are the same.
 Vec3 generic_direction() { return {1.0, std::sqrt(2.0) / 2.0, std::sqrt(3.0) / 3.0}; }
 
+/// Whether a parent lies in the liquid of another one.
+bool is_within_another(const Scene& scene, std::span<const std::size_t> parents, std::size_t i) {
+  return std::ranges::any_of(parents, [&](std::size_t j) {
+    return scene.interfaces[j].inside == scene.interfaces[i].outside;
+  });
+}
+
 /// What all parents enclose of the liquid whose surface the pieces are: one that lies in another
 /// parent counts as taken from it.
 struct LiquidVolume {
@@ -34,9 +43,7 @@ LiquidVolume liquid_volume(const Scene& scene, std::span<const std::size_t> pare
   LiquidVolume volume;
   for (const std::size_t i : parents) {
     const Interface& one = scene.interfaces[i];
-    const bool is_within = std::ranges::any_of(
-        parents, [&](std::size_t j) { return scene.interfaces[j].inside == one.outside; });
-    const double sign = is_within ? -1.0 : 1.0;
+    const double sign = is_within_another(scene, parents, i) ? -1.0 : 1.0;
     volume.kept += sign * one.volume;
     volume.of_faces += sign * enclosed_volume(one.mesh);
   }
@@ -53,12 +60,8 @@ std::size_t largest(const Scene& scene, std::span<const std::size_t> parents) {
 
 /// The parent around the liquid of the pieces: the one that no other encloses.
 const Interface& outermost(const Scene& scene, std::span<const std::size_t> parents) {
-  for (const std::size_t i : parents) {
-    const bool is_within = std::ranges::any_of(parents, [&](std::size_t j) {
-      return scene.interfaces[j].inside == scene.interfaces[i].outside;
-    });
-    if (!is_within) return scene.interfaces[i];
-  }
+  for (const std::size_t i : parents)
+    if (!is_within_another(scene, parents, i)) return scene.interfaces[i];
   return scene.interfaces[parents.front()];
 }
 
@@ -183,27 +186,67 @@ Scene with_children(const Scene& scene, std::span<const std::size_t> parents,
   return result;
 }
 
+/// The regions on either side of the surfaces that an event joins. A parent that lies in another
+/// one opens to the liquid around.
+struct Sides {
+  std::vector<RegionId> within, around;
+};
+Sides sides_of(const Scene& scene, std::span<const std::size_t> parents) {
+  Sides sides{{}, {outermost(scene, parents).outside}};
+  for (const std::size_t i : parents)
+    (is_within_another(scene, parents, i) ? sides.around : sides.within)
+        .push_back(scene.interfaces[i].inside);
+  MENISCUS_ASSERT(!sides.within.empty(), "{} parents in each other", parents.size());
+  std::ranges::sort(sides.around);
+  std::ranges::sort(sides.within);
+  return sides;
+}
+
+/// Where the liquid of each region of `after` was before the children came.
+RegionSources region_sources(const Scene& scene, const Scene& after,
+                             std::span<const std::size_t> parents,
+                             std::span<const Child> children) {
+  const Sides sides = sides_of(scene, parents);
+  const auto of_old = [&](RegionId region) {
+    MENISCUS_ASSERT(!std::ranges::binary_search(sides.within, region), "region {} is a parent's",
+                    region.value);
+    return std::ranges::binary_search(sides.around, region) ? sides.around : std::vector{region};
+  };
+  RegionSources sources(after.liquids.size());
+  sources[RegionId{0}] = of_old(RegionId{0});
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+    if (std::ranges::find(parents, i) == parents.end())
+      sources[after.interfaces[next++].inside] = of_old(scene.interfaces[i].inside);
+  for (const Child& child : children)
+    sources[after.interfaces[next++].inside] = child.is_cavity ? sides.around : sides.within;
+  MENISCUS_ASSERT(next == after.interfaces.size(), "{} of {} interfaces", next,
+                  after.interfaces.size());
+  return sources;
+}
+
 }  // namespace
 
-std::string succeed(Scene& scene, Succession succession, TopologyEvent& event) {
+std::optional<Fault> replace_interfaces(Scene& scene, Succession succession, TopologyEvent& event) {
   std::vector<Interface> parents;
   for (const std::size_t i : succession.parents) parents.push_back(scene.interfaces[i]);
   const LiquidVolume volume = liquid_volume(scene, succession.parents);
   std::vector<Child> children = children_of(scene, succession);
-  if (children.empty()) return "nothing is left";
+  if (children.empty()) return Fault{FaultKind::no_volume, "nothing is left"};
   event.volume_moved = std::abs(volume.of_faces - enclosed_liquid(children));
   share_volume(children, volume.of_faces);
   std::vector<SurfaceMesh> cut;
   for (Child& child : children) {
-    if (!(child.interface.volume > 0.0)) return "a fragment encloses nothing";
+    if (!(child.interface.volume > 0.0))
+      return Fault{FaultKind::no_volume, "a fragment encloses nothing"};
     cut.push_back(child.interface.mesh);
     restore_volume(child.interface.mesh, child.interface.volume);
-    if (std::string defect = find_defect(child.interface.mesh); !defect.empty()) return defect;
+    if (auto defect = find_defect(child.interface.mesh)) return defect;
   }
   add_curved_part(children, volume);
   const FieldExcess excess = give_fields(scene, succession, cut, children);
   Scene after = with_children(scene, succession.parents, children);
-  if (std::string conflict = find_conflict(after); !conflict.empty()) return conflict;
+  if (auto conflict = find_conflict(after)) return conflict;
 
   std::vector<Interface> born;
   for (const Interface& parent : parents) event.parents.push_back(parent.drop);
@@ -212,6 +255,7 @@ std::string succeed(Scene& scene, Succession succession, TopologyEvent& event) {
     born.push_back(child.interface);
   }
   event.field_excess = excess;
+  event.sources = region_sources(scene, after, succession.parents, children);
   event.volume_before = volume.kept;
   event.volume_after = enclosed_liquid(children);
   event.area_before = area(parents);

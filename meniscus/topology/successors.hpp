@@ -1,9 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "meniscus/core/fault.hpp"
 #include "meniscus/scene/scene.hpp"
 #include "meniscus/surface/carry_fields.hpp"
 #include "meniscus/topology/events.hpp"
@@ -25,8 +26,9 @@ struct Succession {
 /// pieces as their volumes are restored (`replaced_fields`).
 ///
 /// Interfaces that stay keep their order and come first; the event's drops, volumes, areas and
-/// energies are filled in. Not done, with one line that says why, when a piece encloses nothing, is
+/// energies are filled in. Not done, with the reason, when a piece encloses nothing, is
 /// no sound surface, or meets another interface or the outer boundary; the scene is then as before.
-[[nodiscard]] std::string succeed(Scene& scene, Succession succession, TopologyEvent& event);
+[[nodiscard]] std::optional<Fault> replace_interfaces(Scene& scene, Succession succession,
+                                                      TopologyEvent& event);
 
 }  // namespace meniscus

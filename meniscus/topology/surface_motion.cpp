@@ -2,9 +2,13 @@
 
 #include <utility>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus {
 
 void SurfaceMotion::add(SurfaceMesh mesh, VertexField<Vec3> velocity) {
+  MENISCUS_ASSERT(velocity.size() == mesh.num_vertices(), "{} {}", velocity.size(),
+                  mesh.num_vertices());
   surfaces_.push_back({std::move(mesh), std::move(velocity), nullptr});
 }
 

@@ -92,8 +92,8 @@ ThreadEnd follow(const SurfaceMesh& mesh, const SurfaceTree& tree, Side side, co
 
 }  // namespace
 
-Thread traced_thread(const SurfaceMesh& mesh, const SurfaceTree& tree, const Vec3& within,
-                     Side side, double widest) {
+Thread thread_through(const SurfaceMesh& mesh, const SurfaceTree& tree, const Vec3& within,
+                      Side side, double widest) {
   Thread thread;
   SectionResult first = first_section(mesh, tree, within, side, widest);
   if (first.kind != SectionKind::closed || first.section.radius > widest) return thread;

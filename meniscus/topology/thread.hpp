@@ -28,7 +28,7 @@ struct Thread {
 /// Follows the thread through `within`, a point in it, both ways, while its radius is below
 /// `widest`. Each section is normal to the line through the centroids of the last two. No sections
 /// when there is no thread there.
-[[nodiscard]] Thread traced_thread(const SurfaceMesh& mesh, const SurfaceTree& tree,
-                                   const Vec3& within, Side side, double widest);
+[[nodiscard]] Thread thread_through(const SurfaceMesh& mesh, const SurfaceTree& tree,
+                                    const Vec3& within, Side side, double widest);
 
 }  // namespace meniscus

@@ -60,27 +60,40 @@ std::vector<CellId> CellTree::near(const TetCorners& tet) const {
   return found;
 }
 
+std::optional<CellTree::Hit> CellTree::containing(const Vec3& p) const {
+  std::optional<Hit> found;
+  const auto& tree = index_->tree;
+  for (auto hit = tree.qbegin(bg::index::intersects(point(p))); hit != tree.qend(); ++hit) {
+    const CellId c{hit->second};
+    const TetCorners x = corners(mesh_, c);
+    if (const auto corner = std::ranges::find(x, p); corner != x.end()) {
+      Hit exact{c, {p, {}}, 0.0};
+      exact.at.weights[static_cast<std::size_t>(corner - x.begin())] = 1.0;
+      return exact;
+    }
+    if (found) continue;
+    const std::array<double, 4> weights = barycentric(x, p);
+    if (std::ranges::min(weights) >= 0.0) found = Hit{c, {p, weights}, 0.0};
+  }
+  return found;
+}
+
 CellTree::Hit CellTree::closest(const Vec3& p) const {
+  if (const std::optional<Hit> inside = containing(p)) return *inside;
   const auto& tree = index_->tree;
   const auto at_cell = [&](CellId c) {
     const TetPoint at = closest_point(corners(mesh_, c), p);
     return Hit{c, at, (at.point - p).squaredNorm()};
   };
   const auto first = tree.qbegin(bg::index::nearest(point(p), 1));
-  MENISCUS_ASSERT(first != tree.qend());
+  MENISCUS_ASSERT(first != tree.qend(), "no cell near ({}, {}, {})", p.x(), p.y(), p.z());
   Hit best = at_cell({first->second});
   const Vec3 reach = Vec3::Constant(std::sqrt(best.squared_distance) * (1.0 + 1e-12));
   const Box around(point(p - reach), point(p + reach));
   for (auto hit = tree.qbegin(bg::index::intersects(around)); hit != tree.qend(); ++hit) {
-    const CellId c{hit->second};
-    const TetCorners x = corners(mesh_, c);
-    const auto corner = std::ranges::find(x, p);
-    if (corner != x.end()) {
-      Hit exact{c, {p, {}}, 0.0};
-      exact.at.weights[static_cast<std::size_t>(corner - x.begin())] = 1.0;
-      return exact;
-    }
-    const Hit other = at_cell(c);
+    if (bg::comparable_distance(point(p), hit->first) > best.squared_distance * (1.0 + 1e-12))
+      continue;
+    const Hit other = at_cell({hit->second});
     if (other.squared_distance < best.squared_distance) best = other;
   }
   return best;

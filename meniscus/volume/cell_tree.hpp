@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "meniscus/mesh/tet_mesh.hpp"
@@ -28,6 +29,8 @@ class CellTree {
   [[nodiscard]] Hit closest(const Vec3& p) const;
 
  private:
+  [[nodiscard]] std::optional<Hit> containing(const Vec3& p) const;
+
   struct Index;
   const TetMesh& mesh_;
   std::unique_ptr<Index> index_;

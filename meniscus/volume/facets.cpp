@@ -4,10 +4,12 @@
 #include <numeric>
 #include <utility>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus {
 namespace {
 
-/// The same sense of rotation, smallest vertex first.
+/// A facet with its smallest vertex first and its sense of rotation kept.
 FacetVertices rotated(const FacetVertices& f) {
   if (f[0] < f[1]) return f[0] < f[2] ? f : FacetVertices{f[2], f[0], f[1]};
   return f[1] < f[2] ? FacetVertices{f[1], f[2], f[0]} : FacetVertices{f[2], f[0], f[1]};
@@ -21,6 +23,7 @@ std::pair<TetVertexId, TetVertexId> without_sense(const FacetVertices& f) {
 }  // namespace
 
 FacetVertices facet(const CellVertices& cell, std::size_t k) {
+  MENISCUS_ASSERT(k < 4, "facet {}", k);
   // Corners of the facets of (0, 1, 2, 3) with det[x1 − x0, x2 − x0, x3 − x0] > 0, outward.
   constexpr std::array<std::array<std::size_t, 3>, 4> kOutward{
       {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
@@ -48,6 +51,7 @@ void FacetTable::gather(const TetMesh& mesh) {
     for (std::uint8_t k = 0; k < 4; ++k) {
       const FacetVertices f = rotated(facet(mesh.cells[c], k));
       std::int32_t& slot = next[static_cast<std::size_t>(f[0].value)];
+      MENISCUS_ASSERT(slot < first_[static_cast<std::size_t>(f[0].value) + 1], "slot {}", slot);
       entries_[static_cast<std::size_t>(slot++)] = {f, c, k};
     }
 }
@@ -73,6 +77,7 @@ void FacetTable::pair_up(std::span<Entry> entries) {
 CellId FacetTable::find(const FacetVertices& facet) const {
   const FacetVertices wanted = rotated(facet);
   const auto v = static_cast<std::size_t>(wanted[0].value);
+  MENISCUS_ASSERT(v + 1 < first_.size(), "vertex {}", wanted[0].value);
   for (std::int32_t i = first_[v]; i < first_[v + 1]; ++i) {
     const Entry& entry = entries_[static_cast<std::size_t>(i)];
     if (entry.facet == wanted) return entry.cell;

@@ -1,19 +1,14 @@
 #pragma once
 
-#include <vector>
-
 #include "meniscus/mesh/carried_fields.hpp"
+#include "meniscus/scene/region_sources.hpp"
 
 namespace meniscus {
 
-/// For each region of a new mesh the regions of the old one whose liquid it took: the children of a
-/// cut name one parent, the child of a merge names two. Empty: every region is what it was.
-using RegionSources = Field<RegionId, std::vector<RegionId>>;
-
 /// The fields of a mesh on another mesh of the same liquids (docs/fields.md, "In the bulk").
 /// Conserved: integrals of a limited linear reconstruction over the intersections of cells. Σ v |c|
-/// stays to round-off over the regions that share liquid. Interpolated: P1 at vertices, never
-/// leaving the old range. Second order where the interfaces agree; O(n log n).
+/// stays to round-off over the regions that share liquid. Interpolated: the same means in cells, P1
+/// with slopes at vertices, in the old range. Second order for like interfaces; O(n log n).
 /// Raises `excess` by what conserved values leave the old range of their regions.
 /// Throws InvalidInput when a field does not fit the mesh (`check_fields`).
 [[nodiscard]] VolumeFields transfer_fields(const VolumeFields& fields, const TetMesh& before,

@@ -4,6 +4,7 @@
 
 #include <Eigen/QR>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/volume/facets.hpp"
 
 namespace meniscus {
@@ -40,6 +41,7 @@ Vec3 least_squares_gradient(CellId c, const CellStencils& stencils,
   Vec3 right = Vec3::Zero();
   for (const CellId j : stencils.neighbours(c)) {
     const Vec3 d = stencils.centroid()[j] - stencils.centroid()[c];
+    MENISCUS_ASSERT(d.squaredNorm() > 0.0, "cells {} and {} have one centroid", c.value, j.value);
     const double weight = 1.0 / d.squaredNorm();
     matrix += weight * d * d.transpose();
     right += weight * (values[j] - values[c]) * d;
@@ -58,6 +60,7 @@ double limiter(double mean, double slope, const ValueRange& range) {
 
 CellStencils::CellStencils(const TetMesh& mesh, const CellField<std::int32_t>& group)
     : is_at_boundary_(mesh.num_cells(), 0) {
+  MENISCUS_ASSERT(group.size() == mesh.num_cells(), "{} {}", group.size(), mesh.num_cells());
   const VertexCells cells = cells_at_vertices(mesh);
   const Field<TetVertexId, char> at_boundary = boundary_vertices(mesh, group);
   first_.push_back(0);
@@ -92,6 +95,8 @@ LinearReconstruction reconstruct(const TetMesh& mesh, const CellStencils& stenci
   LinearReconstruction linear{values, {}, stencils.centroid(), {}};
   for (const CellId c : mesh.cells.ids()) {
     ValueRange range{values[c], values[c]};
+    MENISCUS_ASSERT(static_cast<std::size_t>(group[c]) < group_range.size(), "group {} of {}",
+                    group[c], group_range.size());
     for (const CellId j : stencils.neighbours(c)) {
       range.low = std::min(range.low, values[j]);
       range.high = std::max(range.high, values[j]);

@@ -16,7 +16,7 @@ class CellStencils {
  public:
   CellStencils(const TetMesh& mesh, const CellField<std::int32_t>& group);
 
-  /// Those that share a vertex with c, in ascending order, without c itself.
+  /// The cells of the group of c that share a vertex with it, in ascending order, without c.
   [[nodiscard]] std::span<const CellId> neighbours(CellId c) const;
   /// Whether a vertex of c lies on the boundary of its group.
   [[nodiscard]] bool is_at_boundary(CellId c) const { return is_at_boundary_[c]; }
@@ -33,8 +33,8 @@ class CellStencils {
 struct LinearReconstruction {
   CellField<double> mean;
   CellField<Vec3> gradient, centroid;
-  /// Range of the values of a cell and its neighbours; of the whole group for a cell at its
-  /// boundary.
+  /// Range of the values of a cell and its neighbours. A cell at the boundary of its group has the
+  /// range of the whole group.
   CellField<ValueRange> range;
 
   [[nodiscard]] double value(CellId c, const Vec3& x) const {

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus {
 namespace {
 

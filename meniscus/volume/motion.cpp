@@ -1,7 +1,6 @@
 #include "meniscus/volume/motion.hpp"
 
 #include "meniscus/core/error.hpp"
-#include "meniscus/volume/harmonic_extension.hpp"
 #include "meniscus/volume/spines.hpp"
 
 namespace meniscus {
@@ -28,30 +27,34 @@ TetVertexId first_free_vertex(const TetMesh& mesh) {
 
 }  // namespace
 
-VolumeVelocity volume_velocity(const Scene& scene, const TetMesh& mesh,
-                               std::span<const VertexField<Vec3>> interface_motion,
-                               const Field<TetVertexId, Vec3>& fluid, VolumeMotion motion) {
-  VolumeVelocity result{surface_motion(mesh, interface_motion), motion};
+const HarmonicExtension& VolumeMover::extension_of(const TetMesh& mesh) {
+  if (!pattern_) pattern_ = std::make_shared<HarmonicPattern>(mesh, first_free_vertex(mesh));
+  if (!extension_) extension_ = std::make_shared<HarmonicExtension>(*pattern_, mesh);
+  return *extension_;
+}
+
+Field<TetVertexId, Vec3> VolumeMover::velocity(const Scene& scene, const TetMesh& mesh,
+                                               std::span<const VertexField<Vec3>> interface_motion,
+                                               const Field<TetVertexId, Vec3>& fluid) {
+  Field<TetVertexId, Vec3> w = surface_motion(mesh, interface_motion);
   const TetVertexId first_free = first_free_vertex(mesh);
   MENISCUS_ASSERT(first_free.is_valid(), "a mesh without an outer boundary");
-  if (motion == VolumeMotion::lagrangian) {
+  if (motion_ == VolumeMotion::lagrangian) {
     MENISCUS_ASSERT(fluid.size() == mesh.num_vertices(), "{} velocities for {} vertices",
                     fluid.size(), mesh.num_vertices());
-    for (TetVertexId v = first_free; v.value < mesh.num_vertices(); ++v.value)
-      result.w[v] = fluid[v];
-    return result;
+    for (TetVertexId v = first_free; v.value < mesh.num_vertices(); ++v.value) w[v] = fluid[v];
+    return w;
   }
-  if (motion == VolumeMotion::spines && scene.interfaces.size() == 1) {
+  if (motion_ == VolumeMotion::spines && scene.interfaces.size() == 1) {
     const Spines spines(scene.interfaces[0].mesh, scene.boundary.mesh);
     if (spines.exist()) {
       for (TetVertexId v = first_free; v.value < mesh.num_vertices(); ++v.value)
-        result.w[v] = spines.velocity(mesh.x[v], interface_motion[0]);
-      return result;
+        w[v] = spines.velocity(mesh.x[v], interface_motion[0]);
+      return w;
     }
   }
-  extend_harmonically(mesh, first_free, result.w);
-  result.used = VolumeMotion::harmonic;
-  return result;
+  if (first_free.value < mesh.num_vertices()) extension_of(mesh).extend(w);
+  return w;
 }
 
 }  // namespace meniscus

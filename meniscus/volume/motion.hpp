@@ -1,27 +1,42 @@
 #pragma once
 
+#include <memory>
 #include <span>
 
 #include "meniscus/scene/scene.hpp"
+#include "meniscus/volume/harmonic_extension.hpp"
 
 namespace meniscus {
 
 /// How the vertices between the surfaces follow them (§4.4 of hooper2001).
 enum class VolumeMotion { spines, lagrangian, harmonic };
 
-/// Velocity of every mesh vertex: `interface_motion` on the interfaces, zero on the outer boundary,
-/// and between them
+/// Velocity of every mesh vertex, time and again while a mesh moves: `interface_motion` on the
+/// interfaces, zero on the outer boundary, and between them
 ///  * spines: along the ray from the drop's centre (one star-shaped drop; elsewhere harmonic),
 ///  * lagrangian: the fluid's velocity `fluid`,
-///  * harmonic: the solution of ∇·(|K|⁻¹∇w) = 0.
-/// `used` says which was taken.
-struct VolumeVelocity {
-  Field<TetVertexId, Vec3> w;
-  VolumeMotion used = VolumeMotion::spines;
+///  * harmonic: the solution of ∇·(|K|⁻¹∇w) = 0. Its matrix and multigrid are kept as long as the
+///    mesh stands where it did, the matrix's pattern as long as the mesh is only moved.
+class VolumeMover {
+ public:
+  explicit VolumeMover(VolumeMotion motion) : motion_(motion) {}
+
+  [[nodiscard]] Field<TetVertexId, Vec3> velocity(
+      const Scene& scene, const TetMesh& mesh, std::span<const VertexField<Vec3>> interface_motion,
+      const Field<TetVertexId, Vec3>& fluid);
+  /// To be told when the mesh stands elsewhere, and when it is another one.
+  void forget_positions() { extension_.reset(); }
+  void forget_mesh() {
+    extension_.reset();
+    pattern_.reset();
+  }
+
+ private:
+  [[nodiscard]] const HarmonicExtension& extension_of(const TetMesh& mesh);
+
+  VolumeMotion motion_;
+  std::shared_ptr<const HarmonicPattern> pattern_;
+  std::shared_ptr<const HarmonicExtension> extension_;
 };
-[[nodiscard]] VolumeVelocity volume_velocity(const Scene& scene, const TetMesh& mesh,
-                                             std::span<const VertexField<Vec3>> interface_motion,
-                                             const Field<TetVertexId, Vec3>& fluid,
-                                             VolumeMotion motion);
 
 }  // namespace meniscus

@@ -1,5 +1,7 @@
 #include "meniscus/volume/moving_mesh.hpp"
 
+#include <utility>
+
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/field_archive.hpp"
 #include "meniscus/volume/mesh_archive.hpp"
@@ -17,10 +19,12 @@ Field<TetVertexId, TetVertexId> boundary_counterparts(const TetMesh& before, con
   return old_to_new;
 }
 
-bool has_inverted_cell(const TetMesh& mesh) {
+std::optional<Fault> find_inverted_cell(const TetMesh& mesh) {
   for (const CellId c : mesh.cells.ids())
-    if (!(signed_volume(mesh, c) > 0.0)) return true;
-  return false;
+    if (!(signed_volume(mesh, c) > 0.0))
+      return Fault{FaultKind::inverted_cell, "moving the volume mesh inverts a cell",
+                   mesh.x[mesh.cells[c][0]]};
+  return {};
 }
 
 }  // namespace
@@ -35,22 +39,24 @@ void MovingMesh::begin_step(const Scene& scene) {
   const PhaseTimer timer(times_, "move mesh");
   place_interfaces(scene);
   start_ = mesh_;
+  mover_.forget_positions();
   start_fields_ = fields_;
   excess_ = {};
 }
 
-MeshReport MovingMesh::move(const Scene& start,
-                            std::span<const VertexField<Vec3>> interface_velocity,
-                            const Field<TetVertexId, Vec3>& liquid_velocity, double dt) {
+Report MovingMesh::move(const Scene& start, std::span<const VertexField<Vec3>> interface_velocity,
+                        const Field<TetVertexId, Vec3>& liquid_velocity, double dt) {
   const PhaseTimer timer(times_, "move mesh");
   MENISCUS_ASSERT(start_.num_vertices() == mesh_.num_vertices(), "a step that was not begun");
-  VolumeVelocity velocity =
-      volume_velocity(start, start_, interface_velocity, liquid_velocity, motion_);
+  Field<TetVertexId, Vec3> velocity =
+      mover_.velocity(start, start_, interface_velocity, liquid_velocity);
+  MENISCUS_ASSERT(velocity.size() == start_.num_vertices(), "{} {}", velocity.size(),
+                  start_.num_vertices());
   TetMesh moved = start_;
-  for (const TetVertexId v : moved.x.ids()) moved.x[v] += dt * velocity.w[v];
-  if (has_inverted_cell(moved)) return {false, "moving the volume mesh inverts a cell"};
+  for (const TetVertexId v : moved.x.ids()) moved.x[v] += dt * velocity[v];
+  if (auto fault = find_inverted_cell(moved)) return {std::move(fault)};
   mesh_ = std::move(moved);
-  velocity_ = std::move(velocity.w);
+  velocity_ = std::move(velocity);
   if (fields_.empty()) return {};
   fields_ = start_fields_;
   excess_ = {};
@@ -83,16 +89,17 @@ void MovingMesh::place_interfaces(const Scene& scene) {
 
 MeshChange MovingMesh::follow(const Scene& scene, const RegionSources& sources) {
   const PhaseTimer timer(times_, "tetrahedralize");
-  MeshChange change;
   TetMesh fitted;
-  const VolumeMeshReport made = mesher_(scene, fitted);
-  change.ok = made.ok;
-  change.failure = made.failure;
-  if (!made.ok) return change;
+  MeshChange change{mesher_(scene, fitted)};
+  if (!change.ok()) return change;
   change.old_to_new = boundary_counterparts(mesh_, fitted);
+  MENISCUS_ASSERT(change.old_to_new.size() == mesh_.num_vertices(), "{} {}",
+                  change.old_to_new.size(), mesh_.num_vertices());
   if (!fields_.empty()) fields_ = transfer_fields(fields_, mesh_, fitted, excess_, sources);
-  mesh_ = std::move(fitted);
+  change.before = std::exchange(mesh_, std::move(fitted));
+  change.sources = sources;
   velocity_ = {};
+  mover_.forget_mesh();
   return change;
 }
 
@@ -104,6 +111,7 @@ void MovingMesh::save(Archive& archive) const {
 void MovingMesh::load(const Archive& archive, const Scene& scene) {
   mesh_ = load_mesh(archive, "mesh");
   velocity_ = {};
+  mover_.forget_mesh();
   if (mesh_.interfaces.size() != scene.interfaces.size())
     reject_input("checkpoint: the volume mesh has {} interfaces, the scene {}",
                  mesh_.interfaces.size(), scene.interfaces.size());

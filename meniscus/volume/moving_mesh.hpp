@@ -1,9 +1,9 @@
 #pragma once
 
 #include <functional>
-#include <string>
 
 #include "meniscus/core/archive.hpp"
+#include "meniscus/core/fault.hpp"
 #include "meniscus/core/timer.hpp"
 #include "meniscus/mesh/carried_fields.hpp"
 #include "meniscus/volume/field_transfer.hpp"
@@ -17,19 +17,12 @@ struct MovingMeshOptions {
   VolumeMotion motion = VolumeMotion::spines;
 };
 
-/// How a motion of the mesh, or its following of the interfaces, ended. On failure the mesh is as
-/// it was.
-struct [[nodiscard]] MeshReport {
-  bool ok = true;
-  std::string failure;
-};
-
-/// What following the interfaces made of the mesh.
-struct [[nodiscard]] MeshChange {
-  bool ok = true;
-  std::string failure;
+/// What following the interfaces made of the mesh; on failure it is as it was.
+struct [[nodiscard]] MeshChange : Report {
   /// Where the vertices of the mesh before are now; invalid for those without a counterpart.
-  Field<TetVertexId, TetVertexId> old_to_new;
+  Field<TetVertexId, TetVertexId> old_to_new = {};
+  TetMesh before = {};         ///< the mesh as it stood
+  RegionSources sources = {};  ///< which liquid each region of the new mesh took
 };
 
 /// The tetrahedra of all regions, which move with the interfaces of a scene. The mesh knows where
@@ -40,7 +33,7 @@ class MovingMesh {
   /// Makes the tetrahedra of a scene; `tetrahedralize` but in tests.
   using Mesher = std::function<VolumeMeshReport(const Scene&, TetMesh&)>;
   explicit MovingMesh(const MovingMeshOptions& options);
-  MovingMesh(VolumeMotion motion, Mesher mesher) : motion_(motion), mesher_(std::move(mesher)) {}
+  MovingMesh(VolumeMotion motion, Mesher mesher) : mover_(motion), mesher_(std::move(mesher)) {}
 
   [[nodiscard]] const TetMesh& tetrahedra() const { return mesh_; }
   /// w of every vertex, from the last `move` [G R0]; empty before the first.
@@ -49,10 +42,11 @@ class MovingMesh {
   /// Remembers where everything stands: what `move` starts from and `undo` returns to.
   void begin_step(const Scene& scene);
   /// Places the vertices at x_start + dt w. On interfaces w is `interface_velocity`; between them
-  /// it follows the options (`volume_velocity`), with the liquid's velocity for Lagrangian motion.
-  /// `start` is the scene where the step began. Fails when a cell would be inverted.
-  MeshReport move(const Scene& start, std::span<const VertexField<Vec3>> interface_velocity,
-                  const Field<TetVertexId, Vec3>& liquid_velocity, double dt);
+  /// it follows the options (`VolumeMover`), with the liquid's velocity for Lagrangian motion.
+  /// `start` is the scene where the step began. Fails, and leaves the mesh as it was, when a cell
+  /// would be inverted.
+  Report move(const Scene& start, std::span<const VertexField<Vec3>> interface_velocity,
+              const Field<TetVertexId, Vec3>& liquid_velocity, double dt);
   /// Puts everything back where it stood when the step began.
   void undo();
   /// Places the vertices of the interfaces exactly where a scene of the same connectivity has them.
@@ -75,7 +69,7 @@ class MovingMesh {
   [[nodiscard]] const PhaseTimes& times() const { return times_; }
 
  private:
-  VolumeMotion motion_;
+  VolumeMover mover_;
   Mesher mesher_;
   TetMesh mesh_, start_;
   Field<TetVertexId, Vec3> velocity_;

@@ -46,6 +46,7 @@ void pay(IndebtedField& field, const CellField<double>& volume) {
     const double old = field.value[c];
     const double wanted = old + field.debt[c] / volume[c];
     const ValueRange& range = field.range[c];
+    MENISCUS_ASSERT(range.low <= range.high, "cell {} may have no value", c.value);
     // A value outside its range may return to it, and go no further out.
     const double low = std::min(range.low, old), high = std::max(range.high, old);
     field.value[c] = std::clamp(wanted, low, high);
@@ -69,6 +70,9 @@ GroupNeighbours group_neighbours(const TetMesh& mesh, const CellField<std::int32
 
 void settle_debts(IndebtedField& field, const CellField<double>& volume,
                   const GroupNeighbours& neighbours) {
+  MENISCUS_ASSERT(field.debt.size() == volume.size() && neighbours.size() == volume.size(),
+                  "{} debts and {} neighbourhoods of {} cells", field.debt.size(),
+                  neighbours.size(), volume.size());
   for (int sweep = 0; sweep < kSpreadSweeps; ++sweep) spread(field.debt, neighbours);
   for (int sweep = 0; sweep < kPaySweeps; ++sweep) {
     pay(field, volume);
@@ -88,6 +92,7 @@ void settle_amount(CellField<double>& value, const CellField<double>& volume,
                    const std::vector<CellId>& cells, const ValueRange& range, double amount) {
   Sum measure;
   for (const CellId c : cells) measure.add(volume[c]);
+  MENISCUS_ASSERT(measure.value() > 0.0, "{} cells measure {}", cells.size(), measure.value());
   const double missing = amount - amount_of(value, volume, cells);
   const double bound = missing > 0.0 ? range.high : range.low;
   Sum room;

@@ -141,38 +141,25 @@ std::size_t SizeLaw::enclosing_surface(const Vec3& x) const {
   return innermost == around.end() ? container_.size() : inside_first_[*innermost];
 }
 
-double SizeLaw::bounded_by_gap(double size, const Sized::Nearest& a,
-                               const Sized::Nearest& b) const {
-  return std::min(size,
-                  gap_size(a.distance + b.distance, options_.gap_layers, std::min(a.size, b.size)));
+SizeLaw::Sized::Nearest SizeLaw::ask(std::size_t surface, const Vec3& x) const {
+  ++num_searches_;
+  return surfaces_[surface].nearest(x);
 }
 
-std::vector<SizeLaw::Asked> SizeLaw::near_gaps(const Inner& inner, const Vec3& x) const {
-  std::vector<std::size_t> places = inner.folded;
-  // A gap is no wider than that by gap_size, and no narrower than the distance to either side.
-  const double reach = kRoundOff * kNarrow * options_.gap_layers * inner.largest_size;
-  inner.boxes.visit_within(Box(x), reach, [&](std::size_t place) { places.push_back(place); });
-  std::ranges::sort(places);
-  const auto repeated = std::ranges::unique(places);
-  places.erase(repeated.begin(), repeated.end());
-  std::vector<Asked> asked;
-  for (const std::size_t place : places)
-    asked.push_back({place, surfaces_[inner.members[place]].nearest(x)});
-  return asked;
+const SizeLaw::Sized::Nearest& SizeLaw::ask_member(std::size_t place, Around& around) const {
+  const auto known = std::ranges::find(around.asked, place, &Asked::place);
+  if (known != around.asked.end()) return known->nearest;
+  return around.asked.emplace_back(place, ask(around.inner->members[place], around.x)).nearest;
 }
 
-double SizeLaw::least_law(const Inner& inner, const Vec3& x, const Sized::Nearest& outer,
-                          std::span<const Asked> asked) const {
-  const auto nearest = [&](std::size_t place) {
-    const auto known = std::ranges::lower_bound(asked, place, {}, &Asked::place);
-    return known != asked.end() && known->place == place
-               ? known->nearest
-               : surfaces_[inner.members[place]].nearest(x);
-  };
+double SizeLaw::least_law(Around& around) const {
+  const Inner& inner = *around.inner;
+  const Sized::Nearest& outer = around.outer;
+  if (inner.members.empty()) return outer.size + options_.interior_growth * outer.distance;
   // The law rises with the size and the distance of the inner surface if that is the finer one.
   const bool is_finer = inner.least_size <= outer.size;
   return inner.boxes.least(
-      x,
+      around.x,
       [&](double distance) {
         return is_finer ? graded_size(options_.grading, inner.least_size, distance, outer.size,
                                       outer.distance) /
@@ -180,35 +167,62 @@ double SizeLaw::least_law(const Inner& inner, const Vec3& x, const Sized::Neares
                         : 0.0;
       },
       [&](std::size_t place) {
-        const Sized::Nearest at = nearest(place);
+        const Sized::Nearest at = ask_member(place, around);
         return graded_size(options_.grading, at.size, at.distance, outer.size, outer.distance);
       });
 }
 
-double SizeLaw::gap_bound(std::span<const Asked> inners, const Sized::Nearest& outer) const {
-  double bound = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < inners.size(); ++i) {
-    const Sized::Nearest& inner = inners[i].nearest;
-    bound = std::min(bound, gap_size(inner.outside, options_.gap_layers, inner.size));
-    bound = bounded_by_gap(bound, inner, outer);
-    for (const Asked& other : inners.first(i)) bound = bounded_by_gap(bound, inner, other.nearest);
+void SizeLaw::ask_sides_of_gaps(double widest, Around& around) const {
+  const Inner& inner = *around.inner;
+  for (const std::size_t place : inner.folded) ask_member(place, around);
+  struct Side {
+    double distance;  // at least
+    std::size_t place;
+  };
+  std::vector<Side> sides;
+  const Box at(around.x);
+  inner.boxes.visit_within(at, widest, [&](std::size_t place) {
+    sides.push_back({inner.boxes.distance(place, around.x), place});
+  });
+  std::ranges::sort(sides, {},
+                    [](const Side& side) { return std::pair(side.distance, side.place); });
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    double opposite = around.outer.distance;
+    for (std::size_t j = 0; j < sides.size(); ++j)
+      if (j != i) opposite = std::min(opposite, sides[j].distance);
+    if (sides[i].distance + opposite > widest) continue;
+    sides[i].distance = ask_member(sides[i].place, around).distance;
   }
-  return bound;
+}
+
+double SizeLaw::bounded_by_gap(double size, const Sized::Nearest& a,
+                               const Sized::Nearest& b) const {
+  return std::min(size,
+                  gap_size(a.distance + b.distance, options_.gap_layers, std::min(a.size, b.size)));
+}
+
+double SizeLaw::bounded_by_gaps(double size, Around& around) const {
+  const double layers = options_.gap_layers;
+  const Sized::Nearest& outer = around.outer;
+  if (around.enclosing < container_.size())
+    size = std::min(size, gap_size(outer.inside, layers, outer.size));
+  // By gap_size no wider gap asks for less than `size`, or for anything.
+  ask_sides_of_gaps(
+      kRoundOff * layers * std::min(kNarrow * around.inner->largest_size, size / kGapEdge), around);
+  for (std::size_t i = 0; i < around.asked.size(); ++i) {
+    const Sized::Nearest& inner = around.asked[i].nearest;
+    size = std::min(size, gap_size(inner.outside, layers, inner.size));
+    size = bounded_by_gap(size, inner, outer);
+    for (std::size_t j = 0; j < i; ++j) size = bounded_by_gap(size, inner, around.asked[j].nearest);
+  }
+  return size;
 }
 
 double SizeLaw::operator()(const Vec3& x) const {
-  const bool with_gaps = options_.gap_layers > 0.0;
   const std::size_t enclosing = enclosing_surface(x);
-  const Inner& inner = inner_[enclosing];
-  const Sized::Nearest outer = surfaces_[enclosing].nearest(x);
-  const std::vector<Asked> asked = with_gaps ? near_gaps(inner, x) : std::vector<Asked>{};
-  const double size = inner.members.empty() ? outer.size + options_.interior_growth * outer.distance
-                                            : least_law(inner, x, outer, asked);
-  if (!with_gaps) return size;
-  double bound = gap_bound(asked, outer);
-  if (enclosing < container_.size())
-    bound = std::min(bound, gap_size(outer.inside, options_.gap_layers, outer.size));
-  return std::min(size, bound);
+  Around around{x, enclosing, &inner_[enclosing], ask(enclosing, x), {}};
+  const double size = least_law(around);
+  return options_.gap_layers > 0.0 ? bounded_by_gaps(size, around) : size;
 }
 
 }  // namespace meniscus

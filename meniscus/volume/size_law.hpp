@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -42,6 +43,8 @@ class SizeLaw {
 
   /// [R0]; a few µs per surface that may set the size there. The scene must outlive the law.
   [[nodiscard]] double operator()(const Vec3& x) const;
+  /// How often the nearest point of a surface has been looked for: what the law costs.
+  [[nodiscard]] std::int64_t num_searches() const { return num_searches_; }
 
  private:
   /// A surface with the mean length of the edges at each vertex.
@@ -73,14 +76,23 @@ class SizeLaw {
     std::size_t place;
     Sized::Nearest nearest;
   };
-  /// Those of the members that a gap at x may lie at.
-  [[nodiscard]] std::vector<Asked> near_gaps(const Inner& inner, const Vec3& x) const;
-  [[nodiscard]] double least_law(const Inner& inner, const Vec3& x, const Sized::Nearest& outer,
-                                 std::span<const Asked> asked) const;
-  [[nodiscard]] double gap_bound(std::span<const Asked> inners, const Sized::Nearest& outer) const;
-  static BoxTree boxes_of(std::span<const Sized> surfaces, std::span<const std::size_t> members);
+  /// What is known of the surroundings of a point.
+  struct Around {
+    Vec3 x;
+    std::size_t enclosing;  // index into surfaces_
+    const Inner* inner;
+    Sized::Nearest outer;      // of the enclosing surface
+    std::vector<Asked> asked;  // of the members so far
+  };
+  [[nodiscard]] Sized::Nearest ask(std::size_t surface, const Vec3& x) const;
+  const Sized::Nearest& ask_member(std::size_t place, Around& around) const;
+  [[nodiscard]] double least_law(Around& around) const;
+  /// Asks the members that a gap no wider than that may lie at.
+  void ask_sides_of_gaps(double widest, Around& around) const;
   [[nodiscard]] double bounded_by_gap(double size, const Sized::Nearest& a,
                                       const Sized::Nearest& b) const;
+  [[nodiscard]] double bounded_by_gaps(double size, Around& around) const;
+  static BoxTree boxes_of(std::span<const Sized> surfaces, std::span<const std::size_t> members);
   [[nodiscard]] std::size_t enclosing_surface(const Vec3& x) const;
 
   VolumeMeshOptions options_;
@@ -89,6 +101,7 @@ class SizeLaw {
   std::vector<std::size_t> inside_first_;  // interfaces, the most deeply nested first
   BoxTree boxes_{{}};                      // of the interfaces in that order
   std::vector<Inner> inner_;               // of each of surfaces_
+  mutable std::int64_t num_searches_ = 0;
 };
 
 }  // namespace meniscus

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/geometry/predicates.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 
@@ -25,6 +26,8 @@ Spines::Spines(const SurfaceMesh& drop, const SurfaceMesh& boundary)
       exist_(is_star_shaped(drop, center_) && is_star_shaped(boundary, center_)) {}
 
 Vec3 Spines::velocity(const Vec3& x, const VertexField<Vec3>& drop_motion) const {
+  MENISCUS_ASSERT(exist_ && drop_motion.size() == drop_.num_vertices(), "{} {}", drop_motion.size(),
+                  drop_.num_vertices());
   const double r = (x - center_).norm();
   if (r == 0.0) return Vec3::Zero();
   const Vec3 direction = (x - center_) / r;

@@ -63,6 +63,31 @@ void add_positive_part(const TetCorners& x, const std::array<double, 4>& value, 
     pieces.add(at(0), cut(0, 1), cut(0, 2), cut(0, 3));
 }
 
+/// What a half space leaves of a tetrahedron.
+enum class Cut { none, part_left, nothing_left };
+Cut cut_of(const HalfSpaceTet& tet, std::size_t k, const TetCorners& x) {
+  std::size_t num_in = 0, num_out = 0;
+  for (const Vec3& corner : x) {
+    const double depth = tet.depth(k, corner);
+    num_in += depth >= 0.0 ? 1 : 0;
+    num_out += depth <= 0.0 ? 1 : 0;
+  }
+  if (num_out == 4) return Cut::nothing_left;
+  return num_in == 4 ? Cut::none : Cut::part_left;
+}
+
+/// Leaves of the pieces what lies in a half space; `scratch` is room to work in.
+void clip(const HalfSpaceTet& tet, std::size_t k, Pieces& pieces, Pieces& scratch) {
+  scratch.size = 0;
+  for (std::size_t i = 0; i < pieces.size; ++i) {
+    std::array<double, 4> depth{};
+    for (std::size_t j = 0; j < 4; ++j) depth[j] = tet.depth(k, pieces.tets[i][j]);
+    add_positive_part(pieces.tets[i], depth, scratch);
+  }
+  std::copy_n(scratch.tets.begin(), scratch.size, pieces.tets.begin());
+  pieces.size = scratch.size;
+}
+
 }  // namespace
 
 VolumeMoments tet_moments(const TetCorners& tet) {
@@ -70,22 +95,30 @@ VolumeMoments tet_moments(const TetCorners& tet) {
   return {volume, 0.25 * volume * (tet[0] + tet[1] + tet[2] + tet[3])};
 }
 
-VolumeMoments tet_overlap(const TetCorners& a, const TetCorners& b) {
-  Pieces kept, cut;
-  kept.tets[kept.size++] = a;
-  for (const auto& f : kFacets) {
-    const Vec3& o = b[f[0]];
-    const Vec3 inward = -(b[f[1]] - o).cross(b[f[2]] - o);
-    cut.size = 0;
-    for (std::size_t i = 0; i < kept.size; ++i) {
-      std::array<double, 4> value{};
-      for (std::size_t k = 0; k < 4; ++k) value[k] = inward.dot(kept.tets[i][k] - o);
-      add_positive_part(kept.tets[i], value, cut);
-    }
-    if (cut.size == 0) return {};
-    std::copy_n(cut.tets.begin(), cut.size, kept.tets.begin());
-    kept.size = cut.size;
+HalfSpaceTet::HalfSpaceTet(const TetCorners& tet) : corners_(tet) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto& f = kFacets[k];
+    inward_[k] = -(tet[f[1]] - tet[f[0]]).cross(tet[f[2]] - tet[f[0]]);
+    offset_[k] = inward_[k].dot(tet[f[0]]);
   }
+}
+
+VolumeMoments tet_overlap(const HalfSpaceTet& a, const HalfSpaceTet& b) {
+  std::array<Cut, 4> of_a, of_b;
+  for (std::size_t k = 0; k < 4; ++k) {
+    of_b[k] = cut_of(b, k, a.corners());
+    if (of_b[k] == Cut::nothing_left) return {};
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    of_a[k] = cut_of(a, k, b.corners());
+    if (of_a[k] == Cut::nothing_left) return {};
+  }
+  const auto is_none = [](Cut cut) { return cut == Cut::none; };
+  if (std::ranges::all_of(of_a, is_none)) return tet_moments(b.corners());
+  Pieces kept, cut;
+  kept.tets[kept.size++] = a.corners();
+  for (std::size_t k = 0; k < 4; ++k)
+    if (of_b[k] != Cut::none) clip(b, k, kept, cut);
   VolumeMoments sum;
   for (std::size_t i = 0; i < kept.size; ++i) {
     const VolumeMoments piece = tet_moments(kept.tets[i]);
@@ -95,14 +128,20 @@ VolumeMoments tet_overlap(const TetCorners& a, const TetCorners& b) {
   return sum;
 }
 
-TetPoint closest_point(const TetCorners& tet, const Vec3& p) {
+std::array<double, 4> barycentric(const TetCorners& tet, const Vec3& p) {
   const double whole = six_volumes(tet);
-  TetPoint inside{p, {}};
+  MENISCUS_ASSERT(whole != 0.0, "a tetrahedron without volume");
+  std::array<double, 4> weights{};
   for (std::size_t k = 0; k < 4; ++k) {
     TetCorners part = tet;
     part[k] = p;
-    inside.weights[k] = six_volumes(part) / whole;
+    weights[k] = six_volumes(part) / whole;
   }
+  return weights;
+}
+
+TetPoint closest_point(const TetCorners& tet, const Vec3& p) {
+  const TetPoint inside{p, barycentric(tet, p)};
   if (std::ranges::min(inside.weights) >= 0.0) return inside;
   TetPoint nearest;
   double least = std::numeric_limits<double>::infinity();

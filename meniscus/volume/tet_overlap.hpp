@@ -16,9 +16,30 @@ struct VolumeMoments {
 
 [[nodiscard]] VolumeMoments tet_moments(const TetCorners& tet);
 
-/// The moments of what two tetrahedra of positive volume have in common, exact but for round-off:
-/// the first is clipped by the four half spaces of the second and stays a union of tetrahedra.
-[[nodiscard]] VolumeMoments tet_overlap(const TetCorners& a, const TetCorners& b);
+/// A tetrahedron of positive volume as the intersection of four half spaces.
+class HalfSpaceTet {
+ public:
+  HalfSpaceTet() = default;
+  explicit HalfSpaceTet(const TetCorners& tet);
+
+  [[nodiscard]] const TetCorners& corners() const { return corners_; }
+  /// Positive where p lies on the inner side of the facet opposite corner k.
+  [[nodiscard]] double depth(std::size_t k, const Vec3& p) const {
+    return inward_[k].dot(p) - offset_[k];
+  }
+
+ private:
+  TetCorners corners_;
+  std::array<Vec3, 4> inward_;
+  std::array<double, 4> offset_{};
+};
+
+/// The moments of what two tetrahedra have in common, exact but for round-off: the first is clipped
+/// by those half spaces of the second that cut it, and stays a union of tetrahedra.
+[[nodiscard]] VolumeMoments tet_overlap(const HalfSpaceTet& a, const HalfSpaceTet& b);
+
+/// The weights with Σ w_k x_k = p and Σ w_k = 1; none is negative where p lies in the tetrahedron.
+[[nodiscard]] std::array<double, 4> barycentric(const TetCorners& tet, const Vec3& p);
 
 /// The point of a tetrahedron nearest to p, with its weights Σ w_k x_k, w_k ≥ 0, Σ w_k = 1.
 struct TetPoint {

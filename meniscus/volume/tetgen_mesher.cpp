@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
+#include <csignal>
 #include <ctime>
-#include <exception>
 #include <memory>
+#include <new>
+#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
@@ -13,8 +14,8 @@
 #include <fmt/format.h>
 #include <tetgen.h>
 
+#include "meniscus/core/child_process.hpp"
 #include "meniscus/core/error.hpp"
-#include "meniscus/volume/tetgen_assertions.hpp"
 
 namespace meniscus {
 namespace {
@@ -28,29 +29,28 @@ Vec3 position(Point p) { return {p[0], p[1], p[2]}; }
 /// the coordinates it was made for.
 class SizeTest {
  public:
-  SizeTest(const std::function<double(const Vec3&)>& size, double volume_factor)
-      : size_(size), volume_factor_(volume_factor) {}
+  explicit SizeTest(const CellTarget& target) : target_(target) {}
 
   bool is_too_large(Point a, Point b, Point c, Point d) {
     const double h = 0.25 * (size(a) + size(b) + size(c) + size(d));
     const Vec3 o = position(a);
     const double volume =
         std::abs((position(b) - o).cross(position(c) - o).dot(position(d) - o)) / 6.0;
-    return volume > volume_factor_ * h * h * h / (6.0 * std::sqrt(2.0));
+    return volume > target_.volume_factor * h * h * h / (6.0 * std::sqrt(2.0));
   }
 
  private:
   double size(Point p) {
     const auto [entry, is_new] = known_.try_emplace(p);
-    if (is_new || entry->second.x != position(p)) entry->second = {position(p), size_(position(p))};
+    if (is_new || entry->second.x != position(p))
+      entry->second = {position(p), target_.size(position(p))};
     return entry->second.size;
   }
   struct Known {
     Vec3 x = Vec3::Zero();
     double size = 0.0;
   };
-  const std::function<double(const Vec3&)>& size_;
-  double volume_factor_;
+  const CellTarget& target_;
   std::unordered_map<Point, Known> known_;
 };
 
@@ -109,10 +109,9 @@ class TetgenInput {
 };
 
 /// What the integers mean that TetGen throws.
+constexpr int kOutOfMemory = 1;
 std::string meaning(int code) {
   switch (code) {
-    case 1:
-      return "out of memory";
     case 2:
       return "an internal error";
     case 3:
@@ -128,6 +127,32 @@ std::string meaning(int code) {
   }
 }
 
+/// Mistakes of TetGen's that are met in one order of the points and not in another.
+constexpr int kMostOrders = 4;
+/// Processor time after which a meshing counts as endless: a hundred times what it takes.
+constexpr unsigned kLeastSeconds = 60;
+constexpr double kSecondsPerCell = 1e-3;
+
+/// The phases of TetGen for given facets that are to be kept whole (-pY).
+void run_phases(tetgenmesh& mesh, tetgenio& out) {
+  const tetgenbehavior& behavior = *mesh.b;
+  clock_t ignored = 0;
+  mesh.initializepools();
+  mesh.transfernodes();
+  exactinit(behavior.verbose, behavior.noexact, behavior.nostaticfilter, mesh.xmax - mesh.xmin,
+            mesh.ymax - mesh.ymin, mesh.zmax - mesh.zmin);
+  mesh.incrementaldelaunay(ignored);
+  mesh.meshsurface();
+  mesh.recoverboundary(ignored);
+  mesh.carveholes();
+  mesh.suppresssteinerpoints();
+  mesh.recoverdelaunay();
+  if (behavior.quality != 0) mesh.delaunayrefinement();
+  if (behavior.optlevel > 0) mesh.optimizemesh();
+  mesh.outnodes(&out);
+  mesh.outelements(&out);
+}
+
 void read_output(const tetgenio& out, MesherResult& result) {
   result.x.reserve(out.numberofpoints);
   for (int i = 0; i < out.numberofpoints; ++i) result.x.add(position(out.pointlist + 3 * i));
@@ -138,70 +163,26 @@ void read_output(const tetgenio& out, MesherResult& result) {
   }
 }
 
-/// TetGen's working mesh. Before TetGen throws its `int` it frees the mesh's memory, and its
-/// destructor would free it again (as it does in TetGen's own driver, which therefore cannot be
-/// used): after such an exception the destructor must not run.
-class TetgenMesh {
- public:
-  TetgenMesh() : mesh_(std::construct_at(reinterpret_cast<tetgenmesh*>(storage_))) {}
-  TetgenMesh(const TetgenMesh&) = delete;
-  TetgenMesh& operator=(const TetgenMesh&) = delete;
-  ~TetgenMesh() {
-    if (!is_freed_) std::destroy_at(mesh_);
-  }
-  /// Runs one phase.
-  template <class Result, class... Parameters, class... Args>
-  void run(Result (tetgenmesh::*phase)(Parameters...), Args&&... args) {
-    try {
-      (mesh_->*phase)(std::forward<Args>(args)...);
-    } catch (int) {
-      is_freed_ = true;
-      throw;
-    }
-  }
-  tetgenmesh* operator->() { return mesh_; }
-
- private:
-  alignas(tetgenmesh) std::byte storage_[sizeof(tetgenmesh)];
-  tetgenmesh* mesh_;
-  bool is_freed_ = false;
-};
-
-/// The phases of TetGen for given facets that are to be kept whole (-pY).
-void mesh_facets(tetgenbehavior& behavior, tetgenio& in, tetgenio& out) {
-  TetgenMesh mesh;
+/// Throws what TetGen finds as a runtime_error.
+void mesh_complex(const SurfaceComplex& complex, tetgenbehavior behavior, const CellTarget& target,
+                  MesherResult& result) {
+  SizeTest test(target);
+  const ActiveSizeTest active(test);
+  TetgenInput input(complex);
+  tetgenio output;
+  auto mesh = std::make_unique<tetgenmesh>();
   mesh->b = &behavior;
-  mesh->in = &in;
-  clock_t ignored = 0;
-  mesh.run(&tetgenmesh::initializepools);
-  mesh.run(&tetgenmesh::transfernodes);
-  exactinit(behavior.verbose, behavior.noexact, behavior.nostaticfilter, mesh->xmax - mesh->xmin,
-            mesh->ymax - mesh->ymin, mesh->zmax - mesh->zmin);
-  mesh.run(&tetgenmesh::incrementaldelaunay, ignored);
-  mesh.run(&tetgenmesh::meshsurface);
-  mesh.run(&tetgenmesh::recoverboundary, ignored);
-  mesh.run(&tetgenmesh::carveholes);
-  mesh.run(&tetgenmesh::suppresssteinerpoints);
-  mesh.run(&tetgenmesh::recoverdelaunay);
-  if (behavior.quality != 0) mesh.run(&tetgenmesh::delaunayrefinement);
-  if (behavior.optlevel > 0) mesh.run(&tetgenmesh::optimizemesh);
-  mesh.run(&tetgenmesh::outnodes, &out);
-  mesh.run(&tetgenmesh::outelements, &out);
-}
-
-/// Points are inserted in rounds, each a multiple of the last, drawn by chance. Another multiple is
-/// another order, in which points that fail an assertion of TetGen's in one come out well.
-void mesh_in_some_order(tetgenbehavior& behavior, tetgenio& in, tetgenio& out) {
-  const TetgenAssertionsThrow guard;
-  const double first = behavior.brio_ratio;
-  for (const double ratio : {first, 2.0 * first, 3.0 * first, 4.0 * first}) {
-    behavior.brio_ratio = ratio;
-    try {
-      return mesh_facets(behavior, in, out);
-    } catch (const TetgenAssertion&) {
-      if (ratio == 4.0 * first) throw;
-    }
+  mesh->in = &input.io();
+  try {
+    run_phases(*mesh, output);
+  } catch (int code) {
+    // TetGen has freed the mesh's memory before it threw, and the destructor would do so again (as
+    // in TetGen's own driver, which therefore cannot be used).
+    static_cast<void>(mesh.release());
+    if (code == kOutOfMemory) throw std::bad_alloc();
+    throw std::runtime_error(meaning(code));
   }
+  read_output(output, result);
 }
 
 }  // namespace
@@ -214,24 +195,26 @@ std::vector<std::string> tetgen_switches(double radius_edge) {
 }
 
 MesherResult run_tetgen(const SurfaceComplex& complex, const std::string& switches,
-                        const std::function<double(const Vec3&)>& size, double volume_factor) {
-  MesherResult result;
+                        const CellTarget& target) {
   tetgenbehavior behavior;
   std::string mutable_switches = switches;
   [[maybe_unused]] const bool is_understood = behavior.parse_commandline(mutable_switches.data());
   MENISCUS_ASSERT(is_understood, "TetGen does not know the switches {}", switches);
 
-  SizeTest test(size, volume_factor);
-  const ActiveSizeTest active(test);
-  TetgenInput input(complex);
-  try {
-    tetgenio output;
-    mesh_in_some_order(behavior, input.io(), output);
-    read_output(output, result);
-  } catch (int code) {
-    result.failure = fmt::format("TetGen -{} found {}", switches, meaning(code));
-  } catch (const std::exception& fault) {
-    result.failure = fmt::format("TetGen -{} failed: {}", switches, fault.what());
+  MesherResult result;
+  const auto seconds = kLeastSeconds + static_cast<unsigned>(kSecondsPerCell * target.num_cells);
+  // Points are inserted in rounds, each a multiple of the last, drawn by chance. Another multiple
+  // is another order, in which points that fail an assertion of TetGen's in one come out well.
+  const double first = behavior.brio_ratio;
+  for (int order = 1; order <= kMostOrders; ++order) {
+    behavior.brio_ratio = order * first;
+    result = {};
+    const ChildResult child =
+        run_in_child([&] { mesh_complex(complex, behavior, target, result); }, seconds);
+    current_test = nullptr;  // of an attempt that was cut short
+    if (child.failure.empty()) return result;
+    result = {fmt::format("TetGen -{}: {}", switches, child.failure), {}, {}};
+    if (child.signal != SIGABRT) break;
   }
   return result;
 }

@@ -16,8 +16,8 @@ struct SurfaceComplex {
   std::vector<std::array<std::int32_t, 3>> triangles;
 };
 
-/// Its answer: the vertices of the complex in their order, then its own; `failure` says why there
-/// are none.
+/// What a mesher gives: the vertices of the complex in their order, then its own; `failure` says
+/// why there are none.
 struct [[nodiscard]] MesherResult {
   std::string failure;
   Field<TetVertexId, Vec3> x;
@@ -30,10 +30,20 @@ struct [[nodiscard]] MesherResult {
 /// quiet.
 [[nodiscard]] std::vector<std::string> tetgen_switches(double radius_edge);
 
-/// Tetrahedra of all that the complex encloses, by TetGen in memory under the given switches.
-/// A tetrahedron is cut when its volume exceeds `volume_factor` h³/(6√2), that of the regular one
-/// whose edge h is the mean of `size` over its vertices; `size` is evaluated once per vertex.
+/// How large tetrahedra are to be.
+struct CellTarget {
+  std::function<double(const Vec3&)> size;  ///< edge wanted at a point
+  /// A tetrahedron is cut when its volume exceeds this times h³/(6√2), the volume of the regular
+  /// one whose edge h is the mean of `size` over the vertices.
+  double volume_factor = 2.0;
+  double num_cells = 0.0;  ///< how many are expected, for the time that meshing may take
+};
+
+/// Tetrahedra of all that the complex encloses, by TetGen under the given switches; `size` is
+/// evaluated once per vertex. TetGen works in a child process (`run_in_child`), for Debian's
+/// library is built with its assertions on: one that does not hold, as points in special positions
+/// bring out (coplanar and cospherical ones, as on a box), ends the child and is a failure here.
 MesherResult run_tetgen(const SurfaceComplex& complex, const std::string& switches,
-                        const std::function<double(const Vec3&)>& size, double volume_factor);
+                        const CellTarget& target);
 
 }  // namespace meniscus

@@ -1,10 +1,14 @@
 #include "meniscus/volume/tetrahedralize.hpp"
 
+#include <functional>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/volume/facets.hpp"
+#include "meniscus/volume/foreseen_cells.hpp"
 #include "meniscus/volume/mesh_order.hpp"
 #include "meniscus/volume/size_law.hpp"
 #include "meniscus/volume/tetgen_mesher.hpp"
@@ -25,10 +29,10 @@ SurfaceComplex gather_surfaces(const Scene& scene) {
   return complex;
 }
 
-/// Names each surface's vertices and the cells on both sides of each of its faces.
-/// Returns a face that is no facet, by its place.
-std::string embed(const SurfaceMesh& surface, std::int32_t first_vertex, const FacetTable& facets,
-                  bool has_outside, EmbeddedSurface& embedded) {
+/// Names each surface's vertices and the cells on both sides of each of its faces, up to a face
+/// that is no facet.
+std::optional<Fault> embed(const SurfaceMesh& surface, std::int32_t first_vertex,
+                           const FacetTable& facets, bool has_outside, EmbeddedSurface& embedded) {
   embedded = {{first_vertex},
               surface.num_vertices(),
               FaceField<EmbeddedSurface::Sides>(surface.num_faces())};
@@ -40,20 +44,19 @@ std::string embed(const SurfaceMesh& surface, std::int32_t first_vertex, const F
     const auto& [inside, outside] = embedded.sides[f];
     if (!inside.is_valid() || outside.is_valid() != has_outside) {
       const Vec3& x = surface.x[v[0]];
-      return fmt::format("the mesher lost the face {} near ({:.6g}, {:.6g}, {:.6g})", f.value,
-                         x.x(), x.y(), x.z());
+      return Fault{FaultKind::nonconforming,
+                   fmt::format("the mesher lost the face {} near {}", f.value, text_of(x)), x};
     }
   }
   return {};
 }
 
-std::string embed_surfaces(const Scene& scene, const FacetTable& facets, TetMesh& mesh) {
+std::optional<Fault> embed_surfaces(const Scene& scene, const FacetTable& facets, TetMesh& mesh) {
   std::int32_t first = 0;
   mesh.interfaces.resize(scene.interfaces.size());
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
     const SurfaceMesh& surface = scene.interfaces[i].mesh;
-    std::string lost = embed(surface, first, facets, true, mesh.interfaces[i]);
-    if (!lost.empty()) return lost;
+    if (auto lost = embed(surface, first, facets, true, mesh.interfaces[i])) return lost;
     first += surface.num_vertices();
   }
   return embed(scene.boundary.mesh, first, facets, false, mesh.boundary);
@@ -63,6 +66,8 @@ std::string embed_surfaces(const Scene& scene, const FacetTable& facets, TetMesh
 /// that has no region on its other side yet. Interfaces need no special care: both of their sides
 /// are labelled before anything spreads.
 void label_regions(const Scene& scene, const FacetTable& facets, TetMesh& mesh) {
+  MENISCUS_ASSERT(mesh.interfaces.size() == scene.interfaces.size(), "{} {}",
+                  mesh.interfaces.size(), scene.interfaces.size());
   mesh.region = CellField<RegionId>(mesh.num_cells());
   std::vector<CellId> front;
   const auto label = [&](CellId c, RegionId region) {
@@ -85,27 +90,29 @@ void label_regions(const Scene& scene, const FacetTable& facets, TetMesh& mesh) 
 }
 
 /// One attempt: mesh, find the surfaces in it, label the regions, validate.
-std::string try_to_mesh(const Scene& scene, const SurfaceComplex& complex,
-                        const std::string& switches, const SizeLaw& size, double cell_volume,
-                        TetMesh& mesh) {
-  MesherResult result = run_tetgen(complex, switches, size, cell_volume);
-  if (!result.failure.empty()) return result.failure;
+std::optional<Fault> try_to_mesh(const Scene& scene, const SurfaceComplex& complex,
+                                 const std::string& switches, const CellTarget& target,
+                                 TetMesh& mesh) {
+  MesherResult result = run_tetgen(complex, switches, target);
+  if (!result.failure.empty()) return Fault{FaultKind::mesher, std::move(result.failure)};
   order_by_neighbourhood(static_cast<std::int32_t>(complex.x.size()), result.x, result.cells);
   mesh = {};
   mesh.x = std::move(result.x);
   mesh.cells = std::move(result.cells);
+  MENISCUS_ASSERT(mesh.num_vertices() >= static_cast<std::int32_t>(complex.x.size()), "{} {}",
+                  mesh.num_vertices(), complex.x.size());
   const FacetTable facets(mesh);
-  if (std::string lost = embed_surfaces(scene, facets, mesh); !lost.empty()) return lost;
+  if (auto lost = embed_surfaces(scene, facets, mesh)) return lost;
   label_regions(scene, facets, mesh);
   return find_defect(mesh, scene);
 }
 
-std::string find_unfit_surface(const Scene& scene) {
-  if (scene.is_unbounded) return "an unbounded scene has no volume mesh";
-  if (std::string fault = find_conflict(scene); !fault.empty()) return fault;
+std::optional<Fault> find_unfit_surface(const Scene& scene) {
+  if (scene.is_unbounded) return Fault{FaultKind::regions, "an unbounded scene has no volume mesh"};
+  if (auto fault = find_conflict(scene)) return fault;
   for (const Interface& interface : scene.interfaces)
-    if (std::string fault = find_self_intersection(interface.mesh); !fault.empty())
-      return fmt::format("drop {}: {}", interface.drop, fault);
+    if (auto fault = find_self_intersection(interface.mesh))
+      return with_context(fmt::format("drop {}", interface.drop), *std::move(fault));
   return {};
 }
 
@@ -127,17 +134,22 @@ VolumeMeshReport tetrahedralize(const Scene& scene, const VolumeMeshOptions& opt
                                 TetMesh& mesh) {
   options.validate();
   VolumeMeshReport report;
-  report.failure = find_unfit_surface(scene);
-  report.ok = report.failure.empty();
-  if (!report.ok) return report;
+  report.fault = find_unfit_surface(scene);
+  if (!report.ok()) return report;
+  const SizeLaw law(scene, options);
+  const std::function<double(const Vec3&)> size = std::cref(law);
+  const ForeseenCells foreseen = foresee_cells(scene, size, options.cell_volume);
+  if (foreseen.is_too_many()) {
+    report.fault = Fault{FaultKind::too_large, too_many(foreseen)};
+    return report;
+  }
 
   const SurfaceComplex complex = gather_surfaces(scene);
-  const SizeLaw size(scene, options);
+  const CellTarget target{size, options.cell_volume, foreseen.number};
   for (const std::string& switches : tetgen_switches(options.radius_edge)) {
     TetMesh candidate;
-    report.failure = try_to_mesh(scene, complex, switches, size, options.cell_volume, candidate);
-    report.ok = report.failure.empty();
-    if (report.ok) {
+    report.fault = try_to_mesh(scene, complex, switches, target, candidate);
+    if (report.ok()) {
       mesh = std::move(candidate);
       return report;
     }

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <string>
+#include <optional>
 
+#include "meniscus/core/fault.hpp"
 #include "meniscus/scene/scene.hpp"
 
 namespace meniscus {
@@ -22,10 +23,9 @@ struct VolumeMeshOptions {
   void validate() const;
 };
 
-struct [[nodiscard]] VolumeMeshReport {
-  bool ok = true;
-  std::string failure;  ///< the last mesher's word, when none gave a valid mesh
-  int attempt = 0;      ///< 0: first choice; higher: a fallback (docs/volume-mesh.md lists them)
+/// A fault is that of the last attempt.
+struct [[nodiscard]] VolumeMeshReport : Report {
+  int attempt = 0;  ///< 0: first choice; higher: a fallback (docs/volume-mesh.md lists them)
 };
 
 /// Tetrahedra of all regions of the scene, conforming exactly to every interface and the outer
@@ -34,10 +34,9 @@ struct [[nodiscard]] VolumeMeshReport {
 VolumeMeshReport tetrahedralize(const Scene& scene, const VolumeMeshOptions& options,
                                 TetMesh& mesh);
 
-/// What is wrong with a mesh of this scene, in one line; empty when every interface face is a facet
-/// of exactly two cells (boundary: one) on the right sides, volumes are positive, regions
-/// consistent, their volumes those the surfaces enclose, and surface vertices where the scene has
-/// them.
-[[nodiscard]] std::string find_defect(const TetMesh& mesh, const Scene& scene);
+/// What is wrong with a mesh of this scene; none when every interface face is a facet of exactly
+/// two cells (boundary: one) on the right sides, volumes are positive, regions consistent, their
+/// volumes those the surfaces enclose, and surface vertices where the scene has them.
+[[nodiscard]] std::optional<Fault> find_defect(const TetMesh& mesh, const Scene& scene);
 
 }  // namespace meniscus

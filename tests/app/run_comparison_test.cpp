@@ -147,6 +147,25 @@ TEST(RunComparison, HoldsTheVolumeOfEveryRun) {
   EXPECT_FALSE(drifting(-1e-5).at(0).passes());
 }
 
+// Each drop is shifted by 0.006 in each of 20 steps; what step 0 has is of the shape as given.
+TEST(RunComparison, HoldsTheSumOfVolumeCorrectionsOfRunsWithAllTheirSteps) {
+  RunTables run = made_run([](double) { return 0.0; });
+  run.drops.columns.emplace_back("volume_correction");
+  for (std::vector<std::string>& row : run.drops.rows)
+    row.emplace_back(row[0] == "0" ? "0.5" : "0.006");
+  CheckFile check;
+  check.runs = {{"one", {}, false, {}}};
+  const std::vector<CheckRow> rows = compare("a case", check, {{"one", run}}, {});
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[1].quantity, "sum of volume_correction");
+  EXPECT_NEAR(rows[1].worst->measured, 0.12, 1e-12);
+  EXPECT_FALSE(rows[1].passes());  // 0.1 unless the check says otherwise
+  check.runs[0].most_correction = 0.13;
+  EXPECT_TRUE(compare("a case", check, {{"one", run}}, {}).at(1).passes());
+  run.history.rows.erase(run.history.rows.begin() + 5);  // as a record leaves steps out
+  EXPECT_EQ(compare("a case", check, {{"one", run}}, {}).size(), 1U);
+}
+
 TEST(RunComparison, InterpolatesAFallingAbscissaToo) {
   const Series series{{3.0, 2.0, 1.0}, {30.0, 20.0, 10.0}};
   EXPECT_DOUBLE_EQ(value_at(series, 2.5).value(), 25.0);

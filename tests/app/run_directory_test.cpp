@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <optional>
+#include <set>
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -57,6 +58,80 @@ TEST(RunDirectory, IsFreeAgainWhenItsProgramIsKilled) {
   EXPECT_EQ(refusal([&] { (void)RunDirectory::create(path, true); }), "");
   close(ready[0]);
   close(ready[1]);
+}
+
+std::set<std::string> names_in(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.insert(entry.path().filename().string());
+  return names;
+}
+
+HistoryRow row_of_step(std::int64_t step) {
+  HistoryRow row;
+  row.step = step;
+  row.t = 0.1 * static_cast<double>(step);
+  row.drops = 1;
+  return row;
+}
+
+TEST(RunDirectory, KeepsTheLastTwoCheckpointsAndThoseAroundEvents) {
+  const test::TemporaryFolder folder;
+  RunDirectory run = RunDirectory::create(folder / "run", false);
+  for (std::int64_t step = 0; step <= 5; ++step) {
+    TopologyEvent event;
+    event.neck_radius = 0.01;
+    if (step == 2) run.add_events(step, 0.2, {event});
+    run.write_checkpoint({}, step);
+  }
+  const std::set<std::string> names = names_in(run.path());
+  std::set<std::string> expected{"history.csv", "drops.csv", "events.csv", "timing.csv"};
+  for (const int step : {1, 2, 4, 5})
+    expected.insert("checkpoint-00000" + std::to_string(step) + ".h5");
+  EXPECT_EQ(names, expected);
+  EXPECT_EQ(newest_checkpoint(run.path()).filename(), "checkpoint-000005.h5");
+}
+
+TEST(RunDirectory, TakenUpItDropsTheRowsToBeMadeAgainAndKeepsTheRest) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "run";
+  {
+    RunDirectory run = RunDirectory::create(path, false);
+    for (std::int64_t step = 0; step <= 3; ++step) run.add_rows(row_of_step(step), {DropRow()});
+  }
+  RunDirectory run = RunDirectory::take_up(path, 2, 0.2);
+  EXPECT_EQ(io::read_table(path / "history.csv").column("step"), (std::vector{0.0, 1.0}));
+  EXPECT_EQ(io::read_table(path / "drops.csv").column("step"), (std::vector{0.0, 1.0}));
+  run.add_rows(row_of_step(2), {DropRow()});
+  EXPECT_EQ(io::read_table(path / "history.csv").column("step"), (std::vector{0.0, 1.0, 2.0}));
+}
+
+TEST(RunDirectory, ANewRunRemovesTheFilesOfTheOldOneAndNoOther) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "run";
+  {
+    RunDirectory run = RunDirectory::create(path, false);
+    run.add_rows(row_of_step(0), {DropRow()});
+    run.write_text("run.json", "{}");
+    run.write_checkpoint({}, 0);
+    std::filesystem::create_directories(path / "surface");
+    test::put(path / "surface" / "surface-000000.vtp", "x");
+  }
+  test::put(path / "notes.txt", "mine");
+  EXPECT_NE(refusal([&] { (void)RunDirectory::create(path, false); }).find("--overwrite"),
+            std::string::npos);
+  (void)RunDirectory::create(path, true);
+  EXPECT_EQ(names_in(path), (std::set<std::string>{"history.csv", "drops.csv", "events.csv",
+                                                   "timing.csv", "notes.txt"}));
+}
+
+TEST(RunDirectory, RefusesAPathThroughAFile) {
+  const test::TemporaryFolder folder;
+  test::put(folder / "file", "x");
+  EXPECT_NE(refusal([&] { require_usable(folder / "file" / "run", true); }).find("is a file"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { (void)newest_checkpoint(folder / "none"); }).find("not the folder"),
+            std::string::npos);
 }
 
 }  // namespace

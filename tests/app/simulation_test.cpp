@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <numeric>
 
 #include <gtest/gtest.h>
@@ -15,7 +17,15 @@ namespace {
 /// Seconds of the clock, and by phase, since a row of a run.
 struct Spent {
   double wall = 0.0, in_phases = 0.0;
+  int events = 0;  // changes of topology
 };
+
+int lines_of(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  int count = 0;
+  for (std::string line; std::getline(stream, line);) ++count;
+  return count;
+}
 
 /// From the first row of a case to its last.
 Spent spent_between_rows(const std::string& text) {
@@ -23,7 +33,7 @@ Spent spent_between_rows(const std::string& text) {
   const test::TemporaryFolder folder;
   const Case c = parse_case(text, "case.toml");
   Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c), make_moving_mesh(c));
-  EXPECT_TRUE(evolution.prepare().ok);
+  EXPECT_TRUE(evolution.prepare().ok());
   Simulation simulation(std::move(evolution), RunDirectory::create(folder / "run", false), c.output,
                         [](Archive&) {});
   const auto in_phases = [&] {
@@ -41,7 +51,8 @@ Spent spent_between_rows(const std::string& text) {
       at_start = in_phases();
     }
     is_first = false;
-    spent = {std::chrono::duration<double>(Clock::now() - start).count(), in_phases() - at_start};
+    spent = {std::chrono::duration<double>(Clock::now() - start).count(), in_phases() - at_start,
+             lines_of(folder / "run/events.csv") - 1};
   });
   Progress progress(0.0, 1.0, true);
   EXPECT_EQ(simulation.run(progress), Outcome::done);
@@ -59,6 +70,23 @@ TEST(Simulation, PhasesHoldAllOfTheTime) {
     const Spent spent = spent_between_rows(drop + more);
     std::printf("%.3f of %.3f s\n", spent.in_phases, spent.wall);
     EXPECT_GT(spent.wall, 0.0);
+    EXPECT_GE(spent.in_phases, 0.97 * spent.wall) << more;
+    EXPECT_LE(spent.in_phases, 1.001 * spent.wall) << more;
+  }
+}
+
+TEST(Simulation, PhasesHoldAllOfTheTimeOfTwoDropsThatMerge) {
+  const std::string drops =
+      "[flow]\nkind = \"planar-extension\"\ncapillary-number = 0.1\n"
+      "[[drop]]\ncenter = [0, 0.83, 0]\nradius = 0.79\nnodes = 80\n"
+      "[[drop]]\ncenter = [0, -0.83, 0]\nradius = 0.79\nnodes = 80\n"
+      "[topology]\ncoalescence-gap = 0.12\n[time]\nend = 0.1\nmax-step = 0.02\n";
+  for (const std::string& more :
+       {std::string(), std::string("[domain]\nshape = \"unbounded\"\n"
+                                   "[solver]\nmethod = \"boundary-integral\"\n")}) {
+    const Spent spent = spent_between_rows(drops + more);
+    std::printf("%.3f of %.3f s\n", spent.in_phases, spent.wall);
+    EXPECT_EQ(spent.events, 1) << more;
     EXPECT_GE(spent.in_phases, 0.97 * spent.wall) << more;
     EXPECT_LE(spent.in_phases, 1.001 * spent.wall) << more;
   }

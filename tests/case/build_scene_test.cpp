@@ -38,7 +38,7 @@ TEST(BuildScene, PutsADropInItsBox) {
   EXPECT_EQ(drop.initial_volume, drop.volume);
   EXPECT_EQ(scene.liquids.size(), 2);
   EXPECT_EQ(scene.liquids[RegionId{1}].viscosity, 0.5);
-  EXPECT_EQ(find_conflict(scene), "");
+  EXPECT_EQ(text_of(find_conflict(scene)), "");
 }
 
 TEST(BuildScene, NoSurfaceTensionAtInfiniteCa) {
@@ -164,7 +164,7 @@ TEST(BuildScene, EllipsoidKeepsItsVolumeAndFollowsTheDensity) {
                              "center = [0.5, 0, 0]\nnodes = 400\n",
                              "case.toml"));
   const Interface& drop = scene.interfaces[0];
-  EXPECT_EQ(find_defect(drop.mesh), "");
+  EXPECT_EQ(text_of(find_defect(drop.mesh)), "");
   // A polyhedron of N vertices lacks 5.4/N to 5.7/N of the volume, under any affine map:
   // the deficit of the one with 1600 that the drop is made from.
   EXPECT_NEAR(drop.volume / (4.0 / 3.0 * kPi), 1.0, 6.0 / 1600.0);
@@ -191,7 +191,8 @@ TEST(BuildScene, CurvedFacesLeaveVerticesOnTheSurfaceFromAFile) {
   const Vec3 axes(4.0, 0.5, 0.5);
   const test::TemporaryFolder folder;
   SurfaceMesh given = stretched_sphere(6000, axes);
-  for (int i = 0; i < 2; ++i) ASSERT_TRUE(remesh(given, {.C0 = 60.0, .restores_volume = false}).ok);
+  for (int i = 0; i < 2; ++i)
+    ASSERT_TRUE(remesh(given, {.C0 = 60.0, .restores_volume = false}).ok());
   folder.write_stl("drop.stl", given);
   const Scene scene =
       build_scene(parse_case("[flow]\nkind = \"quiescent\"\n[[drop]]\nsurface = \"drop.stl\"\n"
@@ -285,7 +286,7 @@ TEST(BuildScene, EveryExampleBuilds) {
     EXPECT_FALSE(c.title.empty());
     const Scene scene = build_scene(c);
     EXPECT_EQ(scene.interfaces.size(), c.drops.size());
-    EXPECT_EQ(find_conflict(scene), "");
+    EXPECT_EQ(text_of(find_conflict(scene)), "");
   }
 }
 

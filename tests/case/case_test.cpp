@@ -76,7 +76,7 @@ TEST(Case, BoundaryIntegralsTakeTheirOptionsAndAnUnboundedScene) {
   EXPECT_TRUE(scene.is_unbounded);
   EXPECT_EQ(scene.boundary.mesh.num_faces(), 0);
   const std::unique_ptr<FlowSolver> flow = make_flow_solver(c);
-  EXPECT_TRUE(flow->solve({scene}, {}).ok);
+  EXPECT_TRUE(flow->solve({scene}, {}).ok());
   EXPECT_FALSE(make_moving_mesh(c));
 }
 

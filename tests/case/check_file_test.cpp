@@ -49,6 +49,13 @@ name = "pinch"
   EXPECT_EQ(quantity.measure, CheckedQuantity::Measure::last);
 }
 
+TEST_F(CheckFileTest, ReadsHowFarVolumesMayBePutRight) {
+  EXPECT_EQ(read("[[run]]\nname = \"a\"\n").runs[0].most_correction, 0.1);
+  EXPECT_EQ(read("[[run]]\nname = \"a\"\nmost-correction = 2.0\n").runs[0].most_correction, 2.0);
+  EXPECT_THAT(refusal("[[run]]\nname = \"a\"\nmost-correction = 0.0\n"),
+              HasSubstr("most-correction: must be positive"));
+}
+
 TEST_F(CheckFileTest, ReadsRunsQuantitiesAndExtrapolations) {
   const CheckFile check = read(R"(
 [[run]]

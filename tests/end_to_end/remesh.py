@@ -297,6 +297,9 @@ def garbage():
     yield "cut-short.stl", binary[:-70], ["cut short"]
     yield "cut-short.off", text[:len(text) // 2].encode(), ["cut-short.off"]
     yield "claims-too-much.stl", binary[:80] + b"\xff\xff\xff\xff" + binary[84:], ["claims"]
+    for far, words in ((1e308, ["too large", "point 0"]), (1e50, ["too thin"]), (1.0, ["too thin"])):
+        needle = [(far, 0, 0), *[tuple(1e-9 * c for c in p) for p in sphere(0)[0][1:]]]
+        yield f"needle-{far:g}.off", off((needle, sphere(0)[1])), words
     yield "missing-point.off", text.replace(f"3 {faces[0][0]} ", "3 9999 ", 1).encode(), ["9999"]
     yield "quads.off", b"OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", ["quads.off"]
     yield "in-fact-off.ply", text.encode(), ["in-fact-off.ply"]

@@ -31,7 +31,7 @@ Scene sheared_ellipsoid(int N0, int sample) {
   drop.inside = RegionId{1};
   drop.outside = RegionId{0};
   drop.tension = 1.0 / scene.Ca;
-  EXPECT_TRUE(remesh(drop.mesh, {.C0 = drop.C0}).ok);
+  EXPECT_TRUE(remesh(drop.mesh, {.C0 = drop.C0}).ok());
   scene.interfaces.push_back(std::move(drop));
   scene.boundary.mesh = sphere(2 * N0, 3.0);
   scene.boundary.patch = FaceField<PatchId>(scene.boundary.mesh.num_faces(), PatchId{0});

@@ -44,12 +44,12 @@ Run make_run(Scene scene, const EvolutionOptions& options, PrescribedFlow::Veloc
 Vec3 stretching(const Vec3& x, double) { return ImposedFlow::uniaxial_extension() * x; }
 
 void run_to_end(Evolution& evolution) {
-  ASSERT_TRUE(evolution.prepare().ok);
+  ASSERT_TRUE(evolution.prepare().ok());
   while (true) {
-    ASSERT_TRUE(evolution.solve().ok);
+    ASSERT_TRUE(evolution.solve().ok());
     if (evolution.is_finished()) return;
-    const EvolutionReport advanced = evolution.advance();
-    ASSERT_TRUE(advanced.ok) << advanced.failure;
+    const Report advanced = evolution.advance();
+    ASSERT_TRUE(advanced.ok()) << advanced.text();
   }
 }
 
@@ -86,7 +86,38 @@ TEST(Evolution, MidpointRuleIsSecondAndEulerFirstOrderInTime) {
   }
 }
 
-TEST(Evolution, DropFollowsTheExactMapWithItsVolumeKept) {
+/// Σ of the shifts that keep the volume of a drop that stretches to t = 0.4 and is never remeshed.
+double sum_of_shifts(TimeScheme scheme, double dt) {
+  EvolutionOptions options;
+  options.scheme = scheme;
+  options.end = 0.4 - 1e-9;
+  options.max_step = dt;
+  options.step_factor = 1e3;
+  options.remesh_every = 1000000;
+  auto run = make_run(one_drop(110), options, stretching);
+  double sum = 0.0;
+  EXPECT_TRUE(run.evolution.prepare().ok());
+  while (!run.evolution.is_finished()) {
+    EXPECT_TRUE(run.evolution.solve().ok());
+    EXPECT_TRUE(run.evolution.advance().ok());
+    sum += run.evolution.state().volume_shift.at(0);
+  }
+  return sum;
+}
+
+// The rate of change of the volume is zero to round-off, as the area vectors are its gradient: what
+// the steps of a scheme of order p leave of it is O(dt^p).
+TEST(Evolution, VolumeCorrectionsAreOfTheOrderOfTheScheme) {
+  for (const auto& [scheme, order] :
+       {std::pair(TimeScheme::rk2, 2.0), std::pair(TimeScheme::euler, 1.0)}) {
+    const double coarse = sum_of_shifts(scheme, 0.05), middle = sum_of_shifts(scheme, 0.025),
+                 fine = sum_of_shifts(scheme, 0.0125);
+    EXPECT_NEAR(std::log2(coarse / middle), order, 0.2);
+    EXPECT_NEAR(std::log2(middle / fine), order, 0.2);
+  }
+}
+
+TEST(Evolution, DropFollowsTheExactMap) {
   EvolutionOptions options;
   options.end = 0.5;
   auto run = make_run(one_drop(600), options, stretching);
@@ -95,7 +126,6 @@ TEST(Evolution, DropFollowsTheExactMapWithItsVolumeKept) {
   // Under v = E·x a sphere becomes the ellipsoid of semi-axes exp(t), exp(−t/2); h² ~ 0.025 here.
   EXPECT_NEAR(row.shape.L / std::exp(run.evolution.t()), 1.0, 5e-3);
   EXPECT_NEAR(row.shape.B / std::exp(-0.5 * run.evolution.t()), 1.0, 5e-3);
-  EXPECT_LT(std::abs(row.volume_drift), 1e-12);
 }
 
 TEST(Evolution, StepLengthObeysTheEdgeTensionAndBounds) {
@@ -105,10 +135,10 @@ TEST(Evolution, StepLengthObeysTheEdgeTensionAndBounds) {
     options.remesh_every = 1000000;
     auto run = make_run(one_drop(110, tension), options,
                         [](const Vec3&, double) { return Vec3(Vec3::Zero()); });
-    ASSERT_TRUE(run.evolution.prepare().ok);
+    ASSERT_TRUE(run.evolution.prepare().ok());
     const double edge = shortest_edge(run.evolution.scene().interfaces[0].mesh);
-    ASSERT_TRUE(run.evolution.solve().ok);
-    ASSERT_TRUE(run.evolution.advance().ok);
+    ASSERT_TRUE(run.evolution.solve().ok());
+    ASSERT_TRUE(run.evolution.advance().ok());
     EXPECT_NEAR(run.evolution.t(), 0.5 * std::min(1.0, 1.0 / std::max(tension, 1e-300)) * edge,
                 1e-12);
   }
@@ -118,7 +148,7 @@ TEST(Evolution, StepLengthStaysBelowItsUpperBound) {
   EvolutionOptions options;
   options.max_step = 1e-3;
   auto run = make_run(one_drop(110, 0.5), options, stretching);
-  ASSERT_TRUE(run.evolution.prepare().ok);
+  ASSERT_TRUE(run.evolution.prepare().ok());
   EXPECT_EQ(run.evolution.step_length(), 1e-3);
 }
 
@@ -128,12 +158,11 @@ TEST(Evolution, StepShorterThanItsLowerBoundIsNotTaken) {
   options.min_step = 10.0;
   options.max_step = 20.0;
   auto run = make_run(one_drop(110, 0.5), options, stretching);
-  ASSERT_TRUE(run.evolution.prepare().ok);
-  ASSERT_TRUE(run.evolution.solve().ok);
-  const EvolutionReport report = run.evolution.advance();
-  EXPECT_FALSE(report.ok);
-  EXPECT_NE(report.failure.find("edges ask for a shorter one"), std::string::npos)
-      << report.failure;
+  ASSERT_TRUE(run.evolution.prepare().ok());
+  ASSERT_TRUE(run.evolution.solve().ok());
+  const Report report = run.evolution.advance();
+  EXPECT_FALSE(report.ok());
+  EXPECT_NE(report.text().find("edges ask for a shorter one"), std::string::npos) << report.text();
   EXPECT_EQ(run.evolution.t(), 0.0);
 }
 
@@ -144,17 +173,27 @@ TEST(Evolution, FailedStepIsUndoneAndHalved) {
   options.step_factor = 1e3;
   options.remesh_every = 1000000;
   auto run = make_run(one_drop(110), options, stretching);
-  ASSERT_TRUE(run.evolution.prepare().ok);
-  ASSERT_TRUE(run.evolution.solve().ok);
+  ASSERT_TRUE(run.evolution.prepare().ok());
+  ASSERT_TRUE(run.evolution.solve().ok());
   run.flow->longest_step = 0.03;
-  ASSERT_TRUE(run.evolution.advance().ok);
+  ASSERT_TRUE(run.evolution.advance().ok());
   EXPECT_NEAR(run.evolution.t(), 0.02, 1e-15);
-  EXPECT_EQ(run.evolution.warnings().size(), 2u);
+  EXPECT_EQ(run.evolution.notices().size(), 2u);
   log::set_level(log::Level::warning);
 }
 
+/// Steps that were refused for a reason which has `part` in its words.
+int count_refusals(const Evolution& evolution, const std::string& part) {
+  int count = 0;
+  for (const Notice& notice : evolution.notices())
+    if (const auto* step = std::get_if<RefusedStep>(&notice.what))
+      count += step->why.find(part) != std::string::npos ? 1 : 0;
+  return count;
+}
+
 // Euler's step scales this drop by 1 − 100 dt: it is turned inside out by one of 0.08, and the
-// volume is above half of what it was from (1/8)·0.01 on.
+// volume is above half of what it was from (1/8)·0.01 on. Then restoring the volume takes a shift
+// of about 100 dt, which is less than 0.01 of an edge of 0.36 from 2^−12·0.08 on.
 TEST(Evolution, AStepThatDoesNotKeepTheVolumeIsHalved) {
   log::set_level(log::Level::off);
   EvolutionOptions options;
@@ -163,11 +202,78 @@ TEST(Evolution, AStepThatDoesNotKeepTheVolumeIsHalved) {
   options.scheme = TimeScheme::euler;
   auto run =
       make_run(one_drop(110), options, [](const Vec3& x, double) { return Vec3(-100.0 * x); });
-  ASSERT_TRUE(run.evolution.prepare().ok);
-  ASSERT_TRUE(run.evolution.solve().ok);
-  ASSERT_TRUE(run.evolution.advance().ok);
-  EXPECT_NEAR(run.evolution.t(), 0.00125, 1e-15);
-  EXPECT_EQ(run.evolution.warnings().size(), 6u);
+  ASSERT_TRUE(run.evolution.prepare().ok());
+  ASSERT_TRUE(run.evolution.solve().ok());
+  ASSERT_TRUE(run.evolution.advance().ok());
+  EXPECT_EQ(count_refusals(run.evolution, "times its volume"), 6);
+  EXPECT_EQ(count_refusals(run.evolution, "restoring the volume"), 6);
+  EXPECT_NEAR(run.evolution.t(), 0.08 / 4096.0, 1e-15);
+  log::set_level(log::Level::warning);
+}
+
+template <class What>
+int count_of(const Evolution& evolution) {
+  int count = 0;
+  for (const Notice& notice : evolution.notices())
+    count += std::holds_alternative<What>(notice.what) ? 1 : 0;
+  return count;
+}
+
+// Euler's step stretches the drop to (1 + dt)(1 − dt/2)² of its volume. Making up for the lack of
+// 3/4 dt² moves the surface by dt²/4, 0.028 of an edge of 0.36 for dt = 0.2, 0.007 for half of it.
+TEST(Evolution, AStepIsHalvedWhenItsVolumeIsRestoredByALargeShift) {
+  log::set_level(log::Level::off);
+  EvolutionOptions options;
+  options.scheme = TimeScheme::euler;
+  options.max_step = 0.2;
+  options.step_factor = 1e3;
+  options.remesh_every = 1000000;
+  auto run = make_run(one_drop(110), options, stretching);
+  ASSERT_TRUE(run.evolution.prepare().ok());
+  ASSERT_TRUE(run.evolution.solve().ok());
+  ASSERT_TRUE(run.evolution.advance().ok());
+  EXPECT_NEAR(run.evolution.t(), 0.1, 1e-15);
+  EXPECT_EQ(count_of<RefusedStep>(run.evolution), 1);
+  EXPECT_LT(run.evolution.state().shift_over_edge, kMostShiftOverEdge);
+  log::set_level(log::Level::warning);
+}
+
+// The midpoint rule moves every vertex of this drop by 0.03 dt/(2 t + dt) of its radius, which is
+// 0.03 in the first step, whatever its length: it is halved once, and told of once. Later steps
+// move less, until none needs to be tolerated.
+TEST(Evolution, AShiftThatAShorterStepDoesNotLowerIsToldOfOnceAndAccepted) {
+  log::set_level(log::Level::off);
+  EvolutionOptions options;
+  options.end = 1.0;
+  options.max_step = 0.08;
+  options.step_factor = 1e3;
+  options.remesh_every = 1000000;
+  auto run = make_run(one_drop(110), options, [](const Vec3& x, double t) {
+    return t > 0.0 ? Vec3(0.015 / t * x) : Vec3(Vec3::Zero());
+  });
+  ASSERT_TRUE(run.evolution.prepare().ok());
+  ASSERT_TRUE(run.evolution.solve().ok());
+  ASSERT_TRUE(run.evolution.advance().ok());
+  EXPECT_NEAR(run.evolution.t(), 0.04, 1e-15);
+  EXPECT_TRUE(run.evolution.state().tolerates_shift);
+  ASSERT_TRUE(run.evolution.solve().ok());
+  ASSERT_TRUE(run.evolution.advance().ok());
+  EXPECT_NEAR(run.evolution.t(), 0.12, 1e-15);
+  EXPECT_GT(run.evolution.state().shift_over_edge, kMostShiftOverEdge);
+
+  Archive archive;
+  run.evolution.save(archive);
+  auto again = make_run(one_drop(42, 3.0), options, stretching);
+  again.evolution.load(archive);
+  EXPECT_TRUE(again.evolution.state().tolerates_shift);
+
+  while (!run.evolution.is_finished()) {
+    ASSERT_TRUE(run.evolution.solve().ok());
+    ASSERT_TRUE(run.evolution.advance().ok());
+  }
+  EXPECT_EQ(count_of<RefusedStep>(run.evolution), 1);
+  EXPECT_EQ(count_of<LargeVolumeShift>(run.evolution), 1);
+  EXPECT_FALSE(run.evolution.state().tolerates_shift);
   log::set_level(log::Level::warning);
 }
 
@@ -176,17 +282,17 @@ TEST(Evolution, GivesUpBelowTheSmallestStepWithTheStateAsItWas) {
   EvolutionOptions options;
   options.min_step = 1e-3;
   auto run = make_run(one_drop(110), options, stretching);
-  ASSERT_TRUE(run.evolution.prepare().ok);
-  ASSERT_TRUE(run.evolution.solve().ok);
+  ASSERT_TRUE(run.evolution.prepare().ok());
+  ASSERT_TRUE(run.evolution.solve().ok());
   const SurfaceMesh before = run.evolution.scene().interfaces[0].mesh;
   run.flow->longest_step = 0.0;
-  const EvolutionReport report = run.evolution.advance();
-  EXPECT_FALSE(report.ok);
-  EXPECT_NE(report.failure.find("moved too far"), std::string::npos) << report.failure;
+  const Report report = run.evolution.advance();
+  EXPECT_FALSE(report.ok());
+  EXPECT_NE(report.text().find("moved too far"), std::string::npos) << report.text();
   EXPECT_EQ(run.evolution.scene().interfaces[0].mesh, before);
   EXPECT_EQ(run.evolution.step(), 0);
   run.flow->is_broken = true;
-  EXPECT_FALSE(run.evolution.solve().ok);
+  EXPECT_FALSE(run.evolution.solve().ok());
   log::set_level(log::Level::warning);
 }
 
@@ -197,18 +303,18 @@ TEST(Evolution, SavedStateGoesOnToTheSameBits) {
   run_to_end(whole.evolution);
 
   auto first = make_run(one_drop(110, 1.0), options, stretching);
-  ASSERT_TRUE(first.evolution.prepare().ok);
+  ASSERT_TRUE(first.evolution.prepare().ok());
   for (int k = 0; k < 2; ++k) {
-    ASSERT_TRUE(first.evolution.solve().ok);
-    ASSERT_TRUE(first.evolution.advance().ok);
+    ASSERT_TRUE(first.evolution.solve().ok());
+    ASSERT_TRUE(first.evolution.advance().ok());
   }
   Archive archive;
   first.evolution.save(archive);
   auto second = make_run(one_drop(42, 3.0), options, stretching);
   second.evolution.load(archive);
   while (!second.evolution.is_finished()) {
-    ASSERT_TRUE(second.evolution.solve().ok);
-    ASSERT_TRUE(second.evolution.advance().ok);
+    ASSERT_TRUE(second.evolution.solve().ok());
+    ASSERT_TRUE(second.evolution.advance().ok());
   }
   EXPECT_EQ(second.evolution.step(), whole.evolution.step());
   EXPECT_EQ(second.evolution.t(), whole.evolution.t());
@@ -277,8 +383,8 @@ TEST(Evolution, GoesOnHoldingTheDropsWhereTheyWere) {
   auto again = make_run(scene, options, stretching);
   again.evolution.load(archive);
   for (Evolution* each : {&run.evolution, &again.evolution}) {
-    ASSERT_TRUE(each->solve().ok);
-    ASSERT_TRUE(each->advance().ok);
+    ASSERT_TRUE(each->solve().ok());
+    ASSERT_TRUE(each->advance().ok());
   }
   const VertexField<Vec3>&x = run.evolution.scene().interfaces[0].mesh.x,
         &y = again.evolution.scene().interfaces[0].mesh.x;

@@ -39,10 +39,10 @@ Scene remeshed(double gap_layers, int steps) {
   Evolution evolution(
       near_pair(), options,
       std::make_unique<PrescribedFlow>([](const Vec3&, double) { return Vec3(Vec3::Zero()); }));
-  EXPECT_TRUE(evolution.prepare().ok);
+  EXPECT_TRUE(evolution.prepare().ok());
   for (int step = 0; step < steps; ++step) {
-    EXPECT_TRUE(evolution.solve().ok);
-    EXPECT_TRUE(evolution.advance().ok);
+    EXPECT_TRUE(evolution.solve().ok());
+    EXPECT_TRUE(evolution.advance().ok());
   }
   return evolution.scene();
 }

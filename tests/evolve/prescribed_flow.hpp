@@ -14,9 +14,11 @@ class PrescribedFlow final : public FlowSolver {
 
   FlowSolution solve(const FlowDomain& domain, const Instant& instant) override {
     ++solves;
-    if (is_broken) return failed_flow("broken");
-    if (instant.dt > longest_step) return failed_flow("moved too far");
-    FlowSolution solution{.iterations = 1, .power = Power{}};
+    if (is_broken) return failed_flow({FaultKind::no_flow, "broken"});
+    if (instant.dt > longest_step) return failed_flow({FaultKind::no_flow, "moved too far"});
+    FlowSolution solution;
+    solution.iterations = 1;
+    solution.power = Power{};
     for (const Interface& interface : domain.scene.interfaces) {
       VertexField<Vec3> v(interface.mesh.num_vertices());
       for (const VertexId i : v.ids()) v[i] = prescribed_(interface.mesh.x[i], instant.t);

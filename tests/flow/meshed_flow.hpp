@@ -17,8 +17,9 @@ class MeshedFlow {
   /// Makes the tetrahedra of a scene, of another connectivity than all before.
   void follow(const Scene& scene) {
     const MeshChange change = mesh.follow(scene);
-    ASSERT_TRUE(change.ok) << change.failure;
+    ASSERT_TRUE(change.ok()) << change.text();
     ++connectivity;
+    solver->follow(change, domain(scene));
   }
   [[nodiscard]] FlowDomain domain(const Scene& scene) const {
     return {scene, &mesh.tetrahedra(), connectivity};
@@ -51,7 +52,7 @@ class MeshedFlow {
   MeshedFlow flow(options, mesh_options);
   flow.follow(scene);
   FlowSolution solution = flow.solve(scene);
-  EXPECT_TRUE(solution.ok) << solution.failure;
+  EXPECT_TRUE(solution.ok()) << solution.text();
   return solution;
 }
 

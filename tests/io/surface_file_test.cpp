@@ -259,7 +259,7 @@ TEST(SurfaceFile, BinaryRubbishIsShownOnOneLine) {
 TEST(SurfaceFile, AnyDamageIsReadOrRefused) {
   const test::TemporaryFolder folder;
   std::mt19937 random(11);
-  for (const char* name : {"s.stl", "s.ply", "s.obj", "s.off"}) {
+  for (const char* name : {"s.stl", "s.ply", "s.obj", "s.off", "s.vtp"}) {
     write_surface(folder / name, sphere(20));
     const std::string whole = get(folder / name);
     int num_refused = 0;

@@ -17,21 +17,24 @@ USES = {
     "io": ["core", "geometry", "mesh"],
     "scene": ["core", "geometry", "mesh"],
     "surface": ["core", "geometry", "mesh", "scene"],
-    "topology": ["core", "geometry", "mesh", "scene", "surface"],
-    "volume": ["core", "geometry", "mesh", "scene", "surface"],
+    "surface/repair": ["core", "geometry", "mesh", "scene", "surface"],
+    "solids": ["core", "geometry", "mesh", "scene", "surface", "surface/repair"],
+    "topology": ["core", "geometry", "mesh", "scene", "surface", "surface/repair"],
+    "volume": ["core", "geometry", "mesh", "linear", "scene", "surface"],
     "flow": ["core", "geometry", "mesh", "scene", "volume"],
     "flow/fem": ["core", "geometry", "mesh", "linear", "scene", "surface", "volume", "flow"],
     "flow/bem": ["core", "geometry", "mesh", "linear", "scene", "surface", "flow"],
-    "evolve": ["core", "geometry", "mesh", "scene", "surface", "topology", "volume", "flow"],
-    "case": ["core", "geometry", "mesh", "io", "scene", "surface", "topology", "volume", "flow",
-             "flow/fem", "flow/bem", "evolve"],
+    "evolve": ["core", "geometry", "mesh", "scene", "surface", "surface/repair", "topology",
+               "volume", "flow"],
+    "case": ["core", "geometry", "mesh", "io", "scene", "surface", "surface/repair", "topology",
+             "volume", "flow", "flow/fem", "flow/bem", "evolve"],
     "report": ["core", "geometry", "mesh", "io"],
-    "app": ["core", "geometry", "mesh", "linear", "io", "scene", "surface", "topology", "volume",
-            "flow", "flow/fem", "flow/bem", "evolve", "case", "report"],
+    "app": ["core", "geometry", "mesh", "linear", "io", "scene", "surface", "surface/repair", "solids",
+            "topology", "volume", "flow", "flow/fem", "flow/bem", "evolve", "case", "report"],
 }
 
 # Single headers that are closed to a room which may use the rest of their room.
-CLOSED = {"surface": ["mesh/tet_mesh.hpp"]}
+CLOSED = {room: ["mesh/tet_mesh.hpp"] for room in ("surface", "surface/repair", "solids")}
 
 # Outside libraries that only some rooms may name.
 LIBRARIES = [
@@ -39,7 +42,8 @@ LIBRARIES = [
     ("VTK", re.compile(r"vtk"), ["io"]),
     ("HDF5", re.compile(r"hdf5|H5"), ["io"]),
     ("TetGen", re.compile(r"tetgen"), ["volume"]),
-    ("CGAL", re.compile(r"CGAL/"), ["geometry", "mesh", "surface", "topology", "volume"]),
+    ("CGAL", re.compile(r"CGAL/"), ["geometry", "mesh", "surface", "surface/repair", "topology",
+                                      "volume"]),
     ("toml++", re.compile(r"toml"), ["case"]),
     ("CLI11", re.compile(r"CLI/"), ["app"]),
     ("libmicrohttpd", re.compile(r"microhttpd"), ["app"]),

@@ -18,14 +18,14 @@ Lattice sampled(int points, const F& f) {
   Lattice lattice{Vec3::Constant(-1.5), 3.0 / (points - 1), {points, points, points}, {}};
   for (int k = 0; k < points; ++k)
     for (int j = 0; j < points; ++j)
-      for (int i = 0; i < points; ++i) lattice.values.push_back(f(lattice.place(i, j, k)));
+      for (int i = 0; i < points; ++i) lattice.values.push_back(f(lattice.position(i, j, k)));
   return lattice;
 }
 
 TEST(Contour, OfTheDistanceFromAPointIsASphere) {
   const Lattice lattice = sampled(31, [](const Vec3& x) { return x.norm(); });
   const SurfaceMesh surface = contour(lattice, 1.0);
-  EXPECT_EQ(find_defect(surface), "");
+  EXPECT_EQ(text_of(find_defect(surface)), "");
   EXPECT_EQ(surface.num_vertices() - surface.num_faces() / 2, 2);
   // Chords lie h²/8R below, vertices within 0.05 of the longest lattice edge √3 h.
   const double h = lattice.spacing, off = 3.0 * h * h / 8.0 + 0.05 * std::sqrt(3.0) * h;
@@ -36,13 +36,13 @@ TEST(Contour, OfTheDistanceFromAPointIsASphere) {
 TEST(Contour, OfPiecesAndHolesIsSoundWhereItPassesThroughLatticePoints) {
   // Levels that many lattice points have: |x|₁ and the rings of a torus of square section.
   const Lattice octahedron = sampled(13, [](const Vec3& x) { return x.lpNorm<1>(); });
-  EXPECT_EQ(find_defect(contour(octahedron, 1.0)), "");
+  EXPECT_EQ(text_of(find_defect(contour(octahedron, 1.0))), "");
   const Lattice ring = sampled(13, [](const Vec3& x) {
     const double out = std::abs(x.head<2>().lpNorm<Eigen::Infinity>() - 0.75);
     return std::max(out, std::abs(x.z()));
   });
   const SurfaceMesh torus = contour(ring, 0.5);
-  EXPECT_EQ(find_defect(torus), "");
+  EXPECT_EQ(text_of(find_defect(torus)), "");
   EXPECT_EQ(torus.num_vertices() - torus.num_faces() / 2, 0);
   const Lattice two = sampled(31, [](const Vec3& x) {
     return std::min((x - Vec3(0.7, 0, 0)).norm(), (x + Vec3(0.7, 0, 0)).norm());

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/cgal_surface.hpp"
 #include "meniscus/mesh/shapes.hpp"
 
@@ -15,7 +16,7 @@ namespace meniscus {
 namespace {
 
 void expect_defect(const SurfaceMesh& mesh, const std::string& word) {
-  const std::string defect = find_defect(mesh);
+  const std::string defect = text_of(find_defect(mesh));
   EXPECT_NE(defect.find(word), std::string::npos) << "found: '" << defect << "'";
 }
 
@@ -25,17 +26,17 @@ SurfaceMesh translated(SurfaceMesh mesh, const Vec3& by) {
 }
 
 TEST(FindDefect, PassesSoundSurfaces) {
-  EXPECT_EQ(find_defect(sphere(12)), "");
-  EXPECT_EQ(find_defect(stretched_sphere(500, Vec3(4.0, 0.3, 0.3))), "");
-  EXPECT_EQ(find_defect(box(150, Vec3(1.0, 2.0, 3.0)).mesh), "");
-  EXPECT_EQ(find_defect(cylinder(300, 1.0, 3.0).mesh), "");
+  EXPECT_EQ(text_of(find_defect(sphere(12))), "");
+  EXPECT_EQ(text_of(find_defect(stretched_sphere(500, Vec3(4.0, 0.3, 0.3)))), "");
+  EXPECT_EQ(text_of(find_defect(box(150, Vec3(1.0, 2.0, 3.0)).mesh)), "");
+  EXPECT_EQ(text_of(find_defect(cylinder(300, 1.0, 3.0).mesh)), "");
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(0.85, 1.15);
     SurfaceMesh bumpy = sphere(200, 1.0, Vec3(3.0, 1.0, -2.0));
     for (Vec3& x : bumpy.x)  // radial, so that it stays star-shaped
       x = Vec3(3.0, 1.0, -2.0) + uniform(random) * (x - Vec3(3.0, 1.0, -2.0));
-    EXPECT_EQ(find_defect(bumpy), "") << "seed " << seed;
+    EXPECT_EQ(text_of(find_defect(bumpy)), "") << "seed " << seed;
   }
 }
 
@@ -53,8 +54,8 @@ TEST(FindDefect, NamesWhatIsWrong) {
   SurfaceMesh not_finite = sphere(42);
   not_finite.x[VertexId{7}].y() = std::numeric_limits<double>::quiet_NaN();
   expect_defect(not_finite, "vertex 7 is not finite");
-  EXPECT_NE(find_self_intersection(not_finite), "");
-  EXPECT_NE(find_intersection(not_finite, sphere(42)), "");
+  EXPECT_NE(text_of(find_self_intersection(not_finite)), "");
+  EXPECT_NE(text_of(find_intersection(not_finite, sphere(42))), "");
   SurfaceMesh out_of_range = sphere(42);
   out_of_range.faces[FaceId{3}][1] = VertexId{42};
   expect_defect(out_of_range, "missing vertex");
@@ -82,13 +83,27 @@ TEST(FindDefect, NamesASecondPiece) {
   expect_defect(together(one, cavity), "more than one piece");
 }
 
+TEST(FindDefect, TellsTheKindAndThePosition) {
+  SurfaceMesh open = sphere(42, 1.0, Vec3(3, 0, 0));
+  open.faces.resize(open.num_faces() - 1);
+  const auto fault = find_defect(open);
+  ASSERT_TRUE(fault && fault->position);
+  EXPECT_EQ(fault->kind, FaultKind::connectivity);
+  EXPECT_NEAR((*fault->position - Vec3(3, 0, 0)).norm(), 1.0, 0.2);  // an edge near the sphere
+  EXPECT_NE(fault->text.find(text_of(*fault->position)), std::string::npos) << fault->text;
+  const auto built = SurfaceTopology::try_build(open);
+  ASSERT_TRUE(std::holds_alternative<Fault>(built));
+  EXPECT_EQ(std::get<Fault>(built).text, fault->text);
+  EXPECT_THROW(SurfaceTopology{open}, InvalidInput);
+}
+
 TEST(FindDefect, NotFiniteComesBeforeNotClosed) {
   for (const double value :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     SurfaceMesh open = sphere(42);
     open.faces.resize(open.num_faces() - 1);
     open.x[VertexId{12}].z() = value;
-    EXPECT_EQ(find_defect(open), "vertex 12 is not finite");
+    EXPECT_EQ(text_of(find_defect(open)), "vertex 12 is not finite");
   }
 }
 
@@ -120,7 +135,7 @@ TEST(SelfIntersection, IsFoundWithItsPlace) {
   SurfaceMesh pierced = sphere(200);
   const Vec3 out = pierced.x[VertexId{30}];
   pierced.x[VertexId{30}] = -1.3 * out;
-  EXPECT_NE(find_self_intersection(pierced).find("meets itself"), std::string::npos);
+  EXPECT_NE(text_of(find_self_intersection(pierced)).find("meets itself"), std::string::npos);
   // Two faces folded on one another across an edge: a valence-3 vertex moved over its edge, in the
   // plane of a face of the box.
   SurfaceMesh folded = box(8, Vec3::Constant(1.0)).mesh;
@@ -130,11 +145,11 @@ TEST(SelfIntersection, IsFoundWithItsPlace) {
   folded.faces[FaceId{0}] = {f[0], f[1], middle};
   folded.faces.add({f[1], f[2], middle});
   folded.faces.add({f[2], f[0], middle});
-  EXPECT_EQ(find_self_intersection(folded), "");
+  EXPECT_EQ(text_of(find_self_intersection(folded)), "");
   folded.x[middle] += 0.9 * (0.5 * (a + b) - folded.x[middle]);
-  EXPECT_EQ(find_self_intersection(folded), "");
+  EXPECT_EQ(text_of(find_self_intersection(folded)), "");
   folded.x[middle] = 0.5 * (a + b) + 0.2 * (0.5 * (a + b) - c);
-  EXPECT_NE(find_self_intersection(folded), "");
+  EXPECT_NE(text_of(find_self_intersection(folded)), "");
 }
 
 // From surfaces as good as even to crumpled ones, every second of which meets itself, most of them
@@ -148,7 +163,7 @@ TEST(SelfIntersection, IsFoundWhereCgalFindsIt) {
     SurfaceMesh mesh = stretched_sphere(120, Vec3(1.5, 1.0, 0.6));
     for (Vec3& x : mesh.x) x += Vec3(noise(random), noise(random), noise(random));
     const bool meets = CGAL::Polygon_mesh_processing::does_self_intersect(to_cgal(mesh));
-    EXPECT_EQ(!find_self_intersection(mesh).empty(), meets) << "seed " << seed;
+    EXPECT_EQ(find_self_intersection(mesh).has_value(), meets) << "seed " << seed;
     num_meeting += static_cast<int>(meets);
   }
   EXPECT_GT(num_meeting, 60);
@@ -165,17 +180,17 @@ TEST(SelfIntersection, SeesSheetsThatJustTouch) {
                                                         mesh.x[top].head<2>().squaredNorm()))
       top = v;
   mesh.x[top].z() = -std::nextafter(1.0, 0.0);
-  EXPECT_EQ(find_self_intersection(mesh), "");
+  EXPECT_EQ(text_of(find_self_intersection(mesh)), "");
   mesh.x[top].z() = -1.0;
-  const std::string found = find_self_intersection(mesh);
+  const std::string found = text_of(find_self_intersection(mesh));
   EXPECT_NE(found.find("-1)"), std::string::npos) << found;
 }
 
 TEST(Intersection, IsFoundBetweenSurfaces) {
   const SurfaceMesh a = sphere(200), b = sphere(150, 0.7);
-  EXPECT_EQ(find_intersection(a, translated(b, Vec3(1.8, 0, 0))), "");
-  EXPECT_EQ(find_intersection(a, translated(b, Vec3(0.1, 0, 0))), "");  // nested
-  const std::string found = find_intersection(a, translated(b, Vec3(0, 1.5, 0)));
+  EXPECT_EQ(text_of(find_intersection(a, translated(b, Vec3(1.8, 0, 0)))), "");
+  EXPECT_EQ(text_of(find_intersection(a, translated(b, Vec3(0.1, 0, 0)))), "");  // nested
+  const std::string found = text_of(find_intersection(a, translated(b, Vec3(0, 1.5, 0))));
   EXPECT_NE(found.find("near ("), std::string::npos) << found;
   double x = 0, y = 0, z = 0;
   ASSERT_EQ(std::sscanf(found.c_str(), "surfaces meet near (%lf, %lf, %lf)", &x, &y, &z), 3);

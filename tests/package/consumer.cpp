@@ -1,10 +1,16 @@
 // A drop in a ball, from outside the tree: its volume, its tetrahedra, the flow around it.
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <numbers>
+
+#include <dlfcn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "meniscus/core/version.hpp"
 #include "meniscus/flow/fem/finite_element_flow.hpp"
@@ -12,6 +18,9 @@
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/scene/scene.hpp"
 #include "meniscus/volume/tetrahedralize.hpp"
+
+#undef NDEBUG  // an assertion below is meant to fail
+#include <cassert>
 
 namespace {
 
@@ -54,21 +63,21 @@ bool volume_is_right(const Scene& scene) {
 bool mesh_conforms(const Scene& scene) {
   TetMesh mesh;
   const VolumeMeshReport report = tetrahedralize(scene, {}, mesh);
-  if (!report.ok) std::fprintf(stderr, "%s\n", report.failure.c_str());
+  if (!report.ok()) std::fprintf(stderr, "%s\n", report.text().c_str());
   double inside = 0.0;
   for (const CellId c : mesh.cells.ids())
     if (mesh.region[c] == RegionId{1}) inside += signed_volume(mesh, c);
   std::printf("volume of its tetrahedra: %.6f\n", inside);
   // Equal up to round-off of some 1e3 terms.
-  return report.ok && std::abs(inside - scene.interfaces[0].volume) < 1e-11;
+  return report.ok() && std::abs(inside - scene.interfaces[0].volume) < 1e-11;
 }
 
 bool flow_is_right(const Scene& scene) {
   MovingMesh mesh{MovingMeshOptions{}};
-  if (!mesh.follow(scene).ok) return false;
+  if (!mesh.follow(scene).ok()) return false;
   const std::unique_ptr<FlowSolver> solver = fem::make_finite_element_flow({});
   const FlowSolution flow = solver->solve({.scene = scene, .mesh = &mesh.tetrahedra()}, {});
-  if (!flow.ok) return false;
+  if (!flow.ok()) return false;
   // On a sphere n·v = c n·E·n; c by least squares over the vertices.
   double product = 0.0, square = 0.0;
   for (const VertexId v : scene.interfaces[0].mesh.x.ids()) {
@@ -84,10 +93,32 @@ bool flow_is_right(const Scene& scene) {
   return std::abs(product / square - kExact) < 0.2 * kExact;
 }
 
+/// Whether an assertion that fails still ends the program, in the C library's own way: the library
+/// that is linked must not put itself in between.
+bool assertions_are_untouched() {
+  Dl_info where{};
+  void* fail = dlsym(RTLD_DEFAULT, "__assert_fail");
+  if (fail == nullptr || dladdr(fail, &where) == 0) return false;
+  std::printf("assertions fail in %s\n", where.dli_fname);
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child == 0) {
+    assert(child != 0);  // fails
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return std::strstr(where.dli_fname, "libc.so") != nullptr && WIFSIGNALED(status) &&
+         WTERMSIG(status) == SIGABRT;
+}
+
 }  // namespace
 
 int main() {
   std::printf("meniscus %s\n", version_string.data());
   const Scene scene = drop_in_a_ball();
-  return volume_is_right(scene) && mesh_conforms(scene) && flow_is_right(scene) ? 0 : 1;
+  return volume_is_right(scene) && mesh_conforms(scene) && flow_is_right(scene) &&
+                 assertions_are_untouched()
+             ? 0
+             : 1;
 }

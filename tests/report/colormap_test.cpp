@@ -32,9 +32,9 @@ TEST(Colormap, GrowsLighter) {
 }
 
 TEST(Colormap, ShadesStayColours) {
-  EXPECT_EQ(hex(scaled({0.5, 1.0, 0.0}, 2.0)), "#ffff00");
-  EXPECT_EQ(hex(scaled({0.5, 1.0, 0.0}, 0.0)), "#000000");
-  EXPECT_EQ(hex(whitened({0.0, 0.5, 1.0}, 1.0)), "#ffffff");
+  EXPECT_EQ(hex(shade({0.5, 1.0, 0.0}, 2.0)), "#ffff00");
+  EXPECT_EQ(hex(shade({0.5, 1.0, 0.0}, 0.0)), "#000000");
+  EXPECT_EQ(hex(tint({0.0, 0.5, 1.0}, 1.0)), "#ffffff");
 }
 
 TEST(Colormap, RangeForgetsWildValues) {

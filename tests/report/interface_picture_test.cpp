@@ -104,14 +104,14 @@ TEST(InterfacePicture, DrawsFramesWithoutCurvature) {
 
 TEST(InterfacePicture, CoarseningKeepsShape) {
   const SurfaceFrame frame = frame_of(sphere(3000));
-  const SurfaceFrame coarse = coarsened(frame, 1500);
+  const SurfaceFrame coarse = coarse_frame(frame, 1500);
   EXPECT_LT(coarse.mesh.num_faces(), 2000);
   EXPECT_GT(coarse.mesh.num_faces(), 700);
   EXPECT_NEAR(enclosed_volume(coarse.mesh), enclosed_volume(frame.mesh), 0.05 * 4.19);
   EXPECT_EQ(coarse.curvature.size(), coarse.mesh.num_vertices());
   EXPECT_EQ(coarse.drop.size(), coarse.mesh.num_faces());
   EXPECT_NEAR(coarse.curvature[VertexId{0}], 2.0, 1e-12);
-  EXPECT_EQ(coarsened(frame, 6000).mesh, frame.mesh);
+  EXPECT_EQ(coarse_frame(frame, 6000).mesh, frame.mesh);
 }
 
 TEST(InterfaceSection, OfAnEllipsoidIsAnEllipse) {

@@ -200,7 +200,7 @@ TEST(PackedFrames, ManyVerticesHaveWideCorners) {
 
 TEST(SurfaceFrames, CoarseOnesKeepTheirFields) {
   const SurfaceFrame frame = sphere_frame(4000);
-  const SurfaceFrame coarse = coarsened(frame, 1000);
+  const SurfaceFrame coarse = coarse_frame(frame, 1000);
   EXPECT_LT(coarse.mesh.num_faces(), 1500);
   ASSERT_EQ(coarse.fields.size(), 1U);
   // A mean of the values of a linear function is its value at the mean.

@@ -27,7 +27,7 @@ Pixel pixel(const report::Pixels& picture, int x, int y) {
 TEST(Rasterize, ShapesHaveTheirPlaceAndColour) {
   const std::string svg = report::svg_file(
       R"(<rect x="10" y="20" width="30" height="10" fill="#ff0000"/>)", 100.0, 50.0);
-  const report::Pixels picture = report::rasterized(svg, 2.0);
+  const report::Pixels picture = report::pixels_of(svg, 2.0);
   EXPECT_EQ(picture.width, 200);
   EXPECT_EQ(picture.height, 100);
   EXPECT_EQ(pixel(picture, 30, 50).red, 255);
@@ -39,7 +39,7 @@ TEST(Rasterize, ShapesHaveTheirPlaceAndColour) {
 /// Letters need a font; a machine without any draws none.
 TEST(Rasterize, LettersAreDrawn) {
   const auto ink = [](const char* content) {
-    const report::Pixels picture = report::rasterized(report::svg_file(content, 200.0, 40.0), 1.0);
+    const report::Pixels picture = report::pixels_of(report::svg_file(content, 200.0, 40.0), 1.0);
     int dark = 0;
     for (int y = 0; y < picture.height; ++y) {
       for (int x = 0; x < picture.width; ++x) dark += pixel(picture, x, y).green < 200;

@@ -64,6 +64,7 @@ TEST(Report, ShowsARun) {
                            "Half lengths",
                            "Inclination",
                            "Volume drift",
+                           "Volume corrections, sum",
                            "Size of the meshes",
                            "Time step",
                            "Power",

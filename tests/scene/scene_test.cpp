@@ -31,20 +31,20 @@ void add_drop(Scene& scene, SurfaceMesh mesh, RegionId outside = RegionId{0}) {
 }
 
 void expect_conflict(const Scene& scene, const std::vector<std::string>& words) {
-  const std::string conflict = find_conflict(scene);
+  const std::string conflict = text_of(find_conflict(scene));
   for (const std::string& word : words)
     EXPECT_NE(conflict.find(word), std::string::npos) << "'" << word << "' in '" << conflict << "'";
 }
 
 TEST(FindConflict, PassesSoundScenes) {
   Scene scene = boxed();
-  EXPECT_EQ(find_conflict(scene), "");
+  EXPECT_EQ(text_of(find_conflict(scene)), "");
   add_drop(scene, sphere(100, 1.0, Vec3(-2.0, 0, 0)));
   add_drop(scene, sphere(80, 1.5, Vec3(2.0, 0, 0)));
   add_drop(scene, sphere(60, 0.5, Vec3(2.3, 0, 0)), RegionId{2});
   add_drop(scene, sphere(42, 0.2, Vec3(2.3, 0, 0)), RegionId{3});
   add_drop(scene, sphere(42, 0.2, Vec3(1.3, 0, 0)), RegionId{2});
-  EXPECT_EQ(find_conflict(scene), "");
+  EXPECT_EQ(text_of(find_conflict(scene)), "");
 }
 
 TEST(FindConflict, NamesDropsThatTouch) {
@@ -68,7 +68,7 @@ TEST(FindConflict, NamesDropsAtTheBoundary) {
   add_drop(outside, sphere(100, 1.0, Vec3(0.0, 8.0, 0)));
   expect_conflict(outside, {"drop 10 lies outside the outer boundary, at ("});
   outside.is_unbounded = true;
-  EXPECT_EQ(find_conflict(outside), "");
+  EXPECT_EQ(text_of(find_conflict(outside)), "");
 }
 
 TEST(FindConflict, RefusesWhatIsNotFinite) {
@@ -86,7 +86,7 @@ TEST(FindConflict, ComparesNestingWithRegions) {
   add_drop(scene, sphere(60, 0.5), RegionId{0});
   expect_conflict(scene, {"drop 11", "lies in region 1, not in region 0"});
   scene.interfaces[1].outside = RegionId{1};
-  EXPECT_EQ(find_conflict(scene), "");
+  EXPECT_EQ(text_of(find_conflict(scene)), "");
   scene.interfaces[0].inside = RegionId{2};
   expect_conflict(scene, {"drop 10", "encloses region 1"});
   Scene apart = boxed();

@@ -10,9 +10,9 @@
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/solids/tessellate.hpp"
 #include "meniscus/surface/remesh.hpp"
 #include "meniscus/surface/smooth_surface.hpp"
-#include "meniscus/surface/tessellate.hpp"
 
 namespace meniscus::test {
 
@@ -34,8 +34,8 @@ struct DeformationOptions {
   double N0 = 100.0;
   double period = 0.75;
   double edge_floor = 0.0;
-  double step = 0.01;        ///< |∇v| ≤ 4π, so that a step stretches by at most 13 %
-  double equilibrium = 0.0;  ///< of the springs (`RemeshOptions`)
+  double step = 0.01;             ///< |∇v| ≤ 4π, so that a step stretches by at most 13 %
+  double spring_tolerance = 0.0;  ///< of the springs (`RemeshOptions`)
 };
 
 struct DeformationResult {
@@ -64,12 +64,12 @@ inline void advect(SurfaceMesh& mesh, double t, double dt, double period) {
 /// Volume within the smooth surface of a mesh: of faces cut eight times.
 inline double smooth_volume(const SurfaceMesh& mesh) {
   const SmoothSurface surface(mesh, SurfaceTopology(mesh));
-  return enclosed_volume(tessellated(mesh, surface, 1e-9));
+  return enclosed_volume(tessellation(mesh, surface, 1e-9));
 }
 
 inline void measure_return(const SurfaceMesh& mesh, DeformationResult& result) {
   const SmoothSurface surface(mesh, SurfaceTopology(mesh));
-  const SurfaceMesh fine = tessellated(mesh, surface, 1e-5);
+  const SurfaceMesh fine = tessellation(mesh, surface, 1e-5);
   double sum = 0.0;
   for (const Vec3& x : fine.x) {
     const double error = std::abs((x - kDeformedCenter).norm() / kDeformedRadius - 1.0);
@@ -85,7 +85,7 @@ inline DeformationResult deform_and_return(const DeformationOptions& options) {
       .C0 = options.N0 / (4.0 * std::numbers::pi),
       .restores_volume = false,
       .edge_floor = options.edge_floor,
-      .equilibrium = options.equilibrium,
+      .spring_tolerance = options.spring_tolerance,
       .find_fault = [](const SurfaceMesh& m) { return find_self_intersection(m); }};
   DeformationResult result;
   SurfaceMesh mesh = sphere(std::max(static_cast<int>(options.N0), remeshing.min_vertices));
@@ -98,9 +98,9 @@ inline DeformationResult deform_and_return(const DeformationOptions& options) {
   for (int step = 0; step < num_steps; ++step) {
     advect(mesh, step * dt, dt, options.period);
     const RemeshReport report = remesh(mesh, remeshing);
-    if (!report.ok) {
+    if (!report.ok()) {
       ++result.failed_steps;
-      result.failure = report.failure;
+      result.failure = report.text();
     } else {
       result.smallest_angle_deg = std::min(result.smallest_angle_deg, report.min_angle_deg);
     }

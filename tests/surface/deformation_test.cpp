@@ -30,7 +30,7 @@ TEST(Deformation, KeepsItsVolumeOnTheFewestVertices) {
   // At N0 = 25 the engine leaves the drop its fewest, 42, and the sheet at most 76. Springs at rest
   // as by default wear so coarse a sheet: 3.5 % (docs/surface-remeshing.md).
   const test::DeformationResult r =
-      test::deform_and_return({.N0 = 25.0, .period = 0.75, .equilibrium = 0.2});
+      test::deform_and_return({.N0 = 25.0, .period = 0.75, .spring_tolerance = 0.2});
   EXPECT_EQ(r.failed_steps, 0) << r.failure;
   EXPECT_EQ(r.start_vertices, 42);
   EXPECT_NEAR(r.end_vertices, 42, 3);

@@ -23,7 +23,7 @@ TEST(DiffusedSurface, OfASphereIsTheSphere) {
   for (const double length : {0.5, 1.0, 2.0}) {
     const std::optional<SurfaceMesh> smooth = diffused.smoothed(length * edge, kMostLost);
     ASSERT_TRUE(smooth);
-    EXPECT_EQ(find_defect(*smooth), "");
+    EXPECT_EQ(text_of(find_defect(*smooth)), "");
     EXPECT_NEAR(enclosed_volume(*smooth), enclosed_volume(mesh), 1e-12 * enclosed_volume(mesh));
     // Vertices of the contour lie within 0.05 of a lattice edge, √3 edge/2 at most, of it.
     for (const Vec3& x : smooth->x) EXPECT_NEAR(x.norm(), 1.0, 0.05 * edge);
@@ -41,7 +41,7 @@ TEST(DiffusedSurface, LosesTheRoughnessAndKeepsTheVolume) {
   for (const double length : {0.5, 0.71, 1.0, 1.41, 2.0}) {
     const std::optional<SurfaceMesh> smooth = diffused.smoothed(length * edge, kMostLost);
     ASSERT_TRUE(smooth) << length;
-    EXPECT_EQ(find_defect(*smooth), "") << length;
+    EXPECT_EQ(text_of(find_defect(*smooth)), "") << length;
     EXPECT_NEAR(enclosed_volume(*smooth), volume, 1e-12 * volume);
     EXPECT_LT(surface_area(*smooth), area);
     area = surface_area(*smooth);

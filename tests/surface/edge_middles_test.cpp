@@ -8,7 +8,6 @@
 
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
-#include "meniscus/surface/curved_measures.hpp"
 #include "meniscus/surface/smooth_surface.hpp"
 
 namespace meniscus {
@@ -119,83 +118,6 @@ TEST(EdgeMiddles, StayNearTheirEdgesOnCrumpledSurfaces) {
       EXPECT_LT((smooth.edge_point(a, b, 0.5) - straight).norm(), most) << "seed " << seed;
       EXPECT_LT((middles[e] - straight).norm(), most) << "seed " << seed;
     }
-  }
-}
-
-class CurvedSurface : public testing::TestWithParam<SurfaceShape> {
- protected:
-  static CurvedMeasures measures(const SurfaceMesh& mesh) {
-    return curved_measures(mesh, GetParam());
-  }
-};
-INSTANTIATE_TEST_SUITE_P(Middles, CurvedSurface,
-                         testing::Values(SurfaceShape::patched, SurfaceShape::splined),
-                         [](const auto& shape) {
-                           return shape.param == SurfaceShape::patched ? "patched" : "splined";
-                         });
-
-TEST_P(CurvedSurface, HasTheMeasuresOfTheSmoothOne) {
-  std::vector<double> errors;
-  for (const int num_vertices : {110, 220, 440}) {
-    const CurvedMeasures ball = measures(sphere(num_vertices, 1.5, Vec3(10.0, 0.0, 0.0)));
-    const double exact = 4.0 / 3.0 * std::numbers::pi * std::pow(1.5, 3);
-    errors.push_back(std::abs(ball.volume / exact - 1.0));
-    EXPECT_NEAR(ball.area, 4.0 * std::numbers::pi * 2.25, 3.0 * errors.back() * ball.area + 1e-3);
-  }
-  // Parabolic faces leave O(h⁴); flat ones 5.4/N of the volume, 5e-2 here.
-  EXPECT_LT(errors.front(), 1e-3);
-  EXPECT_GT(2.0 * std::log(errors.front() / errors.back()) / std::log(4.0), 3.5);
-}
-
-TEST_P(CurvedSurface, HasTheSecondMomentsOfTheSmoothOne) {
-  // Along an axis a of an ellipsoid V a²/5, wherever it lies.
-  const Vec3 axes(1.3, 0.9, 0.8);
-  const double volume = 4.0 / 3.0 * std::numbers::pi * axes.prod();
-  const Mat3 exact = 0.2 * volume * Mat3(axes.cwiseProduct(axes).asDiagonal());
-  std::vector<double> errors;
-  for (const int num_vertices : {110, 220, 440}) {
-    SurfaceMesh mesh = stretched_sphere(num_vertices, axes);
-    for (Vec3& x : mesh.x) x += Vec3(0.5, -0.3, 0.2);
-    errors.push_back((measures(mesh).second_moments - exact).norm() / exact.norm());
-  }
-  EXPECT_LT(errors.front(), 2e-3);  // flat faces: 8.1e-2
-  EXPECT_GT(2.0 * std::log(errors.front() / errors.back()) / std::log(4.0), 3.5);
-}
-
-TEST_P(CurvedSurface, HasItsVolumeRestoredByAShift) {
-  SurfaceMesh mesh = wavy_sphere(150);
-  const double volume = 1.02 * measures(mesh).volume;
-  const double shift = restore_curved_volume(mesh, volume, GetParam());
-  EXPECT_NEAR(measures(mesh).volume, volume, 2e-12 * volume);
-  EXPECT_NEAR(shift, 0.02 / 3.0, 1e-3);
-}
-
-// On coarse and rough surfaces the volume jumps as vertices shift, on some of these past what is
-// asked.
-TEST_P(CurvedSurface, HasItsVolumeRestoredWhereItJumps) {
-  for (unsigned seed = 1; seed <= 200; ++seed) {
-    std::mt19937_64 random(seed);
-    std::uniform_real_distribution<double> draw(-1.0, 1.0);
-    const auto vector = [&] {
-      const double a = draw(random), b = draw(random), c = draw(random);
-      return Vec3(a, b, c);
-    };
-    SurfaceMesh mesh = sphere(55 + static_cast<int>(seed % 10), 1.0, Vec3(1.0, 2.0, 3.0));
-    Mat3 stretch = Mat3::Identity();
-    for (int i = 0; i < 3; ++i) stretch.row(i) += 0.45 * vector();
-    for (Vec3& x : mesh.x) x = stretch * x + 0.02 * vector();
-    const double volume = measures(mesh).volume * (1.0 + 0.005 * draw(random));
-    restore_curved_volume(mesh, volume, GetParam());
-    EXPECT_NEAR(measures(mesh).volume, volume, 2e-12 * volume) << "seed " << seed;
-  }
-}
-
-TEST(SmoothNormals, AreThoseOfTheSurface) {
-  const SurfaceMesh mesh = stretched_sphere(400, Vec3(1.3, 0.9, 0.8));
-  const VertexField<Vec3> n = smooth_normals(mesh);
-  for (const VertexId v : mesh.x.ids()) {
-    const Vec3 exact = mesh.x[v].cwiseQuotient(Vec3(1.69, 0.81, 0.64)).normalized();
-    EXPECT_LT((n[v] - exact).norm(), 5e-3);
   }
 }
 

@@ -45,7 +45,7 @@ Journey stretch(SurfaceMesh& mesh, double from, double to, int steps,
     for (Vec3& x : mesh.x)
       x = x.cwiseProduct(Vec3(factor, 1 / std::sqrt(factor), 1 / std::sqrt(factor)));
     const RemeshReport report = remesh(mesh, options);
-    EXPECT_TRUE(report.ok) << report.failure;
+    EXPECT_TRUE(report.ok()) << report.text();
     const double aspect = from * std::pow(to / from, static_cast<double>(step) / steps);
     const double law = options.C0 * test::prolate_curvature_integral(aspect, 1.0);
     journey.worst_law = std::max(journey.worst_law, std::abs(mesh.num_vertices() / law - 1.0));
@@ -66,7 +66,7 @@ SurfaceMesh strewn_sphere(int num_vertices, const RemeshOptions& options) {
     x += edge * Vec3(uniform(random), uniform(random), uniform(random));
     x.normalize();
   }
-  for (int k = 0; k < 3; ++k) EXPECT_TRUE(remesh(mesh, options).ok);
+  for (int k = 0; k < 3; ++k) EXPECT_TRUE(remesh(mesh, options).ok());
   return mesh;
 }
 

@@ -61,8 +61,9 @@ inline double signed_distance(const ImplicitShape& shape, const Vec3& x) {
 inline SurfaceMesh relaxed_mesh(const ImplicitShape& shape, double C0) {
   SurfaceMesh mesh = shape.start;
   for (int pass = 0; pass < 2; ++pass) {
-    const RemeshReport report = remesh(mesh, {.C0 = C0, .max_sweeps = 60, .equilibrium = 0.002});
-    EXPECT_TRUE(report.ok) << shape.name << ": " << report.failure;
+    const RemeshReport report =
+        remesh(mesh, {.C0 = C0, .max_sweeps = 60, .spring_tolerance = 0.002});
+    EXPECT_TRUE(report.ok()) << shape.name << ": " << report.text();
     for (Vec3& x : mesh.x) x = projected(shape, x);
   }
   return mesh;

@@ -35,7 +35,7 @@ inline double ellipsoid_distance(const Vec3& x, const Vec3& axes) {
 inline SurfaceMesh equilibrated_ellipsoid(int num_vertices, const Vec3& axes) {
   SurfaceMesh mesh = stretched_sphere(num_vertices, axes);
   const RemeshReport report = remesh(mesh, {.C0 = num_vertices / (4.0 * std::numbers::pi)});
-  EXPECT_TRUE(report.ok) << report.failure;
+  EXPECT_TRUE(report.ok()) << report.text();
   for (Vec3& x : mesh.x) x /= x.cwiseQuotient(axes).norm();
   return mesh;
 }

@@ -11,7 +11,7 @@
 
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
-#include "meniscus/surface/even_out.hpp"
+#include "meniscus/surface/isotropic_remesh.hpp"
 
 namespace meniscus::test {
 namespace {
@@ -140,7 +140,7 @@ SurfaceMesh meshed_level(const std::function<double(const Vec3&)>& level, const 
   constexpr double kEvenAngleDeg = 20.0, kNoCreasesDeg = 180.0;
   constexpr int kMostPasses = 5;
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    mesh = pass == 0 ? evened_out(mesh, edge) : evened_out(mesh, edge, kNoCreasesDeg);
+    mesh = pass == 0 ? isotropic_remesh(mesh, edge) : isotropic_remesh(mesh, edge, kNoCreasesDeg);
     for (Vec3& x : mesh.x) x = on_level(level, x);
     if (smallest_angle_deg(mesh) > kEvenAngleDeg) break;
   }

@@ -98,7 +98,7 @@ std::vector<Subject> random_subjects(std::mt19937& random, unsigned kind) {
     for (int i = 0; i < 30; ++i) {
       const double middle = 0.5 * (near + far);
       const SurfaceMesh mesh = at(middle).mesh;
-      const bool is_apart = find_intersection(fixed, mesh).empty() &&
+      const bool is_apart = !find_intersection(fixed, mesh) &&
                             !encloses(fixed, mesh.x[VertexId{0}]) &&
                             smallest_gap(fixed, mesh) > gap;
       (is_apart ? far : near) = middle;
@@ -147,12 +147,12 @@ void remesh_and_judge(Subject& subject, const Mat3& map, int round, SoakResult& 
   result.remesh_seconds += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   ++result.remeshes;
   result.vertices += subject.mesh.num_vertices();
-  if (!report.ok) {
+  if (!report.ok()) {
     ++result.rollbacks;
-    result.log.push_back(fmt::format("round {}: rolled back: {}", round, report.failure));
+    result.log.push_back(fmt::format("round {}: rolled back: {}", round, report.text()));
     return;
   }
-  if (const std::string defect = find_defect(subject.mesh); !defect.empty()) {
+  if (const std::string defect = text_of(find_defect(subject.mesh)); !defect.empty()) {
     ++result.invalid;
     result.log.push_back(fmt::format("round {}: {}", round, defect));
   }
@@ -193,10 +193,9 @@ SoakResult soak(unsigned seed) {
       remesh_and_judge(subjects[i], map, round, result);
     }
     if (subjects.size() == 2)
-      if (const auto fault = find_intersection(subjects[0].mesh, subjects[1].mesh);
-          !fault.empty()) {
+      if (const auto fault = find_intersection(subjects[0].mesh, subjects[1].mesh)) {
         ++result.invalid;
-        result.log.push_back(fmt::format("round {}: the pair: {}", round, fault));
+        result.log.push_back(fmt::format("round {}: the pair: {}", round, fault->text));
       }
   }
   return result;

@@ -57,7 +57,7 @@ TEST(SurfaceFields, ConservedOnesKeepTheirIntegral) {
       const double on_vertices = integral(mesh, fields.on_vertices[0].values);
       const double on_faces = integral(mesh, fields.on_faces[0].values);
       const RemeshReport report = remesh(mesh, with_nodes(400), fields);
-      ASSERT_TRUE(report.ok) << report.failure;
+      ASSERT_TRUE(report.ok()) << report.text();
       ASSERT_EQ(fields.on_vertices[0].values.size(), mesh.num_vertices());
       ASSERT_EQ(fields.on_faces[0].values.size(), mesh.num_faces());
       // Sums of a thousand terms of round-off 1e-16.
@@ -88,7 +88,7 @@ TEST(SurfaceFields, PiecesKeepTheirOwnIntegral) {
   for (double& value : fields.on_vertices[0].values) value += 1.0;
   const double all = integral(mesh, fields.on_vertices[0].values),
                beyond = integral_beyond(mesh, fields.on_vertices[0].values);
-  ASSERT_TRUE(remesh(mesh, with_nodes(200), fields).ok);
+  ASSERT_TRUE(remesh(mesh, with_nodes(200), fields).ok());
   EXPECT_NEAR(integral(mesh, fields.on_vertices[0].values), all, 1e-13 * all);
   EXPECT_NEAR(integral_beyond(mesh, fields.on_vertices[0].values), beyond, 1e-13 * all);
 }
@@ -102,7 +102,7 @@ TEST(SurfaceFields, ConstantsStayConstant) {
       mesh, [](const Vec3&) { return 0.7; }, conserved);
   fields.on_vertices.push_back(more.on_vertices[0]);
   fields.on_faces.push_back(more.on_faces[0]);
-  ASSERT_TRUE(remesh(mesh, with_nodes(700), fields).ok);
+  ASSERT_TRUE(remesh(mesh, with_nodes(700), fields).ok());
   for (const double value : fields.on_vertices[0].values) EXPECT_EQ(value, 0.7);
   for (const double value : fields.on_faces[0].values) EXPECT_EQ(value, 0.7);
   // What is conserved is spread over the area of the new faces.
@@ -118,7 +118,7 @@ TEST(SurfaceFields, AreLeftAloneWhereNothingMoves) {
   for (int i = 0; i < 50 && mesh != last; ++i) {
     last = mesh;
     before = fields = sampled(mesh, smooth, interpolated);
-    ASSERT_TRUE(remesh(mesh, with_nodes(400), fields).ok);
+    ASSERT_TRUE(remesh(mesh, with_nodes(400), fields).ok());
   }
   ASSERT_EQ(mesh.faces, last.faces);
   for (const VertexId v : mesh.x.ids()) ASSERT_LT((mesh.x[v] - last.x[v]).norm(), 1e-14);
@@ -135,7 +135,7 @@ TEST(SurfaceFields, SmoothOnesConverge) {
     const Vec3 axes(2, 1, 1);
     SurfaceMesh mesh = stretched_sphere(n, axes);
     SurfaceFields fields = sampled(mesh, smooth, interpolated);
-    ASSERT_TRUE(remesh(mesh, with_nodes(n), fields).ok);
+    ASSERT_TRUE(remesh(mesh, with_nodes(n), fields).ok());
     double on_vertices = 0.0, on_faces = 0.0;
     for (const VertexId v : mesh.x.ids())
       on_vertices += std::pow(fields.on_vertices[0].values[v] - smooth(mesh.x[v]), 2);
@@ -154,8 +154,8 @@ TEST(SurfaceFields, AreUnchangedWhenTheRemeshFails) {
   SurfaceFields fields = sampled(mesh, smooth, conserved);
   const SurfaceFields before = fields;
   RemeshOptions options = with_nodes(500);
-  options.find_fault = [](const SurfaceMesh&) { return std::string("not wanted"); };
-  EXPECT_FALSE(remesh(mesh, options, fields).ok);
+  options.find_fault = [](const SurfaceMesh&) { return Fault{FaultKind::unwanted, "not wanted"}; };
+  EXPECT_FALSE(remesh(mesh, options, fields).ok());
   EXPECT_EQ(fields.on_vertices[0].values, before.on_vertices[0].values);
   EXPECT_EQ(fields.on_faces[0].values, before.on_faces[0].values);
 }

@@ -5,6 +5,7 @@
 
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/mesh/surface_pieces.hpp"
 #include "tests/surface/shapes.hpp"
 #include "tests/topology/scenes.hpp"
 
@@ -46,7 +47,7 @@ TEST(Breakup, CutsADumbbellInTwoEqualDrops) {
     const double side = enclosed_centroid(drop.mesh).x() > 0.0 ? 1.0 : -1.0;
     EXPECT_NEAR(drop.volume, volume_beyond_origin(meshes[0], side),
                 std::numbers::pi * std::pow(0.05, 3));
-    EXPECT_EQ(test::euler_characteristic(drop.mesh), 2);
+    EXPECT_EQ(euler_characteristic(drop.mesh), 2);
   }
   EXPECT_LT(event.volume_moved, 3.0 * std::numbers::pi * std::pow(0.05, 3));
 }
@@ -119,17 +120,17 @@ TEST(Breakup, LeavesATorusInOnePiece) {
     const double thinner = 1.0 - (0.25 / 0.3) * std::exp(-4.0 * (1.0 - c.x()));
     x = c + thinner * (x - c);
   }
-  for (int i = 0; i < 3; ++i) ASSERT_TRUE(remesh(mesh, {.C0 = kC0}).ok);
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(remesh(mesh, {.C0 = kC0}).ok());
   const std::vector<SurfaceMesh> meshes{mesh};
   Scene scene = scene_of(meshes, kC0);
   const Scene before = scene;
-  EXPECT_EQ(test::euler_characteristic(mesh), 0);
+  EXPECT_EQ(euler_characteristic(mesh), 0);
   const TopologyReport report = apply_topology(scene, {.breakup_radius = 0.06}, {});
   ASSERT_EQ(report.events.size(), 1U) << (report.warnings.empty() ? "" : report.warnings[0]);
   EXPECT_EQ(fault_after(before, scene, report), "");
   ASSERT_EQ(scene.interfaces.size(), 1U);
   EXPECT_EQ(scene.interfaces[0].drop, 1);
-  EXPECT_EQ(test::euler_characteristic(scene.interfaces[0].mesh), 2);
+  EXPECT_EQ(euler_characteristic(scene.interfaces[0].mesh), 2);
 }
 
 TEST(Breakup, LeavesAnInnerDropInTheFragmentThatHoldsIt) {
@@ -148,6 +149,9 @@ TEST(Breakup, LeavesAnInnerDropInTheFragmentThatHoldsIt) {
     const bool is_left = enclosed_centroid(scene.interfaces[i].mesh).x() < 0.0;
     EXPECT_EQ(scene.interfaces[0].outside == scene.interfaces[i].inside, is_left);
   }
+  const RegionId matrix{0}, whole{1}, inner{2};
+  EXPECT_EQ(report.events[0].sources,
+            RegionSources({std::vector{matrix}, {inner}, {whole}, {whole}}));
 }
 
 TEST(Breakup, DoesNotDependOnTheNumberingOfVertices) {

@@ -13,8 +13,10 @@
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/mesh/surface_pieces.hpp"
 #include "meniscus/surface/remesh.hpp"
-#include "meniscus/topology/mend.hpp"
+#include "meniscus/surface/repair/mend.hpp"
+#include "meniscus/surface/restore_volume.hpp"
 #include "tests/topology/scenes.hpp"
 
 namespace meniscus::test {
@@ -220,15 +222,12 @@ Scene random_scene(std::mt19937& random) {
 /// Every interface fit for the next step; false when the drops touch then.
 bool remeshed(Scene& scene) {
   for (Interface& drop : scene.interfaces) {
-    RemeshOptions options;
-    options.C0 = drop.C0;
+    RemeshOptions options = sound_remeshing(drop.C0, kFloor);
     options.volume = drop.volume;
-    options.edge_floor = kFloor;
-    options.find_fault = find_self_intersection;
-    if (!remesh_or_mend(drop.mesh, options).remesh.ok) restore_volume(drop.mesh, drop.volume);
-    if (!find_defect(drop.mesh).empty()) return false;
+    if (!remesh_or_mend(drop.mesh, options).remesh.ok()) restore_volume(drop.mesh, drop.volume);
+    if (find_defect(drop.mesh)) return false;
   }
-  return find_touching_drops(scene).empty();
+  return !find_touching_drops(scene);
 }
 
 void record(const TopologyReport& report, const Scene& after, EventSoak& soak) {
@@ -285,7 +284,7 @@ EventSoak event_soak(unsigned seed, int events, int max_steps) {
     const Scene before = moved;
     const TopologyReport report = apply_topology(moved, options, motion);
     record(report, moved, soak);
-    soak.fault = report.refusal.empty() ? fault_after(before, moved, report) : report.refusal;
+    soak.fault = report.refusal ? report.refusal->text : fault_after(before, moved, report);
     if (!soak.fault.empty()) {
       soak.fault = fmt::format("seed {}, step {}: {}", seed, soak.steps, soak.fault);
       return soak;

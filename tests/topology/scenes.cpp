@@ -49,8 +49,8 @@ SurfaceMesh revolved(double a, const Profile& profile, double C0) {
     }
     const auto now = [&](double xi) { return at_step(xi, s); };
     const RemeshReport report = remesh(mesh, {.C0 = C0, .volume = exact_volume(a, now)});
-    if (!report.ok && k == kSteps)
-      throw std::runtime_error("surface of revolution: " + report.failure);
+    if (!report.ok() && k == kSteps)
+      throw std::runtime_error("surface of revolution: " + report.text());
   }
   return mesh;
 }
@@ -102,11 +102,6 @@ SurfaceMesh shuffled(const SurfaceMesh& mesh, unsigned seed) {
   return result;
 }
 
-int euler_characteristic(const SurfaceMesh& mesh) {
-  return mesh.num_vertices() - static_cast<int>(SurfaceTopology(mesh).edges().size()) +
-         mesh.num_faces();
-}
-
 SurfaceMotion motion_of(const Scene& scene, const std::function<Vec3(const Vec3&)>& v) {
   SurfaceMotion motion;
   for (const Interface& interface : scene.interfaces) {
@@ -131,14 +126,14 @@ std::string fault_after(const Scene& before, const Scene& after, const TopologyR
       return fmt::format("an event's area rose by {}", event.area_after - event.area_before);
   }
   for (const Interface& each : after.interfaces) {
-    if (std::string defect = find_defect(each.mesh); !defect.empty()) return defect;
+    if (std::string defect = text_of(find_defect(each.mesh)); !defect.empty()) return defect;
     const double volume = enclosed_volume(each.mesh);
     if (std::abs(volume - each.volume) > 1e-12 * each.volume)
       return fmt::format("drop {} has volume {} instead of {}", each.drop, volume, each.volume);
     if (each.drop > last_id && each.mesh.num_vertices() < 42)
       return fmt::format("drop {} has {} vertices", each.drop, each.mesh.num_vertices());
   }
-  return find_conflict(after);
+  return text_of(find_conflict(after));
 }
 
 }  // namespace meniscus::test

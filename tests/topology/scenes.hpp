@@ -23,8 +23,6 @@ namespace meniscus::test {
 /// The vertices of a mesh numbered otherwise, and its faces in another order.
 [[nodiscard]] SurfaceMesh shuffled(const SurfaceMesh& mesh, unsigned seed);
 
-[[nodiscard]] int euler_characteristic(const SurfaceMesh& mesh);
-
 /// The motion of every vertex of a scene by v(x).
 [[nodiscard]] SurfaceMotion motion_of(const Scene& scene,
                                       const std::function<Vec3(const Vec3&)>& v);

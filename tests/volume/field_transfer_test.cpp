@@ -1,6 +1,7 @@
 #include "meniscus/volume/field_transfer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -10,90 +11,14 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/volume/tet_overlap.hpp"
-#include "meniscus/volume/tetrahedralize.hpp"
 #include "tests/volume/scenes.hpp"
+#include "tests/volume/wave_fields.hpp"
 
 namespace meniscus {
 namespace {
 
-double wave(const Vec3& x) { return 1.5 + std::cos(1.3 * x.x() + 0.7 * x.y() - 0.4 * x.z() + 0.3); }
-
-TetMesh meshed(const Scene& scene, double cell_volume = 2.0) {
-  TetMesh mesh;
-  EXPECT_TRUE(tetrahedralize(scene, {.interior_growth = 0.0, .cell_volume = cell_volume}, mesh).ok);
-  return mesh;
-}
-
-/// A drop in a sphere of radius 2, turned, so that its interface has other triangles.
-Scene turned_scene(int vertices, unsigned seed) {
-  std::mt19937 random(seed);
-  const Mat3 turn = test::random_rotation(random);
-  Scene scene = test::drop_in_sphere(vertices, 2.0, vertices);
-  for (Vec3& x : scene.interfaces[0].mesh.x) x = turn * x;
-  return scene;
-}
-
-/// Means over the cells by a rule of degree 2.
-template <class Function>
-CellField<double> means(const TetMesh& mesh, const Function& f) {
-  constexpr double a = 0.5854101966249685, b = 0.1381966011250105;  // (5 + 3√5)/20 and (5 − √5)/20
-  CellField<double> values;
-  for (const CellId c : mesh.cells.ids()) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      Vec3 x = Vec3::Zero();
-      for (std::size_t j = 0; j < 4; ++j) x += (j == k ? a : b) * mesh.x[mesh.cells[c][j]];
-      sum += 0.25 * f(x);
-    }
-    values.add(sum);
-  }
-  return values;
-}
-
-template <class Function>
-VolumeFields sampled(const TetMesh& mesh, const Function& f) {
-  VolumeFields fields;
-  fields.on_cells.push_back({"amount", "", FieldTransfer::conserved, means(mesh, f)});
-  fields.on_cells.push_back({"level", "", FieldTransfer::interpolated, means(mesh, f)});
-  Field<TetVertexId, double> at_vertices;
-  for (const Vec3& x : mesh.x) at_vertices.add(f(x));
-  fields.on_vertices.push_back({"nodal", "", FieldTransfer::interpolated, at_vertices});
-  return fields;
-}
-
-std::vector<double> amounts(const TetMesh& mesh, const CellField<double>& values) {
-  std::vector<long double> sums;
-  for (const CellId c : mesh.cells.ids()) {
-    const auto r = static_cast<std::size_t>(mesh.region[c].value);
-    if (sums.size() <= r) sums.resize(r + 1, 0.0L);
-    sums[r] += static_cast<long double>(values[c]) * signed_volume(mesh, c);
-  }
-  return {sums.begin(), sums.end()};
-}
-
-/// Σ over cells (v − mean f)² |c| over the whole volume, square root.
-double cell_error(const TetMesh& mesh, const CellField<double>& values) {
-  const CellField<double> exact = means(mesh, wave);
-  double sum = 0.0, volume = 0.0;
-  for (const CellId c : mesh.cells.ids()) {
-    sum += std::pow(values[c] - exact[c], 2) * signed_volume(mesh, c);
-    volume += signed_volume(mesh, c);
-  }
-  return std::sqrt(sum / volume);
-}
-
-/// Over the vertices between the surfaces: those on unchanged surfaces have no error, and their
-/// share falls with refinement.
-double vertex_error(const TetMesh& mesh, const Field<TetVertexId, double>& values) {
-  double sum = 0.0, volume = 0.0;
-  for (const CellId c : mesh.cells.ids())
-    for (const TetVertexId v : mesh.cells[c]) {
-      if (v.value < mesh.boundary.first_vertex.value + mesh.boundary.num_vertices) continue;
-      sum += std::pow(values[v] - wave(mesh.x[v]), 2) * 0.25 * signed_volume(mesh, c);
-      volume += 0.25 * signed_volume(mesh, c);
-    }
-  return std::sqrt(sum / volume);
-}
+using test::amounts, test::cell_error, test::meshed, test::sampled, test::turned_scene,
+    test::vertex_error, test::wave;
 
 template <class Values>
 double least(const Values& values) {
@@ -110,17 +35,27 @@ void expect_same_amounts(const std::vector<double>& a, const std::vector<double>
     EXPECT_NEAR(a[r], b[r], 1e-12 * std::abs(a[r])) << "region " << r;
 }
 
+VolumeMoments overlap(const TetCorners& a, const TetCorners& b) {
+  return tet_overlap(HalfSpaceTet(a), HalfSpaceTet(b));
+}
+
 TEST(TetOverlap, OfATetrahedronWithItselfAndWithAShiftedOne) {
   const TetCorners unit{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
-  EXPECT_NEAR(tet_overlap(unit, unit).volume, 1.0 / 6.0, 1e-15);
+  EXPECT_NEAR(overlap(unit, unit).volume, 1.0 / 6.0, 1e-15);
   TetCorners shifted = unit;
   for (Vec3& x : shifted) x += Vec3(0.25, 0.25, 0.0);
   // x ≥ 1/4, y ≥ 1/4, z ≥ 0, x + y + z ≤ 1: half the size.
-  const VolumeMoments part = tet_overlap(unit, shifted);
+  const VolumeMoments part = overlap(unit, shifted);
   EXPECT_NEAR(part.volume, 0.125 / 6.0, 1e-16);
   EXPECT_LT((part.moment / part.volume - Vec3(0.375, 0.375, 0.125)).norm(), 1e-14);
   for (Vec3& x : shifted) x += Vec3(1.0, 0.0, 0.0);
-  EXPECT_EQ(tet_overlap(unit, shifted).volume, 0.0);
+  EXPECT_EQ(overlap(unit, shifted).volume, 0.0);
+  TetCorners small = unit;
+  for (Vec3& x : small) x = Vec3(0.1, 0.1, 0.1) + 0.2 * x;
+  for (const VolumeMoments& inside : {overlap(unit, small), overlap(small, unit)}) {
+    EXPECT_NEAR(inside.volume, 0.008 / 6.0, 1e-17);
+    EXPECT_LT((inside.moment / inside.volume - Vec3(0.15, 0.15, 0.15)).norm(), 1e-15);
+  }
 }
 
 TEST(TetOverlap, IsSymmetricOnRandomTetrahedra) {
@@ -135,7 +70,7 @@ TEST(TetOverlap, IsSymmetricOnRandomTetrahedra) {
   };
   for (int i = 0; i < 200; ++i) {
     const TetCorners a = tet(), b = tet();
-    const VolumeMoments ab = tet_overlap(a, b), ba = tet_overlap(b, a);
+    const VolumeMoments ab = overlap(a, b), ba = overlap(b, a);
     EXPECT_NEAR(ab.volume, ba.volume, 1e-14) << i;
     EXPECT_LT((ab.moment - ba.moment).norm(), 1e-14) << i;
   }
@@ -203,28 +138,54 @@ void expect_second_order(unsigned seed_of_the_other, const std::string& name) {
 TEST(FieldTransfer, IsOfSecondOrderBetweenTheSameInterfaces) { expect_second_order(1, "same_"); }
 TEST(FieldTransfer, IsOfSecondOrderBetweenOtherInterfaces) { expect_second_order(2, "other_"); }
 
-TEST(FieldTransfer, LosesLittleInTwoHundredTransfers) {
-  const TetMesh meshes[] = {meshed(turned_scene(60, 1)), meshed(turned_scene(60, 2), 1.6)};
-  VolumeFields fields = sampled(meshes[0], wave);
-  const std::vector<double> start = amounts(meshes[0], fields.on_cells[0].values);
-  FieldExcess excess;
-  double after_two = 0.0;
-  std::string errors;
-  for (std::size_t k = 1; k <= 200; ++k) {
-    fields = transfer_fields(fields, meshes[(k - 1) % 2], meshes[k % 2], excess);
-    const double error = cell_error(meshes[k % 2], fields.on_cells[0].values);
-    if (k == 2) after_two = error;
-    if (k == 2 || k == 20 || k == 200)
-      errors += fmt::format("{}: {:.3e} {:.3e} {:.3e}; ", k, error,
-                            cell_error(meshes[k % 2], fields.on_cells[1].values),
-                            vertex_error(meshes[k % 2], fields.on_vertices[0].values));
+/// Errors of a field held still through transfers to and fro between two meshes, of one resolution:
+/// of what is conserved in cells, interpolated in cells, and interpolated at vertices.
+class HeldField {
+ public:
+  explicit HeldField(int vertices)
+      : meshes_{meshed(turned_scene(vertices, 1)), meshed(turned_scene(vertices, 2), 1.6)},
+        fields_(sampled(meshes_[0], wave)) {}
+
+  std::array<double, 3> after_transfers(std::size_t count) {
+    FieldExcess excess;
+    for (; count_ < count; ++count_)
+      fields_ = transfer_fields(fields_, meshes_[count_ % 2], meshes_[(count_ + 1) % 2], excess);
+    const TetMesh& last = meshes_[count % 2];
+    return {cell_error(last, fields_.on_cells[0].values),
+            cell_error(last, fields_.on_cells[1].values),
+            vertex_error(last, fields_.on_vertices[0].values)};
   }
-  RecordProperty("errors", errors);
-  RecordProperty("excess", fmt::format("{:.2e} {:.2e}", excess.above, excess.below));
-  const double last = cell_error(meshes[0], fields.on_cells[0].values);
-  // Every pair of transfers adds at most the error of the first: growth is linear at worst.
-  EXPECT_LT(last, 100.0 * after_two);
-  expect_same_amounts(start, amounts(meshes[0], fields.on_cells[0].values));
+  [[nodiscard]] double h() const { return 1.0 / std::cbrt(meshes_[0].num_cells()); }
+  [[nodiscard]] std::vector<double> amounts_now() const {
+    return amounts(meshes_[count_ % 2], fields_.on_cells[0].values);
+  }
+
+ private:
+  std::array<TetMesh, 2> meshes_;
+  VolumeFields fields_;
+  std::size_t count_ = 0;
+};
+
+TEST(FieldTransfer, LosesLittleInTwoHundredTransfers) {
+  HeldField held(60);
+  const std::vector<double> start = held.amounts_now();
+  const auto first = held.after_transfers(2), last = held.after_transfers(200);
+  RecordProperty("errors",
+                 fmt::format("{:.3e}; {:.3e}", fmt::join(first, " "), fmt::join(last, " ")));
+  // Linear growth would be a hundredfold; each transfer flattens a share of what is left. Where
+  // this was written it was ten times in cells, fifteen at vertices.
+  for (std::size_t field = 0; field < 3; ++field) EXPECT_LT(last[field], 20.0 * first[field]);
+  expect_same_amounts(start, held.amounts_now());
+}
+
+TEST(FieldTransfer, KeepsAHeldFieldInCellsToSecondOrder) {
+  HeldField coarse(60), fine(150);
+  const auto a = coarse.after_transfers(20), b = fine.after_transfers(20);
+  for (std::size_t field = 0; field < 2; ++field) {
+    const double order = std::log(a[field] / b[field]) / std::log(coarse.h() / fine.h());
+    EXPECT_GT(order, 1.8) << a[field] << " " << b[field];
+  }
+  EXPECT_LT(b[2], a[2]);
 }
 
 TEST(FieldTransfer, KeepsAmountsOfMovingCells) {

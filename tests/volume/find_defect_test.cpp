@@ -15,11 +15,11 @@ class FindDefect : public ::testing::Test {
     scene_ = test::scene_within(sphere(80, 4.0));
     test::add_drop(scene_, sphere(80, 1.5));
     test::add_drop(scene_, sphere(60, 0.6), RegionId{1});
-    ASSERT_TRUE(tetrahedralize(scene_, {}, mesh_).ok);
-    ASSERT_EQ(find_defect(mesh_, scene_), "");
+    ASSERT_TRUE(tetrahedralize(scene_, {}, mesh_).ok());
+    ASSERT_EQ(text_of(find_defect(mesh_, scene_)), "");
   }
   void expect_defect(const std::string& word) const {
-    const std::string defect = find_defect(mesh_, scene_);
+    const std::string defect = text_of(find_defect(mesh_, scene_));
     EXPECT_NE(defect.find(word), std::string::npos) << "found: '" << defect << "'";
   }
   /// A cell none of whose vertices lies on a surface.
@@ -76,9 +76,9 @@ TEST_F(FindDefect, WholeRegionRelabelled) {
 
 TEST_F(FindDefect, RegionThatIsNone) {
   mesh_.region[free_cell()] = RegionId{17};
-  EXPECT_NE(find_defect(mesh_, scene_), "");
+  EXPECT_NE(text_of(find_defect(mesh_, scene_)), "");
   mesh_.region[free_cell()] = RegionId{};
-  EXPECT_NE(find_defect(mesh_, scene_), "");
+  EXPECT_NE(text_of(find_defect(mesh_, scene_)), "");
 }
 
 TEST_F(FindDefect, MovedSurfaceVertex) {
@@ -124,9 +124,9 @@ TEST_F(FindDefect, VertexOutOfRange) {
 TEST_F(FindDefect, MeshOfAnotherScene) {
   Scene other = scene_;
   other.interfaces.pop_back();
-  EXPECT_NE(find_defect(mesh_, other), "");
+  EXPECT_NE(text_of(find_defect(mesh_, other)), "");
   std::swap(scene_.interfaces[0], scene_.interfaces[1]);
-  EXPECT_NE(find_defect(mesh_, scene_), "");
+  EXPECT_NE(text_of(find_defect(mesh_, scene_)), "");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "meniscus/volume/gap_layers.hpp"
+#include "tests/volume/gap_layers.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -27,14 +27,12 @@ void remesh_all(Scene& scene, double nodes, int passes = 4) {
       std::vector<SurfaceTree> others;
       for (std::size_t j = 0; j < scene.interfaces.size(); ++j)
         if (j != i) others.emplace_back(scene.interfaces[j].mesh);
-      RemeshOptions options;
-      options.C0 = nodes / (4.0 * std::numbers::pi);
+      RemeshOptions options = sound_remeshing(nodes / (4.0 * std::numbers::pi));
       options.gap_layers = kLayers;
-      options.find_fault = find_self_intersection;
       options.neighbours = {&wall};
       for (const SurfaceTree& tree : others) options.neighbours.push_back(&tree);
       const RemeshReport report = remesh(scene.interfaces[i].mesh, options);
-      ASSERT_TRUE(report.ok) << report.failure;
+      ASSERT_TRUE(report.ok()) << report.text();
     }
 }
 
@@ -47,17 +45,15 @@ SurfaceMesh drawn_dumbbell(double neck, double nodes) {
     return 1.0 - depth * std::exp(-std::pow(x / 0.5, 2));
   };
   SurfaceMesh mesh = stretched_sphere(600, Vec3(2, 1, 1));
-  RemeshOptions options;
-  options.C0 = nodes / (4.0 * std::numbers::pi);
+  RemeshOptions options = sound_remeshing(nodes / (4.0 * std::numbers::pi));
   options.gap_layers = kLayers;
-  options.find_fault = find_self_intersection;
   for (int step = 0; step < kSteps; ++step) {
     for (Vec3& x : mesh.x) {
       const double ratio = profile(x.x(), step + 1) / profile(x.x(), step);
       x = Vec3(x.x(), ratio * x.y(), ratio * x.z());
     }
     const RemeshReport report = remesh(mesh, options);
-    EXPECT_TRUE(report.ok) << "step " << step << ": " << report.failure;
+    EXPECT_TRUE(report.ok()) << "step " << step << ": " << report.text();
   }
   return mesh;
 }
@@ -65,7 +61,7 @@ SurfaceMesh drawn_dumbbell(double neck, double nodes) {
 GapLayers layers_of(const Scene& scene, double asked, double widest) {
   TetMesh mesh;
   const VolumeMeshReport made = tetrahedralize(scene, {.gap_layers = asked}, mesh);
-  EXPECT_TRUE(made.ok) << made.failure;
+  EXPECT_TRUE(made.ok()) << made.text();
   EXPECT_EQ(made.attempt, 0);
   if (asked > 0.0) {
     EXPECT_GT(quality(mesh).min_dihedral_deg, 5.0);

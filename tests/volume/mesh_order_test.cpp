@@ -64,7 +64,7 @@ struct Shuffled {
 
 TEST(MeshOrder, IsTheSameMeshWithNeighboursTogether) {
   TetMesh mesh;
-  ASSERT_TRUE(tetrahedralize(test::drop_in_sphere(400, 6.0, 400), {}, mesh).ok);
+  ASSERT_TRUE(tetrahedralize(test::drop_in_sphere(400, 6.0, 400), {}, mesh).ok());
   const Shuffled before(mesh);
   Shuffled after = before;
   constexpr std::int32_t num_fixed = 50;

@@ -33,7 +33,7 @@ void move(Scene& scene, double dt) {
 
 MovingMesh mesh_of(const Scene& scene, VolumeMotion motion = VolumeMotion::spines) {
   MovingMesh mesh({.tetrahedra = {}, .motion = motion});
-  EXPECT_TRUE(mesh.follow(scene).ok);
+  EXPECT_TRUE(mesh.follow(scene).ok());
   return mesh;
 }
 
@@ -47,7 +47,7 @@ TEST_P(MovingMeshTest, MovesWithItsInterfacesAndKnowsItsVelocity) {
   MovingMesh mesh = mesh_of(start, GetParam());
   const TetMesh before = mesh.tetrahedra();
   mesh.begin_step(start);
-  ASSERT_TRUE(mesh.move(start, sheared(start), sheared(before), 0.05).ok);
+  ASSERT_TRUE(mesh.move(start, sheared(start), sheared(before), 0.05).ok());
   Scene moved = start;
   move(moved, 0.05);
   const TetMesh& after = mesh.tetrahedra();
@@ -65,7 +65,7 @@ TEST_P(MovingMeshTest, UndoPutsEveryVertexBackToTheBit) {
   MovingMesh mesh = mesh_of(start, GetParam());
   const TetMesh before = mesh.tetrahedra();
   mesh.begin_step(start);
-  ASSERT_TRUE(mesh.move(start, sheared(start), sheared(before), 0.05).ok);
+  ASSERT_TRUE(mesh.move(start, sheared(start), sheared(before), 0.05).ok());
   ASSERT_NE(mesh.tetrahedra().x, before.x);
   mesh.undo();
   EXPECT_EQ(mesh.tetrahedra().x, before.x);
@@ -78,9 +78,9 @@ TEST(MovingMesh, EveryMoveOfAStepStartsWhereTheStepDid) {
   const Field<TetVertexId, Vec3> liquid = sheared(once.tetrahedra());
   once.begin_step(start);
   twice.begin_step(start);
-  ASSERT_TRUE(twice.move(start, sheared(start), liquid, 0.025).ok);
-  ASSERT_TRUE(twice.move(start, sheared(start), liquid, 0.05).ok);
-  ASSERT_TRUE(once.move(start, sheared(start), liquid, 0.05).ok);
+  ASSERT_TRUE(twice.move(start, sheared(start), liquid, 0.025).ok());
+  ASSERT_TRUE(twice.move(start, sheared(start), liquid, 0.05).ok());
+  ASSERT_TRUE(once.move(start, sheared(start), liquid, 0.05).ok());
   EXPECT_EQ(once.tetrahedra().x, twice.tetrahedra().x);
 }
 
@@ -91,9 +91,9 @@ TEST(MovingMesh, InvertedCellIsReportedAndTheMeshIsAsItWas) {
   mesh.begin_step(start);
   std::vector<VertexField<Vec3>> far = sheared(start);
   for (Vec3& v : far[0]) v = Vec3(100.0, 0.0, 0.0);
-  const MeshReport report = mesh.move(start, far, sheared(before), 1.0);
-  EXPECT_FALSE(report.ok);
-  EXPECT_NE(report.failure.find("inverts a cell"), std::string::npos) << report.failure;
+  const Report report = mesh.move(start, far, sheared(before), 1.0);
+  EXPECT_FALSE(report.ok());
+  EXPECT_NE(report.text().find("inverts a cell"), std::string::npos) << report.text();
   EXPECT_EQ(mesh.tetrahedra().x, before.x);
 }
 
@@ -103,7 +103,7 @@ TEST(MovingMesh, FollowingSaysWhereTheOuterBoundaryWent) {
   const TetMesh before = mesh.tetrahedra();
   scene.interfaces[0].mesh = sphere(200, 1.1);
   const MeshChange change = mesh.follow(scene);
-  ASSERT_TRUE(change.ok) << change.failure;
+  ASSERT_TRUE(change.ok()) << change.text();
   const TetMesh& after = mesh.tetrahedra();
   ASSERT_EQ(change.old_to_new.size(), before.num_vertices());
   int counterparts = 0;
@@ -120,15 +120,15 @@ TEST(MovingMesh, AFailedMesherLeavesTheMeshAsItWas) {
   const Scene scene = test::drop_in_sphere(110, 3.0, 100);
   bool fails = false;
   MovingMesh mesh(VolumeMotion::spines, [&](const Scene& of, TetMesh& made) {
-    if (fails) return VolumeMeshReport{.ok = false, .failure = "told to fail"};
+    if (fails) return VolumeMeshReport{{Fault{FaultKind::mesher, "told to fail"}}};
     return tetrahedralize(of, {}, made);
   });
-  ASSERT_TRUE(mesh.follow(scene).ok);
+  ASSERT_TRUE(mesh.follow(scene).ok());
   const TetMesh before = mesh.tetrahedra();
   fails = true;
   const MeshChange change = mesh.follow(scene);
-  EXPECT_FALSE(change.ok);
-  EXPECT_EQ(change.failure, "told to fail");
+  EXPECT_FALSE(change.ok());
+  EXPECT_EQ(change.text(), "told to fail");
   EXPECT_EQ(mesh.tetrahedra().x, before.x);
 }
 

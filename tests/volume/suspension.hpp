@@ -39,8 +39,13 @@ inline Scene suspension(int drops, int drop_vertices, double fraction) {
   Scene scene = scene_within(
       box(static_cast<int>(6.0 * half_width * half_width), Vec3::Constant(half_width)).mesh);
   std::uniform_real_distribution<double> radius(0.8, kLargest);
-  for (const Vec3& center : centers(drops, half_width, random))
-    add_drop(scene, sphere(drop_vertices, radius(random), center));
+  const SurfaceMesh unit_sphere = sphere(drop_vertices);
+  for (const Vec3& center : centers(drops, half_width, random)) {
+    const double size = radius(random);
+    SurfaceMesh drop = unit_sphere;
+    for (Vec3& x : drop.x) x = center + size * x;
+    add_drop(scene, std::move(drop));
+  }
   return scene;
 }
 

@@ -10,10 +10,14 @@
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/remesh.hpp"
 #include "meniscus/volume/facets.hpp"
+#include "meniscus/volume/foreseen_cells.hpp"
 #include "meniscus/volume/quality.hpp"
 #include "meniscus/volume/size_law.hpp"
 #include "meniscus/volume/tetgen_mesher.hpp"
 #include "tests/volume/scenes.hpp"
+
+#undef NDEBUG  // an assertion below is meant to fail
+#include <cassert>
 
 namespace meniscus {
 namespace {
@@ -51,12 +55,12 @@ FacetCounts count_facets(const TetMesh& mesh) {
 
 /// Meshes the scene and checks what the report promises, by other means than find_defect.
 void expect_valid_mesh(const Scene& scene, const VolumeMeshOptions& options = {}) {
-  ASSERT_EQ(find_conflict(scene), "");
+  ASSERT_EQ(text_of(find_conflict(scene)), "");
   TetMesh mesh;
   const VolumeMeshReport report = tetrahedralize(scene, options, mesh);
-  ASSERT_TRUE(report.ok) << report.failure;
-  EXPECT_EQ(report.attempt, 0) << report.failure;
-  EXPECT_EQ(find_defect(mesh, scene), "");
+  ASSERT_TRUE(report.ok()) << report.text();
+  EXPECT_EQ(report.attempt, 0) << report.text();
+  EXPECT_EQ(text_of(find_defect(mesh, scene)), "");
 
   const FacetCounts counts = count_facets(mesh);
   int interface_faces = 0;
@@ -112,10 +116,10 @@ TEST(Tetrahedralize, MeshesDropsOfAnySizeInABox) {
   for (int N0 = 60; N0 <= 90; ++N0) {
     Scene scene = test::scene_within(box(507, Vec3::Constant(10.0)).mesh);
     add_drop(scene, sphere(N0));
-    EXPECT_TRUE(remesh(scene.interfaces[0].mesh, {.C0 = N0 / (4.0 * std::numbers::pi)}).ok);
+    EXPECT_TRUE(remesh(scene.interfaces[0].mesh, {.C0 = N0 / (4.0 * std::numbers::pi)}).ok());
     TetMesh mesh;
     const VolumeMeshReport report = tetrahedralize(scene, {}, mesh);
-    EXPECT_TRUE(report.ok) << N0 << ": " << report.failure;
+    EXPECT_TRUE(report.ok()) << N0 << ": " << report.text();
   }
 }
 
@@ -142,8 +146,8 @@ TEST(Tetrahedralize, MeshesWithoutDrops) {
 TEST(Tetrahedralize, GivesTheSameMeshTwice) {
   const Scene scene = test::drop_in_sphere(100, 5.0, 100);
   TetMesh first, second;
-  ASSERT_TRUE(tetrahedralize(scene, {}, first).ok);
-  ASSERT_TRUE(tetrahedralize(scene, {}, second).ok);
+  ASSERT_TRUE(tetrahedralize(scene, {}, first).ok());
+  ASSERT_TRUE(tetrahedralize(scene, {}, second).ok());
   EXPECT_EQ(first.x, second.x);
   EXPECT_EQ(first.cells, second.cells);
   EXPECT_EQ(first.region, second.region);
@@ -155,7 +159,7 @@ TEST(Tetrahedralize, MeetsThePapersNumberOfNodes) {
   // may differ somewhat.
   const Scene scene = test::drop_in_sphere(400, 10.0, 507);
   TetMesh mesh;
-  ASSERT_TRUE(tetrahedralize(scene, {}, mesh).ok);
+  ASSERT_TRUE(tetrahedralize(scene, {}, mesh).ok());
   EXPECT_NEAR(mesh.num_vertices(), 6802, 0.2 * 6802);
   const MeshQuality q = quality(mesh);
   EXPECT_GT(q.min_dihedral_deg, 8.0);
@@ -164,7 +168,7 @@ TEST(Tetrahedralize, MeetsThePapersNumberOfNodes) {
 
 TEST(Tetrahedralize, RefusesScenesInConflictAndLeavesTheMeshAlone) {
   TetMesh mesh;
-  ASSERT_TRUE(tetrahedralize(test::drop_in_sphere(60, 4.0, 60), {}, mesh).ok);
+  ASSERT_TRUE(tetrahedralize(test::drop_in_sphere(60, 4.0, 60), {}, mesh).ok());
   const auto kept = mesh.x;
 
   Scene overlapping = test::scene_within(sphere(100, 5.0));
@@ -181,8 +185,8 @@ TEST(Tetrahedralize, RefusesScenesInConflictAndLeavesTheMeshAlone) {
        {std::pair{&overlapping, "drops 0 and 1 touch"}, std::pair{&outside, "outside"},
         std::pair{&tangled, "meets itself"}, std::pair{&unbounded, "unbounded"}}) {
     const VolumeMeshReport report = tetrahedralize(*scene, {}, mesh);
-    EXPECT_FALSE(report.ok);
-    EXPECT_NE(report.failure.find(word), std::string::npos) << report.failure;
+    EXPECT_FALSE(report.ok());
+    EXPECT_NE(report.text().find(word), std::string::npos) << report.text();
     EXPECT_EQ(mesh.x, kept);
   }
 }
@@ -203,9 +207,9 @@ TEST(Tetrahedralize, HalfTheCellVolumeDoublesTheCells) {
   const Scene scene = test::drop_in_sphere(200, 10.0, 250);
   VolumeMeshOptions options;
   TetMesh coarse, fine;
-  ASSERT_TRUE(tetrahedralize(scene, options, coarse).ok);
+  ASSERT_TRUE(tetrahedralize(scene, options, coarse).ok());
   options.cell_volume *= 0.5;
-  ASSERT_TRUE(tetrahedralize(scene, options, fine).ok);
+  ASSERT_TRUE(tetrahedralize(scene, options, fine).ok());
   // The cells at the surfaces are as large as their faces, whatever the bound.
   const double ratio = static_cast<double>(fine.num_cells()) / coarse.num_cells();
   EXPECT_GT(ratio, 1.5);
@@ -228,8 +232,7 @@ TEST(TetgenMesher, KeepsTheSurfacesUnderEverySetOfSwitches) {
   const SurfaceComplex complex = complex_of(
       {sphere(150, 1.0, Vec3(-1.01, 0, 0)), sphere(150, 1.0, Vec3(1.01, 0, 0)), boundary});
   for (const std::string& switches : tetgen_switches(1.4)) {
-    MesherResult result = run_tetgen(
-        complex, switches, [](const Vec3&) { return 0.5; }, 2.0);
+    MesherResult result = run_tetgen(complex, switches, {.size = [](const Vec3&) { return 0.5; }});
     ASSERT_EQ(result.failure, "") << switches;
     for (std::size_t v = 0; v < complex.x.size(); ++v)
       ASSERT_EQ(result.x[TetVertexId{static_cast<std::int32_t>(v)}], complex.x[v]) << switches;
@@ -253,15 +256,86 @@ TEST(TetgenMesher, ReportsIntersectingSurfaces) {
   const SurfaceComplex complex = complex_of(
       {sphere(60, 1.0, Vec3(-0.5, 0, 0)), sphere(60, 1.0, Vec3(0.5, 0, 0)), sphere(100, 5.0)});
   for (const std::string& switches : tetgen_switches(1.4)) {
-    const MesherResult result = run_tetgen(
-        complex, switches, [](const Vec3&) { return 1.0; }, 2.0);
+    const MesherResult result =
+        run_tetgen(complex, switches, {.size = [](const Vec3&) { return 1.0; }});
     EXPECT_NE(result.failure.find("intersect"), std::string::npos) << result.failure;
     EXPECT_EQ(result.cells.size(), 0);
   }
 }
 
+/// A size law that fails an assertion the first `failures` times that it is asked.
+CellTarget failing_size(int failures, int& count) {
+  return {.size = [failures, &count](const Vec3&) {
+    if (count < failures) {
+      ++count;
+      assert(failures == 0);
+    }
+    return 1.0;
+  }};
+}
+
+TEST(TetgenMesher, TriesAnotherOrderAfterAFailedAssertion) {
+  const SurfaceComplex complex = complex_of({sphere(100, 2.0)});
+  int count = 0;
+  const MesherResult result =
+      run_tetgen(complex, tetgen_switches(1.4).front(), failing_size(1, count));
+  EXPECT_EQ(result.failure, "");
+  EXPECT_GT(result.cells.size(), 0);
+  EXPECT_EQ(count, 1);
+}
+
+TEST(TetgenMesher, AnAssertionThatNeverHoldsIsAFailedAttempt) {
+  const SurfaceComplex complex = complex_of({sphere(100, 2.0)});
+  int count = 0;
+  const MesherResult result =
+      run_tetgen(complex, tetgen_switches(1.4).front(), failing_size(1000, count));
+  EXPECT_NE(result.failure.find("Assertion `failures == 0' failed"), std::string::npos)
+      << result.failure;
+  EXPECT_EQ(result.cells.size(), 0);
+  EXPECT_EQ(count, 4);  // orders
+}
+
+TEST(ForeseenCells, AreThoseThatAreMade) {
+  struct Setup {
+    int drop;
+    double radius;
+    int boundary;
+  };
+  for (const Setup& s : {Setup{60, 3.0, 60}, Setup{60, 10.0, 100}, Setup{100, 100.0, 59}}) {
+    for (const Grading grading : {Grading::linear, Grading::gaussian}) {
+      const Scene scene = test::drop_in_sphere(s.drop, s.radius, s.boundary);
+      VolumeMeshOptions options;
+      options.grading = grading;
+      const ForeseenCells cells =
+          foresee_cells(scene, SizeLaw(scene, options), options.cell_volume);
+      TetMesh mesh;
+      ASSERT_TRUE(tetrahedralize(scene, options, mesh).ok());
+      EXPECT_GT(cells.number, mesh.num_cells() / 3.0);
+      EXPECT_LT(cells.number, mesh.num_cells() * 3.0);
+      EXPECT_FALSE(cells.is_too_many());
+    }
+  }
+}
+
+TEST(ForeseenCells, AbsurdMeshesAreRefusedBeforeTheyAreMade) {
+  const Scene scene = test::drop_in_sphere(110, 10.0, 100);
+  for (const double size : {1e-3, 1e-9, 1e-300, 0.0, std::nan("")}) {
+    const auto law = [&](const Vec3& x) { return x.norm() < 3.0 ? size : 1.0; };
+    const ForeseenCells cells = foresee_cells(scene, law, 2.0);
+    EXPECT_TRUE(cells.is_too_many()) << size;
+    EXPECT_LT(cells.finest.norm(), 3.0);
+  }
+  // A wall of edges of 0.005 in a box of 20: 3e10 cells.
+  Scene wall = test::scene_within(box(60, Vec3(10.0, 10.0, 10.0)).mesh);
+  const Vec3 corner = wall.boundary.mesh.x[VertexId{0}];
+  const ForeseenCells cells = foresee_cells(
+      wall, [&](const Vec3& x) { return 0.005 + 1e-6 * (x - corner).norm(); }, 2.0);
+  EXPECT_TRUE(cells.is_too_many());
+  EXPECT_NE(too_many(cells).find("2e+07"), std::string::npos) << too_many(cells);
+}
+
 TEST(SizeLaw, PassesBetweenItsEnds) {
-  for (const Grading grading : {Grading::linear, Grading::exponential, Grading::gaussian}) {
+  for (const Grading grading : {Grading::linear, Grading::gaussian}) {
     EXPECT_NEAR(graded_size(grading, 0.1, 0.0, 1.6, 9.0), 0.1, 1e-15);
     EXPECT_NEAR(graded_size(grading, 0.1, 9.0, 1.6, 0.0), 1.6, 1e-15);
     double last = 0.1;

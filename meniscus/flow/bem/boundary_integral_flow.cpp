@@ -38,17 +38,17 @@ class BoundaryIntegralFlow final : public FlowSolver {
   PhaseTimes times_;
 };
 
-/// Why boundary integrals do not describe a scene; empty where they do.
-std::string find_misfit(const Scene& scene) {
-  if (!scene.is_unbounded) return "the boundary-integral solver needs an unbounded scene";
+/// Why boundary integrals do not describe a scene; none where they do.
+std::optional<Fault> find_misfit(const Scene& scene) {
+  if (!scene.is_unbounded)
+    return Fault{FaultKind::no_flow, "the boundary-integral solver needs an unbounded scene"};
   if (!std::ranges::all_of(scene.liquids, is_newtonian, &Liquid::law))
-    return "boundary integrals describe Newtonian liquids alone";
+    return Fault{FaultKind::no_flow, "boundary integrals describe Newtonian liquids alone"};
   return {};
 }
 
 FlowSolution BoundaryIntegralFlow::solve(const FlowDomain& domain, const Instant& instant) {
-  if (std::string misfit = find_misfit(domain.scene); !misfit.empty())
-    return failed_flow(std::move(misfit));
+  if (auto misfit = find_misfit(domain.scene)) return failed_flow(*std::move(misfit));
   if (connectivity_ != domain.connectivity) velocity_.clear();
   connectivity_ = domain.connectivity;
   std::optional<IntegralEquation> equation;
@@ -67,14 +67,16 @@ FlowSolution BoundaryIntegralFlow::solve(const FlowDomain& domain, const Instant
         {.rtol = options_.rtol, .max_iterations = options_.max_iterations});
     if (!report.converged)
       return failed_flow(
-          fmt::format("the double layer's equation was not solved in {} iterations: {}",
-                      report.iterations, report.reason),
+          {FaultKind::not_converged,
+           fmt::format("the double layer's equation was not solved in {} iterations: {}",
+                       report.iterations, report.reason)},
           report.iterations);
   } else {
     w = equation->right_hand_side();
   }
   std::vector<VertexField<Vec3>> u = equation->velocity(w);
-  if (!is_finite(u)) return failed_flow("the velocity on an interface is not finite");
+  if (!is_finite(u))
+    return failed_flow({FaultKind::not_finite, "the velocity on an interface is not finite"});
   velocity_ = u;
   FlowSolution solution;
   solution.iterations = report.iterations;

@@ -1,6 +1,9 @@
 #include "meniscus/flow/bem/face_moments.hpp"
 
-#include "meniscus/flow/bem/face_rules.hpp"
+#include <cmath>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/geometry/quadrature.hpp"
 
 namespace meniscus::bem {
 namespace {
@@ -13,14 +16,19 @@ using Part = std::array<Vec3, 3>;  // barycentric corners of a part of a face
 constexpr double kSizePerDistance = 1.0;
 constexpr int kMostQuarterings = 14;  // parts of 6e-5 of the face: surfaces that all but touch
 
-void add_point(const Face& face, const RulePoint& point, const Vec3& x, FaceMoments& moments) {
-  const FacePoint at = face_point(face.nodes, point.weights);
-  const LayerKernels kernels = layer_kernels(at.x - x, point.share * at.area);
-  const NodeValues shape = quadratic_shape(point.weights);
-  for (std::size_t a = 0; a < shape.size(); ++a) {
-    moments.single[a] += shape[a] * kernels.single;
-    add(moments.dual[a], shape[a], kernels.dual);
+void add_point(const Face& face, const QuadraturePoint<3>& point, const Vec3& x,
+               FaceMoments& moments) {
+  const TriangleShape<kQuadraticNodes> shape = quadratic_shape(point.barycentric);
+  const LayerKernels kernels = layer_kernels(interpolated(shape.value, face.nodes) - x,
+                                             point.share * tangents(shape, face.nodes).area());
+  for (std::size_t a = 0; a < shape.value.size(); ++a) {
+    moments.single[a] += shape.value[a] * kernels.single;
+    add(moments.dual[a], shape.value[a], kernels.dual);
   }
+}
+
+Vec3 point_of(const Face& face, const Vec3& b) {
+  return interpolated(quadratic_values({b[0], b[1], b[2]}), face.nodes);
 }
 
 FaceMoments no_moments() {
@@ -32,7 +40,7 @@ FaceMoments no_moments() {
 void add_part(const Face& face, const Part& b, int depth, const Vec3& x, FaceMoments& moments) {
   const double size = std::ldexp(face.size, -depth);
   const Vec3 middle = (b[0] + b[1] + b[2]) / 3.0;
-  const double distance = (face_point(face.nodes, middle).x - x).norm();
+  const double distance = (point_of(face, middle) - x).norm();
   if (size > kSizePerDistance * distance && depth < kMostQuarterings) {
     const Part half = {0.5 * (b[1] + b[2]), 0.5 * (b[2] + b[0]), 0.5 * (b[0] + b[1])};
     for (const Part& part : {Part{b[0], half[2], half[1]}, Part{half[2], b[1], half[0]},
@@ -41,11 +49,10 @@ void add_part(const Face& face, const Part& b, int depth, const Vec3& x, FaceMom
     return;
   }
   const double share = std::ldexp(1.0, -2 * depth);
-  for (const RulePoint& point : smooth_rule())
-    add_point(face,
-              {point.weights[0] * b[0] + point.weights[1] * b[1] + point.weights[2] * b[2],
-               share * point.share},
-              x, moments);
+  for (const auto& [w, part] : kTriangleRule5) {
+    const Vec3 at = w[0] * b[0] + w[1] * b[1] + w[2] * b[2];
+    add_point(face, {{at[0], at[1], at[2]}, share * part}, x, moments);
+  }
 }
 
 }  // namespace
@@ -59,10 +66,11 @@ LayerKernels layer_kernels(const Vec3& r, const Vec3& a) {
                    factor * r[0] * r[1], factor * r[0] * r[2], factor * r[1] * r[2]}};
 }
 
-FaceMoments corner_moments(const Face& face, int corner) {
+FaceMoments corner_moments(const Face& face, std::size_t corner) {
+  MENISCUS_ASSERT(corner < 3, "corner {}", corner);
   FaceMoments moments = no_moments();
-  const Vec3& x = face.nodes[static_cast<std::size_t>(corner)];
-  for (const RulePoint& point : corner_rule(corner)) add_point(face, point, x, moments);
+  const Vec3& x = face.nodes[corner];
+  for (const QuadraturePoint<3>& point : corner_rule(corner)) add_point(face, point, x, moments);
   return moments;
 }
 

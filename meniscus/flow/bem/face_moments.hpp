@@ -20,12 +20,12 @@ inline void add(Symmetric& sum, double factor, const Symmetric& term) {
 
 /// Integrals of the kernels over a face, times the face's six functions.
 struct FaceMoments {
-  std::array<Vec3, kFaceNodes> single;
-  std::array<Symmetric, kFaceNodes> dual{};
+  std::array<Vec3, kQuadraticNodes> single;
+  std::array<Symmetric, kQuadraticNodes> dual{};
 };
 
 /// Moments seen from a vertex of the face itself (`corner` 0, 1, 2).
-[[nodiscard]] FaceMoments corner_moments(const InterfaceElements::Face& face, int corner);
+[[nodiscard]] FaceMoments corner_moments(const InterfaceElements::Face& face, std::size_t corner);
 /// Moments seen from a point off the face: quartered until every part is small beside its distance,
 /// so that the error is about the same at any distance.
 [[nodiscard]] FaceMoments near_moments(const InterfaceElements::Face& face, const Vec3& x);

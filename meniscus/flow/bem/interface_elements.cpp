@@ -4,10 +4,10 @@
 #include <map>
 
 #include "meniscus/core/error.hpp"
-#include "meniscus/flow/bem/face_rules.hpp"
-#include "meniscus/flow/bem/quartic_curvature.hpp"
+#include "meniscus/geometry/quadrature.hpp"
 #include "meniscus/surface/edge_interpolation.hpp"
 #include "meniscus/surface/edge_middles.hpp"
+#include "meniscus/surface/quartic_curvature.hpp"
 
 namespace meniscus::bem {
 namespace {
@@ -18,49 +18,42 @@ using Face = InterfaceElements::Face;
 struct Edges {
   std::vector<Vec3> middle;
   std::vector<Stencil> stencil;
-  FaceField<std::array<std::size_t, 3>> of_face;  // by the corner opposite
+  FaceField<std::array<std::size_t, 3>> of_face;
 };
 
 Edges make_edges(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                  const SmoothSurface& smooth, const VertexField<Vec3>& normals) {
   Edges edges;
   edges.middle = patched_middles(smooth, topology);
-  edges.of_face.resize(mesh.num_faces());
-  for (std::size_t e = 0; e < topology.edges().size(); ++e) {
-    const SurfaceEdge& edge = topology.edges()[e];
-    const auto note = [&](FaceId f, VertexId opposite) {
-      for (std::size_t k = 0; k < 3; ++k)
-        if (mesh.faces[f][k] == opposite) edges.of_face[f][k] = e;
-    };
-    note(edge.left, edge.left_opposite);
-    note(edge.right, edge.right_opposite);
-  }
   edges.stencil = edge_stencils(mesh, topology, normals, edges.middle);
+  edges.of_face = face_edges(mesh, topology);
   return edges;
 }
 
 /// Columns in rising order of the vertices, so that sums do not depend on how they were found.
 void set_stencil(Face& face, const FaceVertices& corners,
                  const std::array<const Stencil*, 3>& middles) {
-  std::map<VertexId, std::array<double, kFaceNodes>> weights;
+  std::map<VertexId, std::array<double, kQuadraticNodes>> weights;
   for (std::size_t k = 0; k < 3; ++k) {
     weights[corners[k]][k] += 1.0;
     for (const VertexWeight& w : *middles[k]) weights[w.vertex][3 + k] += w.weight;
   }
-  face.to_nodes.resize(kFaceNodes, static_cast<Eigen::Index>(weights.size()));
+  face.to_nodes.resize(kQuadraticNodes, static_cast<Eigen::Index>(weights.size()));
   for (const auto& [vertex, values] : weights) {
     face.to_nodes.col(static_cast<Eigen::Index>(face.columns.size())) =
-        Eigen::Map<const Eigen::Matrix<double, kFaceNodes, 1>>(values.data());
+        Eigen::Map<const Eigen::Matrix<double, kQuadraticNodes, 1>>(values.data());
     face.columns.push_back(vertex);
   }
 }
 
 void set_shares(Face& face) {
-  Eigen::Matrix<double, kFaceNodes, 1> moment = Eigen::Matrix<double, kFaceNodes, 1>::Zero();
-  for (const RulePoint& point : smooth_rule()) {
-    const double area = point.share * face_point(face.nodes, point.weights).area.norm();
-    const NodeValues shape = quadratic_shape(point.weights);
-    moment += area * Eigen::Map<const Eigen::Matrix<double, kFaceNodes, 1>>(shape.data());
+  Eigen::Matrix<double, kQuadraticNodes, 1> moment =
+      Eigen::Matrix<double, kQuadraticNodes, 1>::Zero();
+  for (const auto& [barycentric, share] : kTriangleRule5) {
+    const TriangleShape<kQuadraticNodes> shape = quadratic_shape(barycentric);
+    const double area = share * tangents(shape, face.nodes).area().norm();
+    moment +=
+        area * Eigen::Map<const Eigen::Matrix<double, kQuadraticNodes, 1>>(shape.value.data());
   }
   const Eigen::VectorXd share = face.to_nodes.transpose() * moment;
   face.share.assign(share.begin(), share.end());
@@ -104,10 +97,10 @@ InterfaceElements make_elements(const SurfaceMesh& mesh) {
 }
 
 std::vector<double> value_weights(const Face& face, const Vec3& b) {
-  const NodeValues shape = quadratic_shape(b);
+  const std::array<double, kQuadraticNodes> values = quadratic_values({b[0], b[1], b[2]});
   const Eigen::VectorXd weights =
       face.to_nodes.transpose() *
-      Eigen::Map<const Eigen::Matrix<double, kFaceNodes, 1>>(shape.data());
+      Eigen::Map<const Eigen::Matrix<double, kQuadraticNodes, 1>>(values.data());
   return {weights.begin(), weights.end()};
 }
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "meniscus/flow/bem/quadratic_face.hpp"
+#include "meniscus/geometry/quadratic_triangle.hpp"
 #include "meniscus/mesh/surface_mesh.hpp"
 
 namespace meniscus::bem {
@@ -13,9 +13,9 @@ namespace meniscus::bem {
 struct InterfaceElements {
   /// How a face reads vertex values: value at node a = Σ_c to_nodes(a, c) value[columns[c]].
   struct Face {
-    FaceNodes nodes;
+    TriangleNodes<kQuadraticNodes> nodes;
     std::vector<VertexId> columns;
-    Eigen::Matrix<double, kFaceNodes, Eigen::Dynamic> to_nodes;
+    Eigen::Matrix<double, kQuadraticNodes, Eigen::Dynamic> to_nodes;
     std::vector<double> share;  ///< ∫_face f dS ≈ Σ_c share[c] f(x of columns[c])
     Vec3 center = Vec3::Zero();
     double size = 0.0;  ///< longest edge

@@ -103,18 +103,18 @@ class RowBuilder {
   void add_face(std::size_t m, FaceId f, std::int32_t i) {
     const InterfaceElements& elements = geometry_.surfaces[m].elements;
     const Face& face = elements.faces[f];
-    int corner = -1;
-    for (int k = 0; k < 3; ++k)
-      if (geometry_.index(m, elements.corners[f][static_cast<std::size_t>(k)]) == i) corner = k;
-    MENISCUS_ASSERT(corner < 0 || geometry_.surface_of[static_cast<std::size_t>(i)] ==
-                                      static_cast<std::int32_t>(m),
+    std::size_t corner = 3;  // none
+    for (std::size_t k = 0; k < 3; ++k)
+      if (geometry_.index(m, elements.corners[f][k]) == i) corner = k;
+    MENISCUS_ASSERT(corner == 3 || geometry_.surface_of[static_cast<std::size_t>(i)] ==
+                                       static_cast<std::int32_t>(m),
                     "point {} on surface {}", i, m);
-    const FaceMoments moments = corner < 0 ? near_moments(face, x_) : corner_moments(face, corner);
+    const FaceMoments moments = corner == 3 ? near_moments(face, x_) : corner_moments(face, corner);
     for (std::size_t c = 0; c < face.columns.size(); ++c) {
       const VertexId v = face.columns[c];
       const std::int32_t j = geometry_.index(m, v);
       LayerKernels entry{.single = Vec3::Zero(), .dual = {}};
-      for (std::size_t a = 0; a < kFaceNodes; ++a) {
+      for (std::size_t a = 0; a < kQuadraticNodes; ++a) {
         const double to_node =
             face.to_nodes(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(c));
         if (to_node == 0.0) continue;
@@ -163,6 +163,10 @@ class RowBuilder {
 
 std::vector<NearRow> near_rows(const BoundaryGeometry& geometry, const std::vector<double>& q,
                                const std::vector<bool>& has_dual, const SharedPoints& shared) {
+  MENISCUS_ASSERT(q.size() == static_cast<std::size_t>(geometry.size()),
+                  "{} densities of {} points", q.size(), geometry.size());
+  MENISCUS_ASSERT(has_dual.size() == geometry.surfaces.size(), "{} marks of {} surfaces",
+                  has_dual.size(), geometry.surfaces.size());
   std::vector<NearRow> rows(static_cast<std::size_t>(geometry.size()));
   shared.for_own([&](std::int32_t begin, std::int32_t end) {
     RowBuilder builder(geometry, q, has_dual);

@@ -66,9 +66,9 @@ double flux_through(const Vec3& area, const Vec3& velocity) {
 }
 
 /// Makes Σ A_i·v_i zero by v_i ← v_i − A_i/A_i² |A_i·v_i| (Σ A·v)/(Σ |A·v|), the last sum over the
-/// nodes that are not of the linear flow; returns why it cannot, or nothing.
-std::string remove_net_flux(const OuterBoundary& boundary, const Field<NodeId, Vec3>& area,
-                            ImposedValues& values) {
+/// nodes that are not of the linear flow, unless the sum is too large for that.
+std::optional<Fault> remove_net_flux(const OuterBoundary& boundary, const Field<NodeId, Vec3>& area,
+                                     ImposedValues& values) {
   const auto is_free = [&](NodeId i) {
     return values.patch[i].is_valid() && !is_linear(boundary, values.patch[i]);
   };
@@ -81,9 +81,10 @@ std::string remove_net_flux(const OuterBoundary& boundary, const Field<NodeId, V
   }
   const double allowed = gross_of_free > 0.0 ? most_interpolated_flux : most_linear_flux;
   if (std::abs(flux) > allowed * gross)
-    return fmt::format(
-        "the imposed velocities have a net flux of {:.3g} out of a boundary without an open patch",
-        flux);
+    return Fault{FaultKind::no_flow,
+                 fmt::format("the imposed velocities have a net flux of {:.3g} out of a boundary "
+                             "without an open patch",
+                             flux)};
   for (const NodeId i : area.ids()) {
     const double through = std::abs(flux_through(area[i], values.velocity[i]));
     if (through > 0.0 && is_free(i)) {
@@ -185,7 +186,7 @@ BoundaryConditions boundary_conditions(const OuterBoundary& boundary, const Face
   add_tractions(boundary, faces, positions, conditions);
   ImposedValues values = imposed_values(boundary, faces, positions, t);
   if (!conditions.has_open_patch)
-    conditions.failure = remove_net_flux(boundary, node_area_vectors(faces, positions.x), values);
+    conditions.fault = remove_net_flux(boundary, node_area_vectors(faces, positions.x), values);
   const PieceNormals normals =
       piece_normals(boundary, impenetrable_patches(boundary), faces, num_nodes);
   for (const NodeId i : positions.x.ids()) {

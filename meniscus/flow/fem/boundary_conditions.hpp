@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "meniscus/core/fault.hpp"
 #include "meniscus/flow/fem/constraints.hpp"
 #include "meniscus/flow/fem/node_positions.hpp"
 #include "meniscus/scene/scene.hpp"
@@ -16,7 +17,7 @@ struct BoundaryConditions {
   Constraints constraints;
   Field<NodeId, Vec3> traction;  ///< ∫φ t dS of the open patches [μ_out G R0²]
   bool has_open_patch = false;
-  std::string failure;  ///< why there is no flow under these conditions; empty if there is
+  std::optional<Fault> fault = {};  ///< why there is no flow under these conditions
 };
 
 /// Where patches meet, a node obeys ImposedVelocity first (that of the lowest patch id), then every

@@ -9,7 +9,7 @@ namespace meniscus::fem {
 namespace {
 
 void add_nodal_force(const Interface& interface, const FaceNodeTable& faces,
-                     Field<NodeId, Vec3>& load) {
+                     Field<NodeId, Vec3>& force) {
   MENISCUS_ASSERT(faces.nodes_per_face == 3, "{}", faces.nodes_per_face);
   const SurfaceMesh& mesh = interface.mesh;
   const VertexField<VertexCurvature> fit = fitted_curvature(mesh, SurfaceTopology(mesh));
@@ -17,7 +17,7 @@ void add_nodal_force(const Interface& interface, const FaceNodeTable& faces,
     const double third = face_area_vector(mesh, f).norm() / 3.0;
     for (std::size_t k = 0; k < 3; ++k) {
       const VertexCurvature& at = fit[mesh.faces[f][k]];
-      load[faces.of(f)[k]] -= interface.tension * third * at.sum() * at.n;
+      force[faces.of(f)[k]] -= interface.tension * third * at.sum() * at.n;
     }
   }
 }
@@ -46,41 +46,41 @@ Field<NodeId, double> fitted_kappa(const SurfaceMesh& mesh, const FaceNodeTable&
 }  // namespace
 
 void add_weak_force(double tension, const FaceNodeTable& faces, const NodePositions& positions,
-                    Field<NodeId, Vec3>& load) {
+                    Field<NodeId, Vec3>& force) {
   for (const FaceId f : faces.faces()) {
     const auto nodes = faces.of(f);
     for (const FacePoint& point : face_points(positions.x, nodes))
       for (std::size_t i = 0; i < nodes.size(); ++i)
-        load[nodes[i]] -= tension * point.area.norm() * point.gradient[i];
+        force[nodes[i]] -= tension * point.area.norm() * point.gradient[i];
   }
 }
 
 void add_balanced_force(double tension, const Field<NodeId, double>& kappa,
                         const FaceNodeTable& faces, const NodePositions& positions,
-                        Field<NodeId, Vec3>& load) {
+                        Field<NodeId, Vec3>& force) {
   for (const FaceId f : faces.faces()) {
     const auto nodes = faces.of(f);
     for (const FacePoint& point : face_points(positions.x, nodes)) {
       double here = 0.0;
       for (std::size_t i = 0; i < nodes.size(); ++i) here += point.value[i] * kappa[nodes[i]];
       for (std::size_t i = 0; i < nodes.size(); ++i)
-        load[nodes[i]] -= tension * here * point.value[i] * point.area;
+        force[nodes[i]] -= tension * here * point.value[i] * point.area;
     }
   }
 }
 
 void add_capillary_force(const Interface& interface, CapillaryForm form, const FaceNodeTable& faces,
-                         const NodePositions& positions, Field<NodeId, Vec3>& load) {
+                         const NodePositions& positions, Field<NodeId, Vec3>& force) {
   switch (form) {
     case CapillaryForm::weak:
-      return add_weak_force(interface.tension, faces, positions, load);
+      return add_weak_force(interface.tension, faces, positions, force);
     case CapillaryForm::nodal:
-      return add_nodal_force(interface, faces, load);
+      return add_nodal_force(interface, faces, force);
     case CapillaryForm::balanced:
       break;
   }
-  add_balanced_force(interface.tension, fitted_kappa(interface.mesh, faces, load.size()), faces,
-                     positions, load);
+  add_balanced_force(interface.tension, fitted_kappa(interface.mesh, faces, force.size()), faces,
+                     positions, force);
 }
 
 }  // namespace meniscus::fem

@@ -10,14 +10,14 @@ namespace meniscus::fem {
 /// (inward on a sphere) [μ_out G R0²]; eqs 15–17 of hooper2001. Balanced: κ by the paraboloid fit
 /// (P1), or by the osculating one (P2). The nodal form, a lumped rule, exists for P1 alone.
 void add_capillary_force(const Interface& interface, CapillaryForm form, const FaceNodeTable& faces,
-                         const NodePositions& positions, Field<NodeId, Vec3>& load);
+                         const NodePositions& positions, Field<NodeId, Vec3>& force);
 /// −σ∫(I − nn):∇φ_i dS: the rate at which −σ times the area of the elements' surface grows.
 void add_weak_force(double tension, const FaceNodeTable& faces, const NodePositions& positions,
-                    Field<NodeId, Vec3>& load);
+                    Field<NodeId, Vec3>& force);
 /// −σ∫κ_h n φ_i dS for a field κ_h of the velocity's degree, given at the nodes. For constant κ_h
 /// it is a discrete pressure gradient: no flow.
 void add_balanced_force(double tension, const Field<NodeId, double>& kappa,
                         const FaceNodeTable& faces, const NodePositions& positions,
-                        Field<NodeId, Vec3>& load);
+                        Field<NodeId, Vec3>& force);
 
 }  // namespace meniscus::fem

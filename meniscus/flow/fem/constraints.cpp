@@ -21,8 +21,8 @@ struct Basis {
   [[nodiscard]] std::span<const Vec3> all() const { return std::span(vectors).first(size); }
 };
 
-/// Orthonormal basis of the span of the normals.
-Basis orthonormalized(std::span<const Vec3> normals) {
+/// The span of the normals.
+Basis orthonormal_basis(std::span<const Vec3> normals) {
   Basis basis;
   for (Vec3 n : normals) {
     for (const Vec3& e : basis.all()) n -= e.dot(n) * e;
@@ -102,7 +102,7 @@ void Constraints::fix(NodeId i, const Vec3& value) {
 }
 
 void Constraints::forbid_penetration(NodeId i, std::span<const Vec3> normals) {
-  const Basis basis = orthonormalized(normals);
+  const Basis basis = orthonormal_basis(normals);
   NodeConstraint& constraint = at(i);
   if (basis.size == 3) {
     constraint.is_fixed = {true, true, true};

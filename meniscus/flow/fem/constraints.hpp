@@ -8,7 +8,7 @@
 
 namespace meniscus::fem {
 
-/// What is prescribed of the velocity at one node: the components `is_fixed` in the orthonormal
+/// The prescribed part of the velocity at one node: its components `is_fixed` in the orthonormal
 /// frame whose axes are the columns of `frame`.
 struct NodeConstraint {
   NodeId node;
@@ -26,17 +26,17 @@ class Constraints {
  public:
   explicit Constraints(std::int32_t num_nodes) : index_(num_nodes, -1) {}
 
-  /// v = value; replaces whatever was asked of the node before.
+  /// v = value; replaces the constraint that the node had.
   void fix(NodeId i, const Vec3& value);
   /// n·v = 0 for each of the unit normals (linearly dependent ones count once). Axes that lie along
   /// a coordinate axis leave the frame Cartesian.
   void forbid_penetration(NodeId i, std::span<const Vec3> normals);
 
-  /// What is asked of a node elsewhere, for one here.
+  /// Gives node i the constraint of a node of another space.
   void copy(NodeId i, const NodeConstraint& constraint) {
-    NodeConstraint& here = at(i);
-    here = constraint;
-    here.node = i;
+    NodeConstraint& copied = at(i);
+    copied = constraint;
+    copied.node = i;
   }
 
   [[nodiscard]] std::span<const NodeConstraint> all() const { return constraints_; }

@@ -10,7 +10,7 @@ using PerCell = CellBatch::PerCell<double>;
 using PerCell3 = std::array<PerCell, 3>;
 using OfCells = std::array<EdgeIntegrals<PerCell>, 6>;
 
-/// Of plain numbers: compilers make vectors across cells of these, and not of Eigen's.
+/// A vector of plain numbers, which compilers vectorise across cells; they do not with Eigen's.
 struct Vector {
   double x, y, z;
   friend Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -33,15 +33,11 @@ void integrate(const CellBatch& cells, OfCells& integrals) {
   std::array<PerCell3, 4> gradient;
   PerCell viscous, stabilisation, mass, eighth;  // μV, τV, V/12μ, V/8
   for (std::size_t m = 0; m < CellBatch::size; ++m) {
-    const Vector o = get(cells.corner[0], m), e1 = get(cells.corner[1], m) - o,
-                 e2 = get(cells.corner[2], m) - o, e3 = get(cells.corner[3], m) - o,
-                 n1 = cross(e2, e3), n2 = cross(e3, e1), n3 = cross(e1, e2);
-    const double determinant = dot(e1, n1), scale = 1.0 / determinant, volume = determinant / 6.0,
-                 viscosity = cells.viscosity[m];
-    put(gradient[0], m, -scale * (n1 + n2 + n3));
-    put(gradient[1], m, scale * n1);
-    put(gradient[2], m, scale * n2);
-    put(gradient[3], m, scale * n3);
+    const BarycentricTetrahedron<Vector> tet =
+        linear_tetrahedron<Vector>({get(cells.corner[0], m), get(cells.corner[1], m),
+                                    get(cells.corner[2], m), get(cells.corner[3], m)});
+    for (std::size_t k = 0; k < 4; ++k) put(gradient[k], m, tet.gradient[k]);
+    const double volume = tet.volume, viscosity = cells.viscosity[m];
     viscous[m] = viscosity * volume;
     stabilisation[m] = volume * pspg_parameter(volume, viscosity);
     mass[m] = volume / (12.0 * viscosity);

@@ -123,7 +123,7 @@ void EdgeSums::add(const StokesProblem& problem, std::span<const CellId> cells) 
   }
 }
 
-/// As cell m of a batch. Asks for the sums that it will be added to.
+/// Puts a cell into a batch as its cell m. Prefetches the sums that it will be added to.
 void EdgeSums::put(const StokesProblem& problem, CellId c, CellBatch& batch, std::size_t m) const {
   for (std::size_t k = 0; k < 6; ++k) {
     batch.edge[k][m] = cell_edges_[6 * at(c.value) + k];
@@ -160,7 +160,7 @@ void EdgeSums::write(const StokesProblem& problem, std::int32_t num_pressures,
   }
 }
 
-/// Those of one liquid that neither are constrained nor have a neighbour that is.
+/// Nodes in one liquid that neither are constrained nor have a constrained neighbour.
 std::vector<bool> EdgeSums::find_plain_nodes(const Constraints& constraints,
                                              const Matrices& matrices) const {
   std::vector<bool> is_plain = is_shared_;
@@ -174,7 +174,7 @@ std::vector<bool> EdgeSums::find_plain_nodes(const Constraints& constraints,
   return is_plain;
 }
 
-/// Of B and C, and what the row's pressure knows of A and the Laplacians.
+/// Writes the rows of B and C of a pressure, and its part of the rows of A and the Laplacians.
 template <bool is_plain>
 [[gnu::always_inline]] inline void EdgeSums::write_entry(const Row& row, std::size_t k,
                                                          const EdgeIntegrals<double>& sums,
@@ -235,7 +235,7 @@ void EdgeSums::write_row(std::int32_t p, const Constraints& constraints,
   matrices.pressure_mass[at(p)] = -rest.mass;
 }
 
-/// What is not in the sums.
+/// Adds the terms on a liquid's boundary, which the sums leave out.
 void EdgeSums::add_boundary(const BoundaryCorner& corner, const StokesProblem& problem,
                             const Matrices& matrices) const {
   const NodeId a{node_[at(corner.pressure)]}, b{column_nodes_[at(corner.next)]},

@@ -26,7 +26,7 @@ namespace meniscus::fem {
 /// these cancel but for the first and the last, on Γ.
 class EdgeSums {
  public:
-  /// Of the sparsities of A, B and C before their columns are renumbered.
+  /// The graphs are those of A, B and C, columns still numbered as in the space.
   EdgeSums(const FlowSpace& space, const NodeGraph& velocity_graph, const NodeGraph& coupling_graph,
            const NodeGraph& pressure_graph);
 
@@ -76,8 +76,8 @@ class EdgeSums {
   void add_boundary(const BoundaryCorner& corner, const StokesProblem& problem,
                     const Matrices& matrices) const;
 
-  /// Of the pressures a < b at the ends of each edge in one liquid. Of the two behind these the
-  /// first stays zero, the edges of diagonal entries, and the second is of no use.
+  /// One for each edge in one liquid, between pressures a < b. Two more follow: one that stays
+  /// zero, for diagonal entries, and one that is written to and never read.
   std::vector<EdgeIntegrals<double>> sums_;
   /// 2·edge + whether seen from b, per edge of each cell as in `kCellEdges`, and per entry of C;
   /// that one is longer, for what is fetched ahead.

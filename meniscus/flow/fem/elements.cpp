@@ -40,15 +40,15 @@ struct ReferencePoints {
   std::array<std::array<double, 10>, Count> value;
   std::array<Gradients, Count> gradient;
 
-  explicit ReferencePoints(const std::array<RulePoint<4>, Count>& rule) {
+  explicit ReferencePoints(const std::array<QuadraturePoint<4>, Count>& rule) {
     for (std::size_t q = 0; q < Count; ++q) {
       value[q] = quadratic_values(rule[q].barycentric);
       gradient[q] = quadratic_gradients(rule[q].barycentric, kReferenceGradients);
     }
   }
 };
-const ReferencePoints<kStraightCellRule.size()> kStraight(kStraightCellRule);
-const ReferencePoints<kCurvedCellRule.size()> kCurved(kCurvedCellRule);
+const ReferencePoints<kTetrahedronRule2.size()> kStraight(kTetrahedronRule2);
+const ReferencePoints<kTetrahedronRule5.size()> kCurved(kTetrahedronRule5);
 
 Eigen::Matrix<double, 10, 3> gathered(const Field<NodeId, Vec3>& x,
                                       std::span<const std::int32_t> nodes) {
@@ -93,23 +93,23 @@ std::span<const QuadraticElement::Point> QuadraticElement::points(CellId c) {
 std::span<const QuadraticElement::Point> QuadraticElement::straight_points(
     std::span<const std::int32_t> nodes) {
   const LinearTetrahedron tet = linear_tetrahedron(corners(positions_.x, nodes));
-  for (std::size_t q = 0; q < kStraightCellRule.size(); ++q) {
-    const auto& [barycentric, share] = kStraightCellRule[q];
+  for (std::size_t q = 0; q < kTetrahedronRule2.size(); ++q) {
+    const auto& [barycentric, share] = kTetrahedronRule2[q];
     points_[q].weight = share * tet.volume;
     points_[q].pressure = barycentric;
     points_[q].value = kStraight.value[q];
     points_[q].gradient = quadratic_gradients(barycentric, tet.gradient);
   }
-  return std::span(points_).first(kStraightCellRule.size());
+  return std::span(points_).first(kTetrahedronRule2.size());
 }
 
 std::span<const QuadraticElement::Point> QuadraticElement::curved_points(
     std::span<const std::int32_t> nodes) {
   const Eigen::Matrix<double, 10, 3> x = gathered(positions_.x, nodes);
-  for (std::size_t q = 0; q < kCurvedCellRule.size(); ++q) {
+  for (std::size_t q = 0; q < kTetrahedronRule5.size(); ++q) {
     const Mat3 jacobian = kCurved.gradient[q] * x;  // ∂x_b/∂ξ_a at (a, b)
-    points_[q].weight = kCurvedCellRule[q].share * jacobian.determinant() / 6.0;
-    points_[q].pressure = kCurvedCellRule[q].barycentric;
+    points_[q].weight = kTetrahedronRule5[q].share * jacobian.determinant() / 6.0;
+    points_[q].pressure = kTetrahedronRule5[q].barycentric;
     points_[q].value = kCurved.value[q];
     points_[q].gradient = jacobian.inverse() * kCurved.gradient[q];
   }

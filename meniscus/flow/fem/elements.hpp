@@ -9,7 +9,8 @@
 
 #include "meniscus/core/cube_root.hpp"
 #include "meniscus/flow/fem/node_positions.hpp"
-#include "meniscus/flow/fem/quadrature_table.hpp"
+#include "meniscus/geometry/quadrature.hpp"
+#include "meniscus/geometry/tetrahedron.hpp"
 
 namespace meniscus::fem {
 
@@ -22,19 +23,6 @@ struct ElementPoint {
   /// ∇φ_i by columns [1/R0].
   Eigen::Matrix<double, 3, Nodes> gradient = Eigen::Matrix<double, 3, Nodes>::Zero();
 };
-
-/// The straight tetrahedron in barycentric coordinates.
-struct LinearTetrahedron {
-  double volume = 0.0;           ///< [R0³]
-  std::array<Vec3, 4> gradient;  ///< of the barycentric coordinates [1/R0]
-};
-[[nodiscard]] inline LinearTetrahedron linear_tetrahedron(const std::array<Vec3, 4>& corners) {
-  const Vec3& o = corners[0];
-  const Vec3 e1 = corners[1] - o, e2 = corners[2] - o, e3 = corners[3] - o;
-  const Vec3 n1 = e2.cross(e3), n2 = e3.cross(e1), n3 = e1.cross(e2);
-  const double determinant = e1.dot(n1), scale = 1.0 / determinant;
-  return {determinant / 6.0, {-scale * (n1 + n2 + n3), scale * n1, scale * n2, scale * n3}};
-}
 
 /// Stabilisation parameter τ = 0.25 h²/μ, h half the edge of the regular tetrahedron of equal
 /// volume, V = (2h)³/(6√2) (eq. 11 of hooper2001; the division by μ is not printed there).
@@ -78,7 +66,7 @@ class QuadraticElement {
   [[nodiscard]] std::span<const Point> curved_points(std::span<const std::int32_t> nodes);
   const FlowSpace& space_;
   const NodePositions& positions_;
-  std::array<Point, kCurvedCellRule.size()> points_;
+  std::array<Point, kTetrahedronRule5.size()> points_;
 };
 
 /// Calls `action` with the element that a space is made of.

@@ -1,72 +1,56 @@
 #include "meniscus/flow/fem/face_elements.hpp"
 
-#include <Eigen/Dense>
+#include "meniscus/core/error.hpp"
+#include "meniscus/geometry/quadratic_triangle.hpp"
 
 namespace meniscus::fem {
 namespace {
 
-/// Values of the shape functions and their derivatives by the barycentric coordinates of corners 1
-/// and 2.
-struct Shape {
-  std::array<double, 6> value{};
-  std::array<std::array<double, 2>, 6> derivative{};
-};
+template <std::size_t Nodes>
+using RuleShapes = std::array<TriangleShape<Nodes>, kTriangleRule6.size()>;
 
-constexpr std::array<std::array<double, 2>, 3> kCornerDerivatives = {{{-1, -1}, {1, 0}, {0, 1}}};
-
-Shape linear_shape(const std::array<double, 3>& b) {
-  Shape shape;
-  for (std::size_t i = 0; i < 3; ++i) {
-    shape.value[i] = b[i];
-    shape.derivative[i] = kCornerDerivatives[i];
-  }
-  return shape;
+template <std::size_t Nodes>
+constexpr RuleShapes<Nodes> rule_shapes(
+    TriangleShape<Nodes> (*shape)(const std::array<double, 3>&)) {
+  RuleShapes<Nodes> shapes;
+  for (std::size_t q = 0; q < shapes.size(); ++q) shapes[q] = shape(kTriangleRule6[q].barycentric);
+  return shapes;
 }
+constexpr RuleShapes<3> kLinear = rule_shapes(linear_shape);
+constexpr RuleShapes<6> kQuadratic = rule_shapes(quadratic_shape);
 
-Shape quadratic_shape(const std::array<double, 3>& b) {
-  Shape shape;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    shape.value[i] = b[i] * (2.0 * b[i] - 1.0);
-    shape.value[3 + i] = 4.0 * b[i] * b[j];
-    for (std::size_t d = 0; d < 2; ++d) {
-      shape.derivative[i][d] = (4.0 * b[i] - 1.0) * kCornerDerivatives[i][d];
-      shape.derivative[3 + i][d] =
-          4.0 * (b[i] * kCornerDerivatives[j][d] + b[j] * kCornerDerivatives[i][d]);
-    }
-  }
-  return shape;
-}
-
-FacePoint face_point(const Field<NodeId, Vec3>& x, std::span<const NodeId> nodes,
-                     const RulePoint<3>& at) {
-  const Shape shape =
-      nodes.size() == 3 ? linear_shape(at.barycentric) : quadratic_shape(at.barycentric);
+template <std::size_t Nodes>
+FacePoint face_point(const TriangleNodes<Nodes>& x, const TriangleShape<Nodes>& shape,
+                     double share) {
+  const TriangleTangents at = tangents(shape, x);
+  const TriangleGradients gradients = surface_gradients(at);
   FacePoint point;
-  point.value = shape.value;
-  Vec3 t1 = Vec3::Zero(), t2 = Vec3::Zero();
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    point.x += shape.value[i] * x[nodes[i]];
-    t1 += shape.derivative[i][0] * x[nodes[i]];
-    t2 += shape.derivative[i][1] * x[nodes[i]];
+  point.x = interpolated(shape.value, x);
+  point.area = share * at.area();
+  for (std::size_t i = 0; i < Nodes; ++i) {
+    point.value[i] = shape.value[i];
+    point.gradient[i] = shape.by_1[i] * gradients.g1 + shape.by_2[i] * gradients.g2;
   }
-  point.area = 0.5 * at.share * t1.cross(t2);
-  Eigen::Matrix2d metric;
-  metric << t1.dot(t1), t1.dot(t2), t1.dot(t2), t2.dot(t2);
-  const Eigen::Matrix2d inverse = metric.inverse();
-  const Vec3 dual1 = inverse(0, 0) * t1 + inverse(0, 1) * t2;
-  const Vec3 dual2 = inverse(1, 0) * t1 + inverse(1, 1) * t2;
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    point.gradient[i] = shape.derivative[i][0] * dual1 + shape.derivative[i][1] * dual2;
+  for (std::size_t i = Nodes; i < point.gradient.size(); ++i) point.gradient[i].setZero();
   return point;
+}
+
+template <std::size_t Nodes>
+FacePoints points_of(const Field<NodeId, Vec3>& x, std::span<const NodeId> nodes,
+                     const RuleShapes<Nodes>& shapes) {
+  TriangleNodes<Nodes> at;
+  for (std::size_t i = 0; i < Nodes; ++i) at[i] = x[nodes[i]];
+  FacePoints points;
+  for (std::size_t q = 0; q < points.size(); ++q)
+    points[q] = face_point(at, shapes[q], kTriangleRule6[q].share);
+  return points;
 }
 
 }  // namespace
 
 FacePoints face_points(const Field<NodeId, Vec3>& x, std::span<const NodeId> nodes) {
-  FacePoints points;
-  for (std::size_t q = 0; q < points.size(); ++q) points[q] = face_point(x, nodes, kFaceRule[q]);
-  return points;
+  MENISCUS_ASSERT(nodes.size() == 3 || nodes.size() == 6, "{} nodes", nodes.size());
+  return nodes.size() == 3 ? points_of(x, nodes, kLinear) : points_of(x, nodes, kQuadratic);
 }
 
 Field<NodeId, Vec3> node_area_vectors(const FaceNodeTable& faces, const Field<NodeId, Vec3>& x) {

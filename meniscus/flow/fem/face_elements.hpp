@@ -4,7 +4,7 @@
 #include <span>
 
 #include "meniscus/flow/fem/node_positions.hpp"
-#include "meniscus/flow/fem/quadrature_table.hpp"
+#include "meniscus/geometry/quadrature.hpp"
 
 namespace meniscus::fem {
 
@@ -17,7 +17,7 @@ struct FacePoint {
 };
 
 /// The points of one face by the rule of degree 6.
-using FacePoints = std::array<FacePoint, kFaceRule.size()>;
+using FacePoints = std::array<FacePoint, kTriangleRule6.size()>;
 [[nodiscard]] FacePoints face_points(const Field<NodeId, Vec3>& x, std::span<const NodeId> nodes);
 
 /// ∫φ_i n dS of every node of a surface, by node of the volume mesh; zero elsewhere [R0²].

@@ -10,6 +10,7 @@
 #include "meniscus/flow/fem/capillary_force.hpp"
 #include "meniscus/flow/fem/excess_stress.hpp"
 #include "meniscus/flow/fem/face_elements.hpp"
+#include "meniscus/flow/fem/interpolated_state.hpp"
 #include "meniscus/flow/fem/solver_archive.hpp"
 #include "meniscus/flow/fem/stokes_residual.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
@@ -23,7 +24,7 @@ namespace {
 struct InstantProblem {
   StokesProblem stokes;
   Field<NodeId, Vec3> traction;
-  std::string failure;
+  std::optional<Fault> fault = {};
 };
 
 /// The nodes of the faces of every embedded surface.
@@ -55,20 +56,20 @@ InstantProblem instant_problem(const Scene& scene, const TetMesh& mesh, const Fl
     for (const Liquid& liquid : scene.liquids) problem.stokes.laws.add(liquid.law);
   for (const Vec3& x : at.x) problem.stokes.undisturbed.add(scene.flow.velocity(x, t));
   BoundaryConditions conditions = boundary_conditions(scene.boundary, nodes.boundary, at, t);
-  problem.failure = std::move(conditions.failure);
+  problem.fault = std::move(conditions.fault);
   problem.stokes.constraints = std::move(conditions.constraints);
   problem.stokes.has_open_boundary = conditions.has_open_patch;
   problem.traction = std::move(conditions.traction);
-  problem.stokes.load = problem.traction;
+  problem.stokes.force = problem.traction;
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
     if (scene.interfaces[i].tension != 0.0)
-      add_capillary_force(scene.interfaces[i], form, nodes.interfaces[i], at, problem.stokes.load);
+      add_capillary_force(scene.interfaces[i], form, nodes.interfaces[i], at, problem.stokes.force);
   return problem;
 }
 
-/// The pressures of its inside let no liquid through an interface, Σ A_i·v_i = 0 over its nodes,
-/// exactly but for the linear solver's residual: what that leaves goes along the area vectors of
-/// the faces, so that no volume is lost to a loose tolerance.
+/// Takes a net flux out of the velocity of an interface, along its area vectors. The pressures
+/// inside keep Σ A_i·v_i at zero but for the linear solver's residual; this removes the rest, so
+/// that no volume is lost to a loose tolerance.
 void remove_net_flux(const SurfaceMesh& surface, double flux, VertexField<Vec3>& velocity) {
   const VertexField<Vec3> area = vertex_area_vectors(surface);
   double squared = 0.0;
@@ -119,6 +120,7 @@ class FiniteElementFlow final : public FlowSolver {
   }
 
   FlowSolution solve(const FlowDomain& domain, const Instant& instant) override;
+  void follow(const MeshChange& change, const FlowDomain& domain) override;
 
   void save(Archive& archive, const FlowDomain& domain) const override;
   void load(const Archive& archive, const FlowDomain& domain) override;
@@ -132,15 +134,18 @@ class FiniteElementFlow final : public FlowSolver {
   }
   void decide_on_preconditioner(const StokesProblem& problem, const StokesReport& report,
                                 bool is_kept);
-  [[nodiscard]] FlowSolution solution(const FlowDomain& domain, const InstantProblem& problem);
+  [[nodiscard]] StokesState first_guess(const StokesProblem& problem) const;
+  void keep_guess(const StokesProblem& problem, StokesState state);
+  [[nodiscard]] FlowSolution solution(const FlowDomain& domain, const InstantProblem& problem,
+                                      const StokesState& state);
   void restore_preconditioner(const Archive& archive, const FlowDomain& domain);
 
   Options options_;
   std::int64_t connectivity_ = 0;  // that all below is made for
   FlowSpace space_;
   std::optional<StokesSolver> stokes_;
-  /// The last solution: the next solve's first guess.
-  std::optional<StokesState> state_;
+  /// The last solution less the undisturbed flow: the next solve's first guess.
+  std::optional<StokesState> guess_;
   /// Where the nodes were when the preconditioner was made that the next solve will keep, and the
   /// iterations of the solve that made it; none when the next is to make its own.
   std::optional<NodePositions> prepared_at_;
@@ -152,9 +157,33 @@ void FiniteElementFlow::use_connectivity(const FlowDomain& domain) {
   stokes_.reset();
   space_ = flow_space(*domain.mesh, options_.elements);
   stokes_.emplace(space_, options_);
-  state_.reset();
+  guess_.reset();
   prepared_at_.reset();
   connectivity_ = domain.connectivity;
+}
+
+void FiniteElementFlow::follow(const MeshChange& change, const FlowDomain& domain) {
+  if (!guess_) return;
+  const RemainderTimer timer(times_, "assemble");
+  const StokesState guess = *std::move(guess_);
+  stokes_.reset();  // refers to the space
+  const FlowSpace before = std::move(space_);
+  use_connectivity(domain);
+  guess_ =
+      interpolated_state(guess, {change.before, before}, {*domain.mesh, space_}, change.sources);
+}
+
+/// Undisturbed flow and drops change on their own: the one is known at once, what the drops add to
+/// it is taken from the last solution.
+StokesState FiniteElementFlow::first_guess(const StokesProblem& problem) const {
+  StokesState state = guess_ ? *guess_ : stokes_->state_at_rest();
+  for (const NodeId i : state.v.ids()) state.v[i] += problem.undisturbed[i];
+  return state;
+}
+
+void FiniteElementFlow::keep_guess(const StokesProblem& problem, StokesState state) {
+  for (const NodeId i : state.v.ids()) state.v[i] -= problem.undisturbed[i];
+  guess_ = std::move(state);
 }
 
 FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& instant) {
@@ -164,21 +193,22 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
   if (!has_connectivity_of(domain)) use_connectivity(domain);
   for (const CellId c : mesh.cells.ids())
     if (!(signed_volume(mesh, c) > 0.0))
-      return failed_flow("a cell of the volume mesh is inverted");
+      return failed_flow({FaultKind::inverted_cell, "a cell of the volume mesh is inverted",
+                          mesh.x[mesh.cells[c][0]]});
   const InstantProblem problem =
       instant_problem(domain.scene, mesh, space_, node_positions(domain.scene, mesh, space_),
                       options_.capillary, instant.t);
-  if (!problem.failure.empty()) return failed_flow(problem.failure);
-  if (!state_) {
-    state_ = stokes_->state_at_rest();
-    state_->v = problem.stokes.undisturbed;
-  }
+  if (problem.fault) return failed_flow(*problem.fault);
+  StokesState state = first_guess(problem.stokes);
   const bool is_kept = prepared_at_.has_value();
   const StokesReport report = stokes_->solve(
-      problem.stokes, *state_,
-      is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh, times_);
+      problem.stokes, state, is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh,
+      times_);
   decide_on_preconditioner(problem.stokes, report, is_kept);
-  FlowSolution result = report.ok ? solution(domain, problem) : failed_flow(report.failure);
+  if (report.ok() && !problem.stokes.has_open_boundary)
+    level_pressure(mesh, space_.pressure, state.p);
+  FlowSolution result = report.ok() ? solution(domain, problem, state) : failed_flow(*report.fault);
+  if (report.ok()) keep_guess(problem.stokes, std::move(state));
   result.iterations = report.iterations;
   if (const int straight = problem.stokes.positions.num_straightened; straight > 0)
     result.warnings.push_back(
@@ -188,14 +218,14 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
   return result;
 }
 
-/// A preconditioner is kept while the topology stands and it saves more than it costs: to make one
-/// takes as long as three or four iterations (docs/benchmark-stokes.md).
+/// Keeps a preconditioner while the connectivity stands and it saves more than it costs: to make
+/// one takes as long as three or four iterations (docs/benchmark-stokes.md).
 void FiniteElementFlow::decide_on_preconditioner(const StokesProblem& problem,
                                                  const StokesReport& report, bool is_kept) {
   constexpr int kWorthOfOne = 3;
-  const bool is_own = report.ok && report.failed_solvers.empty() && report.iterations > 0 &&
+  const bool is_own = report.ok() && report.failed_solvers.empty() && report.iterations > 0 &&
                       !problem.is_generalised();  // whose steps make their own
-  if (is_kept && report.ok && report.iterations == 0) return;
+  if (is_kept && report.ok() && report.iterations == 0) return;
   if (is_kept && is_own && report.iterations <= iterations_then_ + kWorthOfOne) return;
   prepared_at_.reset();
   if (is_kept || !is_own) return;
@@ -203,39 +233,39 @@ void FiniteElementFlow::decide_on_preconditioner(const StokesProblem& problem,
   iterations_then_ = report.iterations;
 }
 
-FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const InstantProblem& problem) {
+FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const InstantProblem& problem,
+                                         const StokesState& state) {
   const TetMesh& mesh = *domain.mesh;
   FlowSolution result;
-  if (!problem.stokes.has_open_boundary) level_pressure(mesh, space_.pressure, state_->p);
   for (std::size_t i = 0; i < mesh.interfaces.size(); ++i) {
     const SurfaceMesh& surface = domain.scene.interfaces[i].mesh;
     const FaceNodeTable faces = face_nodes(space_, mesh, surface, mesh.interfaces[i]);
     const NodePositions& positions = problem.stokes.positions;
-    VertexField<Vec3> v = vertex_velocity(surface, faces, positions, state_->v);
-    remove_net_flux(surface, net_flux(faces, positions, state_->v), v);
+    VertexField<Vec3> v = vertex_velocity(surface, faces, positions, state.v);
+    remove_net_flux(surface, net_flux(faces, positions, state.v), v);
     result.velocity.push_back(std::move(v));
   }
-  const StokesPower power = stokes_->power(problem.stokes, *state_);
+  const StokesPower power = stokes_->power(problem.stokes, state);
   double traction = 0.0;
-  for (const NodeId i : problem.traction.ids()) traction += problem.traction[i].dot(state_->v[i]);
+  for (const NodeId i : problem.traction.ids()) traction += problem.traction[i].dot(state.v[i]);
   result.power = {power.reaction + traction + power.body_force, power.dissipation};
-  result.excess_stress = fem::excess_stress(problem.stokes, *state_);
-  BulkFlow bulk{at_vertices(state_->v, mesh.num_vertices()), {}};
+  result.excess_stress = fem::excess_stress(problem.stokes, state);
+  BulkFlow bulk{at_vertices(state.v, mesh.num_vertices()), {}};
   for (const std::int32_t node : space_.pressure.nodes.cell_nodes)
-    bulk.corner_pressure.push_back(state_->p[static_cast<std::size_t>(node)]);
+    bulk.corner_pressure.push_back(state.p[static_cast<std::size_t>(node)]);
   result.bulk = std::move(bulk);
   return result;
 }
 
 void FiniteElementFlow::save(Archive& archive, const FlowDomain& domain) const {
   if (!has_connectivity_of(domain)) return;
-  if (state_) fem::save(*state_, archive, "flow/guess");
+  if (guess_) fem::save(*guess_, archive, "flow/guess");
   if (!prepared_at_) return;
   save_positions(*prepared_at_, archive, "flow/preconditioner");
   archive.integers["flow/preconditioner/iterations"] = {iterations_then_};
 }
 
-/// A resumed run must do the same arithmetic: it gets the preconditioner that the saved one had.
+/// Makes the preconditioner that the saved run had, so that a resumed run does the same arithmetic.
 void FiniteElementFlow::restore_preconditioner(const Archive& archive, const FlowDomain& domain) {
   if (!archive.reals.contains("flow/preconditioner/x")) return;
   prepared_at_ = load_positions(archive, "flow/preconditioner");
@@ -254,9 +284,9 @@ void FiniteElementFlow::load(const Archive& archive, const FlowDomain& domain) {
   use_connectivity(domain);
   restore_preconditioner(archive, domain);
   if (!archive.reals.contains("flow/guess/velocity")) return;
-  state_ = load_state(archive, "flow/guess");
+  guess_ = load_state(archive, "flow/guess");
   const StokesState rest = stokes_->state_at_rest();
-  if (state_->v.size() != rest.v.size() || state_->p.size() != rest.p.size())
+  if (guess_->v.size() != rest.v.size() || guess_->p.size() != rest.p.size())
     reject_input("checkpoint: flow/guess does not fit the volume mesh");
 }
 

@@ -27,7 +27,7 @@ constexpr int most_halvings = 6;
 // The decrease asked for, as a part of what a linear problem would give (dennis1983, sec. 6.3).
 constexpr double sufficient = 1e-4;
 
-StokesState moved(const StokesState& state, double length, const StokesState& step) {
+StokesState state_along(const StokesState& state, double length, const StokesState& step) {
   StokesState result = state;
   for (const NodeId i : result.v.ids()) result.v[i] += length * step.v[i];
   for (std::size_t i = 0; i < result.p.size(); ++i) result.p[i] += length * step.p[i];
@@ -47,21 +47,21 @@ struct Iterate {
   }
 };
 
-/// Goes along a step as far as lowers the residual: all of it, half, a quarter, … Where nothing
-/// does, returns the best that was tried.
+/// The state at the longest of the lengths 1, ½, ¼, … of a step that lowers the residual, or the
+/// best of those tried.
 Iterate search(const StokesProblem& problem, const Iterate& from, const StokesState& step) {
   double length = 1.0;
-  Iterate best(problem, moved(from.state, length, step));
+  Iterate best(problem, state_along(from.state, length, step));
   for (int k = 0; k < most_halvings && best.norm > (1.0 - sufficient * length) * from.norm; ++k) {
     length *= 0.5;
-    Iterate next(problem, moved(from.state, length, step));
+    Iterate next(problem, state_along(from.state, length, step));
     if (next.norm < best.norm) best = std::move(next);
   }
   return best;
 }
 
-/// As loose as the quadratic convergence of Newton's method allows (dembo1982: of the order of the
-/// residual), and no tighter than the last step needs.
+/// The relative tolerance of a linear solve: as loose as the quadratic convergence of Newton's
+/// method allows (dembo1982: of the order of the residual), no tighter than the last step needs.
 double linear_tolerance(double norm, double reference, double target) {
   return std::max(std::min(loosest, norm / reference), 0.5 * target / norm);
 }
@@ -83,10 +83,10 @@ StokesReport StokesSolver::solve_generalised(const StokesProblem& problem, Stoke
   Iterate at(problem, state);
   StokesState step;
   const auto fail = [&](std::string_view why) {
-    report.ok = false;
-    report.failure = fmt::format("{}; residuals of the {} steps:{}", why,
-                                 report.newton_steps + report.picard_steps,
-                                 text_of(report.residuals, reference));
+    report.fault =
+        Fault{FaultKind::not_converged, fmt::format("{}; residuals of the {} steps:{}", why,
+                                                    report.newton_steps + report.picard_steps,
+                                                    text_of(report.residuals, reference))};
     return report;
   };
 
@@ -97,13 +97,13 @@ StokesReport StokesSolver::solve_generalised(const StokesProblem& problem, Stoke
     newtonian.laws = {};
     if (!linear_step(newtonian, residual(newtonian, state), nullptr, loosest, times, step, report))
       return fail("no linear solver converged");
-    at = Iterate(problem, moved(state, 1.0, step));
+    at = Iterate(problem, state_along(state, 1.0, step));
     picard_left = picard_steps_at_first;
   }
   for (;;) {
     report.residuals.push_back(at.norm);
     report.residual = at.norm;
-    if (at.norm <= 2.0 * target) break;
+    if (at.norm <= (report.residuals.size() == 1 ? 1.0 : 2.0) * target) break;
     if (report.newton_steps + report.picard_steps >= most_steps)
       return fail("the viscosity's iteration does not converge");
     const Linearization about{at.state, picard_left > 0 ? Kind::picard : Kind::newton};

@@ -12,9 +12,8 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 constexpr std::array<std::array<std::size_t, 3>, 4> kCellFaces = {
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};  // opposite corner 0, 1, 2, 3
 
-/// What surrounds an inner node is a triangulated sphere, which has two faces for each of its
-/// vertices, less four (Euler): so many cells are there for so many neighbours. Where it has holes
-/// there are fewer.
+/// The faces opposite an inner node form a triangulated sphere, so that a node of n neighbours has
+/// 2n − 4 cells (Euler). A node on a boundary has fewer.
 std::vector<bool> nodes_on_boundary(const NodeTable& pressures, const NodeGraph& graph) {
   std::vector<std::int32_t> num_cells(at(graph.num_rows()), 0);
   for (const std::int32_t p : pressures.cell_nodes) ++num_cells[at(p)];

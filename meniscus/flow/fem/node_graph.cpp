@@ -72,8 +72,8 @@ NodeGraph node_graph(const NodeTable& rows, const NodeTable& columns) {
   return graph;
 }
 
-ScalarPattern expanded(const NodeGraph& graph, std::int32_t block_rows,
-                       std::int32_t block_columns) {
+ScalarPattern scalar_pattern(const NodeGraph& graph, std::int32_t block_rows,
+                             std::int32_t block_columns) {
   const std::size_t num_entries = graph.num_entries() * at(block_rows) * at(block_columns);
   (void)linear::checked_index(static_cast<std::int64_t>(num_entries), "matrix entries");
   ScalarPattern pattern;

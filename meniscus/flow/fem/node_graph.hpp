@@ -37,7 +37,7 @@ struct ScalarPattern {
   std::vector<std::int32_t> row_start, columns;
 };
 /// Throws RunFailure, before taking memory, where 32 bits do not number all entries.
-[[nodiscard]] ScalarPattern expanded(const NodeGraph& graph, std::int32_t block_rows,
-                                     std::int32_t block_columns);
+[[nodiscard]] ScalarPattern scalar_pattern(const NodeGraph& graph, std::int32_t block_rows,
+                                           std::int32_t block_columns);
 
 }  // namespace meniscus::fem

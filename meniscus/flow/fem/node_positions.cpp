@@ -4,15 +4,12 @@
 #include <utility>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/flow/fem/constants.hpp"
 #include "meniscus/flow/fem/elements.hpp"
 #include "meniscus/surface/edge_middles.hpp"
 
 namespace meniscus::fem {
 namespace {
-
-// Of the straight cell's determinant. Quadratic maps of cells that pass are one to one in practice,
-// and their gradients at most some ten times those of the straight cell.
-constexpr double kLeastJacobian = 0.1;
 
 Vec3 straight_middle(const TetMesh& mesh, const std::array<TetVertexId, 2>& edge) {
   return 0.5 * (mesh.x[edge[0]] + mesh.x[edge[1]]);

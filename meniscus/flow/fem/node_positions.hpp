@@ -28,8 +28,8 @@ void curve_edges(const SurfaceMesh& surface, const SurfaceTopology& topology,
 /// cell's.
 void settle_curved_cells(const TetMesh& mesh, const FlowSpace& space, NodePositions& positions);
 
-/// All of it for a scene: interfaces by the middles that their vertices stand for, the walls of the
-/// outer boundary by what their patches say; all other edges are straight.
+/// The positions of all nodes for a scene. Edges of interfaces are curved through the middles that
+/// belong to the interface, edges of the outer boundary as its patches say; others are straight.
 [[nodiscard]] NodePositions node_positions(const Scene& scene, const TetMesh& mesh,
                                            const FlowSpace& space);
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "meniscus/linear/communicator.hpp"
+#include "meniscus/linear/saddle_solver.hpp"
 #include "meniscus/volume/motion.hpp"
 #include "meniscus/volume/tetrahedralize.hpp"
 
@@ -34,7 +35,7 @@ enum class CapillaryForm {
              ///< constant κ
 };
 
-enum class LinearSolver { block, paper_gmres, minres, mumps };
+using LinearSolver = linear::SaddleMethod;
 
 struct Options {
   Elements elements = Elements::p1_p1;

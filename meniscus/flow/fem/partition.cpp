@@ -2,133 +2,258 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
+#include <numeric>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/flow/fem/vertex_ranks.hpp"
 #include "meniscus/linear/collective.hpp"
-#include "meniscus/linear/graph_partition.hpp"
 
 namespace meniscus::fem {
 namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-/// Rows of numbers, one after the other.
-struct Rows {
-  std::vector<std::int32_t> first, entries;
-  [[nodiscard]] std::span<const std::int32_t> of(std::int32_t row) const {
-    return std::span(entries).subspan(at(first[at(row)]), at(first[at(row) + 1] - first[at(row)]));
+/// Mid-edge nodes go with the lower of their ends.
+std::vector<std::int32_t> ranks_of_nodes(const FlowSpace& space,
+                                         std::vector<std::int32_t> rank_of_vertex) {
+  std::vector<std::int32_t> rank = std::move(rank_of_vertex);
+  for (const auto& ends : space.edges) rank.push_back(rank[at(ends[0].value)]);
+  return rank;
+}
+
+std::vector<std::int32_t> ranks_of_pressures(const FlowSpace& space,
+                                             const std::vector<std::int32_t>& rank_of_vertex) {
+  std::vector<std::int32_t> rank;
+  rank.reserve(space.pressure.vertex.size());
+  for (const TetVertexId v : space.pressure.vertex) rank.push_back(rank_of_vertex[at(v.value)]);
+  return rank;
+}
+
+/// The cells that touch a rank's vertices, and thereby its nodes; first those whose first vertex is
+/// one.
+std::vector<CellId> cells_of_rank(const FlowSpace& space,
+                                  const std::vector<std::int32_t>& rank_of_vertex, int rank,
+                                  OwnedCounts& owned) {
+  std::vector<CellId> cells, others;
+  for (const CellId c : ids<CellId>(space.velocity.num_cells())) {
+    const auto corners = space.velocity.of(c).first(4);
+    const auto is_owned = [&](std::int32_t v) { return rank_of_vertex[at(v)] == rank; };
+    if (is_owned(corners[0]))
+      cells.push_back(c);
+    else if (std::ranges::any_of(corners, is_owned))
+      others.push_back(c);
   }
+  owned.num_cells = static_cast<std::int32_t>(cells.size());
+  cells.insert(cells.end(), others.begin(), others.end());
+  return cells;
+}
+
+/// The local items of one kind, owned ones first, and what the local cells have of them.
+struct LocalItems {
+  std::vector<std::int32_t> global, number;
+  std::vector<std::int32_t> local;  ///< of each global item; −1: none
+  NodeTable table;
 };
 
-std::span<const std::int32_t> corners(const FlowSpace& space, std::int32_t cell) {
-  return space.velocity.of(CellId{cell}).first(4);
-}
-
-/// The members of each of `num_rows` classes, in rising order.
-template <class ClassesOf>
-Rows members(std::int32_t num_rows, std::int32_t num_members, ClassesOf classes_of) {
-  Rows rows;
-  rows.first.assign(at(num_rows) + 1, 0);
-  for (std::int32_t i = 0; i < num_members; ++i)
-    for (const std::int32_t row : classes_of(i)) ++rows.first[at(row) + 1];
-  for (std::size_t i = 0; i < at(num_rows); ++i) rows.first[i + 1] += rows.first[i];
-  rows.entries.resize(at(rows.first.back()));
-  std::vector<std::int32_t> next(rows.first.begin(), rows.first.end() - 1);
-  for (std::int32_t i = 0; i < num_members; ++i)
-    for (const std::int32_t row : classes_of(i)) rows.entries[at(next[at(row)]++)] = i;
-  return rows;
-}
-
-Rows cells_around_vertices(const FlowSpace& space) {
-  return members(space.num_vertices(), space.velocity.num_cells(),
-                 [&](std::int32_t cell) { return corners(space, cell); });
-}
-
-std::vector<std::int32_t> groups_of(const FlowSpace& space, const Rows& cells) {
-  std::vector<std::int32_t> group(at(space.num_vertices()), -1);
-  const auto any_neighbour = [&](std::int32_t vertex, auto holds) {
-    return std::ranges::any_of(cells.of(vertex), [&](std::int32_t cell) {
-      return std::ranges::any_of(corners(space, cell), holds);
-    });
-  };
-  std::int32_t count = 0;
-  for (std::int32_t v = 0; v < space.num_vertices(); ++v) {
-    if (any_neighbour(v, [&](std::int32_t w) { return group[at(w)] >= 0; })) continue;
-    group[at(v)] = count;
-    for (const std::int32_t cell : cells.of(v))
-      for (const std::int32_t w : corners(space, cell)) group[at(w)] = count;
-    ++count;
-  }
-  // Whoever is left has such a neighbour: that kept him from making a group.
-  for (std::int32_t v = 0; v < space.num_vertices(); ++v)
-    if (group[at(v)] < 0)
-      any_neighbour(v, [&](std::int32_t w) {
-        group[at(v)] = group[at(w)];
-        return group[at(w)] >= 0;
-      });
-  return group;
-}
-
-/// Groups that share cells are neighbours, by how many cells have their first edge between them (of
-/// six edges one is enough to tell where many cells would be cut); a group weighs as many as there
-/// are cells around its vertices, which is what their rows cost.
-linear::WeightedGraph group_graph(const FlowSpace& space, const Rows& cells,
-                                  const std::vector<std::int32_t>& group) {
-  const std::int32_t num_groups = 1 + std::ranges::max(group);
-  linear::WeightedGraph graph;
-  graph.vertex_weights.assign(at(num_groups), 0);
-  for (std::int32_t v = 0; v < space.num_vertices(); ++v)
-    graph.vertex_weights[at(group[at(v)])] += static_cast<std::int32_t>(cells.of(v).size());
-  std::vector<std::array<std::int32_t, 2>> joins;
-  joins.reserve(at(space.velocity.num_cells()));
-  for (std::int32_t cell = 0; cell < space.velocity.num_cells(); ++cell) {
-    const auto vertices = corners(space, cell);
-    const std::int32_t a = group[at(vertices[0])], b = group[at(vertices[1])];
-    if (a != b) joins.push_back({a, b});
-  }
-  const Rows joins_of = members(num_groups, static_cast<std::int32_t>(joins.size()),
-                                [&](std::int32_t join) { return std::span(joins[at(join)]); });
-  graph.row_start.push_back(0);
-  std::vector<std::int32_t> count(at(num_groups), 0), met;
-  for (std::int32_t g = 0; g < num_groups; ++g) {
-    met.clear();
-    for (const std::int32_t join : joins_of.of(g)) {
-      const auto& [a, b] = joins[at(join)];
-      const std::int32_t other = a + b - g;
-      if (count[at(other)]++ == 0) met.push_back(other);
+LocalItems local_items(const NodeTable& global, const IndexMap& map, int rank,
+                       const std::vector<CellId>& cells) {
+  LocalItems items;
+  const auto first =
+      std::accumulate(map.counts.begin(), map.counts.begin() + rank, std::int32_t{0});
+  for (std::int32_t k = 0; k < map.counts[at(rank)]; ++k) items.number.push_back(first + k);
+  items.local.assign(at(global.num_nodes), -1);
+  std::vector<std::int32_t> others;
+  for (const CellId c : cells)
+    for (const std::int32_t item : global.of(c)) {
+      const std::int32_t number = map.number[at(item)];
+      const bool is_owned = number >= first && number < first + map.counts[at(rank)];
+      if (is_owned || items.local[at(item)] == 0) continue;
+      items.local[at(item)] = 0;  // met
+      others.push_back(number);
     }
-    std::ranges::sort(met);
-    for (const std::int32_t other : met) {
-      graph.neighbours.push_back(other);
-      graph.edge_weights.push_back(std::exchange(count[at(other)], 0));
-    }
-    graph.row_start.push_back(static_cast<std::int32_t>(graph.neighbours.size()));
+  std::ranges::sort(others);
+  items.number.insert(items.number.end(), others.begin(), others.end());
+  for (const std::int32_t number : items.number) {
+    const std::int32_t item = map.order[at(number)];
+    MENISCUS_ASSERT(map.number[at(item)] == number, "{} {}", item, number);
+    items.local[at(item)] = static_cast<std::int32_t>(items.global.size());
+    items.global.push_back(item);
   }
-  return graph;
+  items.table = {static_cast<std::int32_t>(items.global.size()), global.nodes_per_cell, {}};
+  items.table.cell_nodes.reserve(cells.size() * at(global.nodes_per_cell));
+  for (const CellId c : cells)
+    for (const std::int32_t item : global.of(c)) {
+      MENISCUS_ASSERT(items.local[at(item)] >= 0, "item {} of cell {}", item, c.value);
+      items.table.cell_nodes.push_back(items.local[at(item)]);
+    }
+  return items;
+}
+
+/// The index map of vertices alone numbers them in the order that nodes have.
+LinearFunctions local_linear_functions(const FlowSpace& space, const LocalItems& nodes,
+                                       const IndexMap& vertices, int rank) {
+  LinearFunctions coarse;
+  if (space.edges.empty()) return coarse;
+  coarse.num_owned = vertices.counts[at(rank)];
+  for (const std::int32_t node : nodes.global) {
+    const bool is_vertex = node < space.num_vertices();
+    coarse.number.push_back(is_vertex ? vertices.number[at(node)] : -1);
+    const std::int32_t local = nodes.local[at(node)];
+    if (is_vertex) {
+      coarse.ends.push_back({local, local});
+      continue;
+    }
+    const auto& [a, b] = space.edges[at(node - space.num_vertices())];
+    coarse.ends.push_back({nodes.local[at(a.value)], nodes.local[at(b.value)]});
+  }
+  return coarse;
+}
+
+std::vector<std::int32_t> velocity_counts(const std::vector<std::int32_t>& counts) {
+  std::vector<std::int32_t> result;
+  for (const std::int32_t count : counts) result.push_back(3 * count);
+  return result;
+}
+
+std::vector<double> of_all_ranks(std::span<const double> owned,
+                                 const std::vector<std::int32_t>& counts,
+                                 linear::Communicator communicator) {
+  std::vector<double> all(at(std::accumulate(counts.begin(), counts.end(), std::int32_t{0})));
+  linear::gather(communicator, owned, counts, all);
+  return all;
 }
 
 }  // namespace
 
-std::vector<std::int32_t> vertex_groups(const FlowSpace& space) {
-  return groups_of(space, cells_around_vertices(space));
+OwnedCounts all_owned(const FlowSpace& space) {
+  return {space.velocity.num_nodes, space.pressure.nodes.num_nodes, space.velocity.num_cells()};
 }
 
-std::vector<std::int32_t> vertex_ranks(const FlowSpace& space, linear::Communicator communicator) {
-  const int size = communicator.size();
-  const Rows cells = cells_around_vertices(space);
-  std::vector<std::int32_t> rank = groups_of(space, cells);
-  const linear::WeightedGraph graph = group_graph(space, cells, rank);
-  if (graph.num_vertices() < size)
-    reject_input("{} ranks are too many for {} vertices", size, space.num_vertices());
-  std::vector<std::int32_t> part(at(graph.num_vertices()));
-  if (communicator.rank() == 0) part = linear::partition(graph, size);
-  linear::broadcast(communicator, part);
-  for (std::int32_t r = 0; r < size; ++r)
-    if (std::ranges::find(part, r) == part.end())
-      reject_input("{} ranks are too many for {} vertices", size, space.num_vertices());
-  for (std::int32_t& of_vertex : rank) of_vertex = part[at(of_vertex)];
-  return rank;
+LinearFunctions linear_functions(const FlowSpace& space) {
+  LinearFunctions coarse;
+  if (space.edges.empty()) return coarse;
+  coarse.num_owned = space.num_vertices();
+  for (std::int32_t v = 0; v < space.num_vertices(); ++v) {
+    coarse.ends.push_back({v, v});
+    coarse.number.push_back(v);
+  }
+  for (const auto& [a, b] : space.edges) coarse.ends.push_back({a.value, b.value});
+  return coarse;
+}
+
+IndexMap index_map(const std::vector<std::int32_t>& rank_of, int num_ranks) {
+  IndexMap result;
+  result.counts.assign(at(num_ranks), 0);
+  for (const std::int32_t rank : rank_of) ++result.counts[at(rank)];
+  std::vector<std::int32_t> next(at(num_ranks), 0);
+  std::exclusive_scan(result.counts.begin(), result.counts.end(), next.begin(), 0);
+  result.number.reserve(rank_of.size());
+  result.order.resize(rank_of.size());
+  for (std::size_t item = 0; item < rank_of.size(); ++item) {
+    const std::int32_t number = next[at(rank_of[item])]++;
+    result.number.push_back(number);
+    result.order[at(number)] = static_cast<std::int32_t>(item);
+  }
+  return result;
+}
+
+std::unique_ptr<const Partition> make_partition(const FlowSpace& space,
+                                                linear::Communicator communicator) {
+  const int size = communicator.size(), rank = communicator.rank();
+  if (size == 1) return nullptr;
+  if (!linear::agree(communicator, std::span<const std::int32_t>(space.velocity.cell_nodes)))
+    throw RunFailure("the ranks have made different meshes: do their machines differ?");
+  const std::vector<std::int32_t> rank_of_vertex = vertex_ranks(space, communicator);
+  auto partition = std::make_unique<Partition>(communicator);
+  partition->nodes = index_map(ranks_of_nodes(space, rank_of_vertex), size);
+  partition->pressures = index_map(ranks_of_pressures(space, rank_of_vertex), size);
+  partition->owned.num_nodes = partition->nodes.counts[at(rank)];
+  partition->owned.num_pressures = partition->pressures.counts[at(rank)];
+  partition->global_cell = cells_of_rank(space, rank_of_vertex, rank, partition->owned);
+
+  LocalItems nodes = local_items(space.velocity, partition->nodes, rank, partition->global_cell);
+  LocalItems pressures =
+      local_items(space.pressure.nodes, partition->pressures, rank, partition->global_cell);
+  partition->coarse = local_linear_functions(space, nodes, index_map(rank_of_vertex, size), rank);
+  for (const CellId c : partition->global_cell) {
+    partition->mesh.cells.add({});
+    partition->mesh.region.add(space.pressure.region[at(space.pressure.nodes.of(c)[0])]);
+  }
+  for (const std::int32_t node : nodes.global) partition->global_node.push_back(NodeId{node});
+  partition->space.elements = space.elements;
+  partition->space.velocity = std::move(nodes.table);
+  partition->space.pressure.nodes = std::move(pressures.table);
+  for (const std::int32_t p : pressures.global) {
+    partition->space.pressure.vertex.push_back(space.pressure.vertex[at(p)]);
+    partition->space.pressure.region.push_back(space.pressure.region[at(p)]);
+  }
+  partition->global_pressure = std::move(pressures.global);
+  partition->node_number = std::move(nodes.number);
+  partition->pressure_number = std::move(pressures.number);
+  return partition;
+}
+
+StokesProblem local_part(const StokesProblem& global, const Partition& partition) {
+  NodePositions positions;
+  for (const NodeId i : partition.global_node) positions.x.add(global.positions.x[i]);
+  for (const CellId c : partition.global_cell)
+    positions.is_curved.add(global.positions.is_curved[c]);
+  StokesProblem local(partition.mesh, partition.space, std::move(positions));
+  local.partition = &partition;
+  local.laws = global.laws;
+  local.has_open_boundary = global.has_open_boundary;
+  for (const CellId c : local.viscosity.ids()) {
+    local.viscosity[c] = global.viscosity[partition.global_cell[at(c.value)]];
+    local.body_force[c] = global.body_force[partition.global_cell[at(c.value)]];
+  }
+  if (!global.undisturbed.empty())
+    for (const NodeId i_global : partition.global_node)
+      local.undisturbed.add(global.undisturbed[i_global]);
+  for (const NodeId i : local.force.ids()) {
+    const NodeId i_global = partition.global_node[at(i.value)];
+    local.force[i] = global.force[i_global];
+    if (const NodeConstraint* constraint = global.constraints.find(i_global))
+      local.constraints.copy(i, *constraint);
+  }
+  return local;
+}
+
+StokesState local_part(const StokesState& global, const Partition& partition) {
+  StokesState local;
+  for (const NodeId i : partition.global_node) local.v.add(global.v[i]);
+  for (const std::int32_t i : partition.global_pressure) local.p.push_back(global.p[at(i)]);
+  return local;
+}
+
+std::vector<double> with_ghosts(std::span<const double> owned, const Partition& partition) {
+  const std::size_t num_velocities = 3 * at(partition.owned.num_nodes);
+  const std::vector<double> v = of_all_ranks(owned.first(num_velocities),
+                                             velocity_counts(partition.nodes.counts),
+                                             partition.communicator),
+                            p = of_all_ranks(owned.subspan(num_velocities),
+                                             partition.pressures.counts, partition.communicator);
+  std::vector<double> local;
+  local.reserve(3 * partition.node_number.size() + partition.pressure_number.size());
+  for (const std::int32_t number : partition.node_number)
+    for (std::size_t k = 0; k < 3; ++k) local.push_back(v[3 * at(number) + k]);
+  for (const std::int32_t number : partition.pressure_number) local.push_back(p[at(number)]);
+  return local;
+}
+
+void gather_state(const StokesState& local, const Partition& partition, StokesState& global) {
+  std::vector<double> owned;
+  owned.reserve(3 * at(partition.owned.num_nodes));
+  for (const NodeId i : ids<NodeId>(partition.owned.num_nodes))
+    owned.insert(owned.end(), local.v[i].begin(), local.v[i].end());
+  const std::vector<double> v =
+      of_all_ranks(owned, velocity_counts(partition.nodes.counts), partition.communicator);
+  const std::vector<double> p =
+      of_all_ranks(std::span(local.p).first(at(partition.owned.num_pressures)),
+                   partition.pressures.counts, partition.communicator);
+  for (std::size_t k = 0; k < partition.nodes.order.size(); ++k)
+    global.v[NodeId{partition.nodes.order[k]}] = Vec3(v[3 * k], v[3 * k + 1], v[3 * k + 2]);
+  for (std::size_t k = 0; k < partition.pressures.order.size(); ++k)
+    global.p[at(partition.pressures.order[k])] = p[k];
 }
 
 }  // namespace meniscus::fem

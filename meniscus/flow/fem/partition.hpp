@@ -1,22 +1,74 @@
 #pragma once
 
-#include <vector>
+#include <memory>
 
-#include "meniscus/flow/fem/spaces.hpp"
+#include "meniscus/flow/fem/stokes_problem.hpp"
 #include "meniscus/linear/communicator.hpp"
 
 namespace meniscus::fem {
 
-/// Groups of vertices that hang together: a vertex with all its neighbours where none of them had a
-/// group before, the others with a neighbour. Numbered from zero, in the order of their vertices.
-[[nodiscard]] std::vector<std::int32_t> vertex_groups(const FlowSpace& space);
+/// How many nodes, pressures and cells of a space a rank owns. They come first in its numbering; on
+/// one rank they are all there are.
+struct OwnedCounts {
+  std::int32_t num_nodes = 0, num_pressures = 0, num_cells = 0;
+};
+[[nodiscard]] OwnedCounts all_owned(const FlowSpace& space);
 
-/// The rank of each vertex, and by that of each cell, whose rank is that of its first vertex: parts
-/// of about equal work, with few cells between them. Cells go by the groups of their vertices,
-/// some thirty vertices each, which makes the graph that PT-Scotch divides so small that its time
-/// is none. The same on all ranks; the space must be, too. Throws InvalidInput where a rank would
-/// be left without a vertex. Collective.
-[[nodiscard]] std::vector<std::int32_t> vertex_ranks(const FlowSpace& space,
-                                                     linear::Communicator communicator);
+/// How the linear functions of a mesh make quadratic ones, by node: a vertex has its own value, a
+/// mid-edge node the mean of its ends.
+struct LinearFunctions {
+  std::vector<std::array<std::int32_t, 2>> ends;  ///< nodes; a vertex is both ends of itself
+  std::vector<std::int32_t> number;               ///< of a node that is a vertex, among all such
+  std::int32_t num_owned = 0;
+};
+/// Empty for P1.
+[[nodiscard]] LinearFunctions linear_functions(const FlowSpace& space);
+
+/// How items of a mesh are numbered for the ranks: those of rank 0 first, then those of rank 1, …,
+/// each in the order that they have in the mesh.
+struct IndexMap {
+  std::vector<std::int32_t> counts;  ///< items by rank
+  std::vector<std::int32_t> number;  ///< of each item
+  std::vector<std::int32_t> order;   ///< the item of each number
+};
+[[nodiscard]] IndexMap index_map(const std::vector<std::int32_t>& rank_of, int num_ranks);
+
+/// One rank's part of a space: the cells that touch the nodes it owns, with all their nodes, as a
+/// local space. Owned cells, nodes and pressures come first. The others are ghosts, in the order of
+/// their numbers: their values are known, but their rows would lack cells of other ranks. A sum
+/// over the local cells gives every owned row completely.
+struct Partition {
+  explicit Partition(linear::Communicator of) : communicator(of) {}
+
+  linear::Communicator communicator;
+  OwnedCounts owned;
+  TetMesh mesh;     ///< only the number of cells and their regions
+  FlowSpace space;  ///< without edges
+  LinearFunctions coarse;
+  IndexMap nodes, pressures;                               ///< of the global space
+  std::vector<CellId> global_cell;                         ///< of each local cell
+  std::vector<NodeId> global_node;                         ///< of each local node
+  std::vector<std::int32_t> global_pressure;               ///< of each local pressure
+  std::vector<std::int32_t> node_number, pressure_number;  ///< of each local one in the index map
+};
+/// Null on one rank. Throws RunFailure when the ranks differ about the space, as they may on
+/// different machines. Collective.
+[[nodiscard]] std::unique_ptr<const Partition> make_partition(const FlowSpace& space,
+                                                              linear::Communicator communicator);
+
+/// What this rank owns of the space of a problem.
+[[nodiscard]] inline OwnedCounts owned_counts(const StokesProblem& problem) {
+  return problem.partition == nullptr ? all_owned(problem.space) : problem.partition->owned;
+}
+
+/// A global problem or state as one rank sees it.
+[[nodiscard]] StokesProblem local_part(const StokesProblem& global, const Partition& partition);
+[[nodiscard]] StokesState local_part(const StokesState& global, const Partition& partition);
+/// The unknowns of all local nodes, velocities before pressures, from those of the owned ones.
+/// Collective.
+[[nodiscard]] std::vector<double> with_ghosts(std::span<const double> owned,
+                                              const Partition& partition);
+/// Gathers the owned parts of all ranks' states into every rank's global state. Collective.
+void gather_state(const StokesState& local, const Partition& partition, StokesState& global);
 
 }  // namespace meniscus::fem

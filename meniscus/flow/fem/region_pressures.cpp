@@ -1,10 +1,13 @@
 #include "meniscus/flow/fem/region_pressures.hpp"
 
+#include <algorithm>
+
 namespace meniscus::fem {
 
 Field<RegionId, double> constant_pressure_shares(const StokesProblem& problem) {
   const TetMesh& mesh = problem.mesh;
-  const std::int32_t num_regions = 1 + static_cast<std::int32_t>(mesh.interfaces.size());
+  // A mesh may have regions that no interface encloses; their shares are zero.
+  const std::int32_t num_regions = 1 + std::ranges::max_element(mesh.region)->value;
   Field<RegionId, double> inside(num_regions, 0.0), around(num_regions, 0.0),
       shares(num_regions, 0.0);
   for (const EmbeddedSurface& interface : mesh.interfaces)

@@ -7,7 +7,7 @@
 
 namespace meniscus::fem {
 
-/// What a solver keeps between solves, under names that begin with `prefix`, bit for bit. Loading
+/// Positions and states in an archive, under names that begin with `prefix`, bit for bit. Loading
 /// throws InvalidInput when arrays are missing or do not fit each other.
 void save_positions(const NodePositions& positions, Archive& archive, const std::string& prefix);
 [[nodiscard]] NodePositions load_positions(const Archive& archive, const std::string& prefix);

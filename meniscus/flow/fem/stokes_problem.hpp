@@ -9,10 +9,10 @@
 
 namespace meniscus::fem {
 
-struct Share;
+struct Partition;
 
 /// One instant of two-phase Stokes flow, ready to discretise:
-///   ∫(−p∇·φ + 2μ D(v):D(φ)) − ∫f·φ − load(φ) = 0   for every φ that vanishes where v is fixed,
+///   ∫(−p∇·φ + 2μ D(v):D(φ)) − ∫f·φ − F(φ) = 0   for every φ that vanishes where v is fixed,
 ///   −∫ψ∇·v − Σ_K τ∫∇ψ·(∇p − f) = 0                 for every ψ
 /// (eqs 10, 11 of hooper2001 with 2μ D:D and a consistent stabilisation; τ = 0 for P2). Where μ
 /// depends on the rate of shear so does τ.
@@ -23,29 +23,30 @@ struct StokesProblem {
         positions(std::move(at)),
         viscosity(on.num_cells(), 1.0),
         body_force(on.num_cells(), Vec3::Zero()),
-        load(in.velocity.num_nodes, Vec3::Zero()),
+        force(in.velocity.num_nodes, Vec3::Zero()),
         constraints(in.velocity.num_nodes) {}
 
   const TetMesh& mesh;
   const FlowSpace& space;
   NodePositions positions;
-  CellField<double> viscosity;  ///< [μ_out], of linear elements the same all over a region
-  /// How it depends on the rate of shear, by region; empty where every liquid is Newtonian.
+  CellField<double> viscosity;  ///< [μ_out]; constant in each region on linear elements
+  /// How the viscosity depends on the rate of shear, by region; empty: all are Newtonian.
   Field<RegionId, ViscosityLaw> laws;
   CellField<Vec3> body_force;  ///< f [μ_out G / R0]
-  Field<NodeId, Vec3> load;    ///< further forces on the fluid, by node [μ_out G R0²]
+  Field<NodeId, Vec3> force;   ///< F: further forces on the fluid, by node [μ_out G R0²]
   Constraints constraints;
-  /// What flows where there are no drops and every liquid is the outer one; empty: not known.
+  /// The flow without drops, every liquid being the outer one; empty: not known.
   Field<NodeId, Vec3> undisturbed = {};
-  const Share* share = nullptr;    ///< whose problem it is, where ranks have a part each
+  const Partition* partition =
+      nullptr;                     ///< the rank's, where the problem is its part of a global one
   bool has_open_boundary = false;  ///< otherwise the pressure is known up to a constant
 
   [[nodiscard]] bool is_generalised() const { return !std::ranges::all_of(laws, is_newtonian); }
   /// Null in a Newtonian liquid.
   [[nodiscard]] const ViscosityLaw* law(CellId c) const {
     if (laws.empty()) return nullptr;
-    const ViscosityLaw& own = laws[mesh.region[c]];
-    return is_newtonian(own) ? nullptr : &own;
+    const ViscosityLaw& law = laws[mesh.region[c]];
+    return is_newtonian(law) ? nullptr : &law;
   }
 };
 

@@ -4,7 +4,7 @@
 
 #include "meniscus/flow/fem/cell_state.hpp"
 #include "meniscus/flow/fem/elements.hpp"
-#include "meniscus/flow/fem/share.hpp"
+#include "meniscus/flow/fem/partition.hpp"
 #include "meniscus/linear/collective.hpp"
 
 namespace meniscus::fem {
@@ -51,7 +51,7 @@ void add_residual(const StokesProblem& problem, const StokesState& state, Elemen
 template <class Element>
 void add_cell_power(const StokesProblem& problem, const StokesState& state, Element& element,
                     StokesPower& power) {
-  for (const CellId c : ids<CellId>(own_part(problem).num_cells)) {
+  for (const CellId c : ids<CellId>(owned_counts(problem).num_cells)) {
     const CellState<Element> cell(problem.space, state, c);
     for (const auto& point : element.points(c)) {
       const Mat3 gradient = cell.velocity_gradient(point);
@@ -69,43 +69,43 @@ void add_cell_power(const StokesProblem& problem, const StokesState& state, Elem
 }  // namespace
 
 StokesResidual residual(const StokesProblem& problem, const StokesState& state) {
-  StokesResidual result{Field<NodeId, Vec3>(problem.load.size(), Vec3::Zero()),
+  StokesResidual result{Field<NodeId, Vec3>(problem.force.size(), Vec3::Zero()),
                         std::vector<double>(state.p.size(), 0.0)};
   with_element(problem.space, problem.positions,
                [&](auto& element) { add_residual(problem, state, element, result); });
-  for (const NodeId i : problem.load.ids()) result.momentum[i] -= problem.load[i];
+  for (const NodeId i : problem.force.ids()) result.momentum[i] -= problem.force[i];
   return result;
 }
 
 double free_norm(const StokesResidual& residual, const StokesProblem& problem) {
-  const OwnPart own = own_part(problem);
+  const OwnedCounts owned = owned_counts(problem);
   double squared = 0.0;
-  for (const NodeId i : ids<NodeId>(own.num_nodes)) {
+  for (const NodeId i : ids<NodeId>(owned.num_nodes)) {
     const Vec3& r = residual.momentum[i];
     const NodeConstraint* constraint = problem.constraints.find(i);
     squared +=
         constraint == nullptr ? r.squaredNorm() : (r - constraint->fixed_part(r)).squaredNorm();
   }
-  for (const double r : std::span(residual.continuity).first(std::size_t(own.num_pressures)))
+  for (const double r : std::span(residual.continuity).first(std::size_t(owned.num_pressures)))
     squared += r * r;
   const double norm = std::sqrt(squared);
-  return problem.share == nullptr ? norm : linear::norm(problem.share->communicator, norm);
+  return problem.partition == nullptr ? norm : linear::norm(problem.partition->communicator, norm);
 }
 
 StokesPower power(const StokesProblem& problem, const StokesState& state) {
   StokesPower power;
   with_element(problem.space, problem.positions,
                [&](auto& element) { add_cell_power(problem, state, element, power); });
-  const std::int32_t num_nodes = own_part(problem).num_nodes;
-  for (const NodeId i : ids<NodeId>(num_nodes)) power.load += problem.load[i].dot(state.v[i]);
+  const std::int32_t num_nodes = owned_counts(problem).num_nodes;
+  for (const NodeId i : ids<NodeId>(num_nodes)) power.force += problem.force[i].dot(state.v[i]);
   const StokesResidual reaction = residual(problem, state);
   for (const NodeConstraint& constraint : problem.constraints.all())
     if (constraint.node.value < num_nodes)
       power.reaction +=
           constraint.fixed_part(reaction.momentum[constraint.node]).dot(state.v[constraint.node]);
-  if (problem.share != nullptr)
-    for (double* part : {&power.reaction, &power.body_force, &power.load, &power.dissipation})
-      *part = linear::sum(problem.share->communicator, *part);
+  if (problem.partition != nullptr)
+    for (double* part : {&power.reaction, &power.body_force, &power.force, &power.dissipation})
+      *part = linear::sum(problem.partition->communicator, *part);
   return power;
 }
 

@@ -13,19 +13,19 @@ struct StokesResidual {
   std::vector<double> continuity;  ///< [G R0³]
 };
 [[nodiscard]] StokesResidual residual(const StokesProblem& problem, const StokesState& state);
-/// Euclidean norm of what a solution must make zero: the residual without its fixed components; of
-/// the whole where ranks have a part each (collective).
+/// Euclidean norm of what a solution must make zero: the residual without its fixed components. The
+/// norm is the global one; collective on the ranks of a partitioned problem.
 [[nodiscard]] double free_norm(const StokesResidual& residual, const StokesProblem& problem);
 
 /// The terms of the energy balance of a solution [μ_out G² R0³]. Exactly, up to the solver's
-/// residual, reaction + body_force + load = dissipation.
+/// residual, reaction + body_force + force = dissipation.
 struct StokesPower {
   double reaction = 0.0;     ///< of the fixed velocity components
   double body_force = 0.0;   ///< ∫f·v
-  double load = 0.0;         ///< Σ load_i·v_i
+  double force = 0.0;        ///< Σ F_i·v_i of the forces by node
   double dissipation = 0.0;  ///< ∫2μ D:D + Σ τ∫∇p·(∇p − f)
 };
-/// Of the whole where ranks have a part each (collective).
+/// The global energy balance; collective on the ranks of a partitioned problem.
 [[nodiscard]] StokesPower power(const StokesProblem& problem, const StokesState& state);
 
 }  // namespace meniscus::fem

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "meniscus/core/log.hpp"
+#include "meniscus/flow/fem/constants.hpp"
 #include "meniscus/flow/fem/region_pressures.hpp"
 #include "meniscus/flow/fem/stokes_residual.hpp"
 
@@ -14,24 +15,6 @@ namespace {
 constexpr std::int32_t most_nodes_for_mumps = 20000;
 // One for Stokes flow; more where MINRES's norm or a direct solve's roundoff leaves something.
 constexpr int most_newton_steps = 6;
-
-// The reference is this many times the residual of the undisturbed flow, if that is not more than
-// the residual at rest; and not below what a residual's roundoff leaves, where there are no drops.
-constexpr double kMostOfDisturbance = 50.0, kLeastOfRest = 1e-6;
-
-linear::SaddleMethod method(LinearSolver which) {
-  switch (which) {
-    case LinearSolver::block:
-      return linear::SaddleMethod::block;
-    case LinearSolver::paper_gmres:
-      return linear::SaddleMethod::paper_gmres;
-    case LinearSolver::minres:
-      return linear::SaddleMethod::minres;
-    case LinearSolver::mumps:
-      break;
-  }
-  return linear::SaddleMethod::mumps;
-}
 
 /// The chosen solver, then the others that the elements and their number allow: quadratic ones have
 /// no stabilisation on the diagonal, by which the paper's solver scales.
@@ -47,7 +30,7 @@ std::vector<LinearSolver> solvers_in_order(LinearSolver first, const FlowSpace& 
   return order;
 }
 
-/// What every solver tried adds to the books.
+/// Adds iterations and times of one linear solve to the report.
 void add_cost(StokesReport& report, const linear::LinearReport& linear_report) {
   report.iterations += linear_report.iterations;
   report.setup_seconds += linear_report.setup_seconds;
@@ -56,17 +39,17 @@ void add_cost(StokesReport& report, const linear::LinearReport& linear_report) {
 
 /// −R with the fixed components zero, in the frames of the unknowns.
 std::vector<double> right_hand_side(const StokesResidual& residual, const StokesProblem& problem) {
-  const OwnPart own = own_part(problem);
+  const OwnedCounts owned = owned_counts(problem);
   std::vector<double> values;
-  values.reserve(static_cast<std::size_t>(3 * own.num_nodes + own.num_pressures));
-  for (const NodeId i : ids<NodeId>(own.num_nodes)) {
+  values.reserve(static_cast<std::size_t>(3 * owned.num_nodes + owned.num_pressures));
+  for (const NodeId i : ids<NodeId>(owned.num_nodes)) {
     const Vec3& r = residual.momentum[i];
     values.insert(values.end(), {-r[0], -r[1], -r[2]});
   }
-  for (std::size_t i = 0; i < static_cast<std::size_t>(own.num_pressures); ++i)
+  for (std::size_t i = 0; i < static_cast<std::size_t>(owned.num_pressures); ++i)
     values.push_back(-residual.continuity[i]);
   for (const NodeConstraint& constraint : problem.constraints.all()) {
-    if (constraint.node.value >= own.num_nodes) continue;
+    if (constraint.node.value >= owned.num_nodes) continue;
     const Vec3 local = constraint.frame.transpose() * residual.momentum[constraint.node];
     for (std::size_t k = 0; k < 3; ++k)
       values[3 * static_cast<std::size_t>(constraint.node.value) + k] =
@@ -75,11 +58,12 @@ std::vector<double> right_hand_side(const StokesResidual& residual, const Stokes
   return values;
 }
 
-/// u + δ, δ being in the frames of the unknowns; that of other ranks' nodes is asked of them.
-void add_step(StokesState& state, const StokesProblem& problem, std::span<const double> own_step) {
-  std::vector<double> here;
-  if (problem.share != nullptr) here = completed(own_step, *problem.share);
-  const std::span<const double> step = problem.share != nullptr ? here : own_step;
+/// Adds δ, given in the frames of the owned unknowns, to the local state. Collective.
+void add_step(StokesState& state, const StokesProblem& problem,
+              std::span<const double> owned_step) {
+  std::vector<double> local;
+  if (problem.partition != nullptr) local = with_ghosts(owned_step, *problem.partition);
+  const std::span<const double> step = problem.partition != nullptr ? local : owned_step;
   const Constraints& constraints = problem.constraints;
   const auto step_at = [&](NodeId i) {
     const std::size_t k = 3 * static_cast<std::size_t>(i.value);
@@ -96,7 +80,7 @@ void add_step(StokesState& state, const StokesProblem& problem, std::span<const 
   for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] += step[first + i];
 }
 
-/// The residual of a state with the fixed velocities given and no pressure.
+/// The residual of a velocity without pressure, once the fixed velocities are imposed.
 double residual_at(const StokesProblem& problem, Field<NodeId, Vec3> v) {
   StokesState state{std::move(v), std::vector<double>(problem.space.pressure.vertex.size(), 0.0)};
   problem.constraints.impose(state.v);
@@ -116,7 +100,7 @@ double reference_residual(const StokesProblem& problem) {
 
 linear::SaddleSolver make_linear_solver(LinearSolver which, const Options& options) {
   return {linear::Communicator::of(options.processes),
-          {.method = method(which),
+          {.method = which,
            .max_iterations = options.max_iterations,
            .multigrid_by_degree = options.elements == Elements::p2_p1,
            .petsc_options = options.petsc_options}};
@@ -131,8 +115,8 @@ void check_linear_options(const Options& options) {
 StokesSolver::StokesSolver(const FlowSpace& space, const Options& options)
     : options_(options),
       space_(space),
-      share_(make_share(space, linear::Communicator::of(options.processes))),
-      jacobian_(share_ ? share_->space : space, share_.get()) {}
+      partition_(make_partition(space, linear::Communicator::of(options.processes))),
+      jacobian_(partition_ ? partition_->space : space, partition_.get()) {}
 
 StokesState StokesSolver::state_at_rest() const { return fem::state_at_rest(space_); }
 
@@ -144,8 +128,8 @@ linear::SaddleSolver& StokesSolver::linear_solver(LinearSolver which) {
 
 void StokesSolver::prepare(const StokesProblem& problem) {
   jacobian_.weigh_constant_pressures(constant_pressure_shares(problem));
-  if (share_)
-    jacobian_.assemble(restricted(problem, *share_));
+  if (partition_)
+    jacobian_.assemble(local_part(problem, *partition_));
   else
     jacobian_.assemble(problem);
   linear_solver(options_.linear).prepare(jacobian_.system());
@@ -155,20 +139,20 @@ StokesReport StokesSolver::solve(const StokesProblem& problem, StokesState& stat
                                  linear::Preconditioner preconditioner, PhaseTimes& times) {
   problem.constraints.impose(state.v);
   jacobian_.weigh_constant_pressures(constant_pressure_shares(problem));
-  if (!share_) return solve_part(problem, state, preconditioner, times);
-  StokesState part = restricted(state, *share_);
-  StokesReport report = solve_part(restricted(problem, *share_), part, preconditioner, times);
-  if (report.ok) assemble_whole(part, *share_, state);
+  if (!partition_) return solve_local(problem, state, preconditioner, times);
+  StokesState part = local_part(state, *partition_);
+  StokesReport report = solve_local(local_part(problem, *partition_), part, preconditioner, times);
+  if (report.ok()) gather_state(part, *partition_, state);
   return report;
 }
 
 StokesPower StokesSolver::power(const StokesProblem& problem, const StokesState& state) const {
-  return share_ ? fem::power(restricted(problem, *share_), restricted(state, *share_))
-                : fem::power(problem, state);
+  return partition_ ? fem::power(local_part(problem, *partition_), local_part(state, *partition_))
+                    : fem::power(problem, state);
 }
 
-StokesReport StokesSolver::solve_part(const StokesProblem& problem, StokesState& state,
-                                      linear::Preconditioner preconditioner, PhaseTimes& times) {
+StokesReport StokesSolver::solve_local(const StokesProblem& problem, StokesState& state,
+                                       linear::Preconditioner preconditioner, PhaseTimes& times) {
   double reference = 0.0;
   {
     const PhaseTimer timer(times, "assemble");
@@ -178,8 +162,7 @@ StokesReport StokesSolver::solve_part(const StokesProblem& problem, StokesState&
   StokesReport report;
   report.reference = reference;
   if (!std::isfinite(reference)) {
-    report.ok = false;
-    report.failure = "the data of the flow problem are not finite";
+    report.fault = Fault{FaultKind::not_finite, "the data of the flow problem are not finite"};
     return report;
   }
   if (problem.is_generalised()) return solve_generalised(problem, state, reference, times);
@@ -194,13 +177,13 @@ StokesReport StokesSolver::solve_part(const StokesProblem& problem, StokesState&
     report.setup_seconds += before.setup_seconds;
     report.krylov_seconds += before.krylov_seconds;
     report.failed_solvers = before.failed_solvers;
-    if (report.ok) {
+    if (report.ok()) {
       state = std::move(attempt);
       return report;
     }
     before = report;
     before.failed_solvers.push_back(
-        fmt::format("linear solver {}: {}", linear::name(method(which)), report.failure));
+        fmt::format("linear solver {}: {}", linear::name(which), report.text()));
     log::warning("{}; trying another way", before.failed_solvers.back());
   }
   return report;
@@ -213,13 +196,14 @@ StokesReport StokesSolver::solve_with(LinearSolver which, const StokesProblem& p
   report.solver = which;
   report.reference = reference;
   const double target = options_.rtol * reference;
-  const OwnPart own = own_part(problem);
-  std::vector<double> step(static_cast<std::size_t>(3 * own.num_nodes + own.num_pressures));
+  const OwnedCounts owned = owned_counts(problem);
+  std::vector<double> step(static_cast<std::size_t>(3 * owned.num_nodes + owned.num_pressures));
   for (; report.newton_steps <= most_newton_steps; ++report.newton_steps) {
     const StokesResidual now = residual(problem, state);
     report.residual = free_norm(now, problem);
-    // 2: the residual that a Krylov method updates and the true one differ by roundoff.
-    if (report.residual <= 2.0 * target) return report;
+    // 2: the residual that a Krylov method updates and the true one differ by roundoff. A first
+    // guess has no such excuse.
+    if (report.residual <= (report.newton_steps == 0 ? 1.0 : 2.0) * target) return report;
     if (report.newton_steps == most_newton_steps) break;
     const PhaseTimer timer(times, "solve");
     std::ranges::fill(step, 0.0);
@@ -229,16 +213,15 @@ StokesReport StokesSolver::solve_with(LinearSolver which, const StokesProblem& p
     add_cost(report, linear_report);
     report.linear_residuals = linear_report.residuals;
     if (!linear_report.converged) {
-      report.ok = false;
-      report.failure = linear_report.reason;
+      report.fault = Fault{FaultKind::not_converged, linear_report.reason};
       return report;
     }
     add_step(state, problem, step);
     preconditioner = linear::Preconditioner::kept;
   }
-  report.ok = false;
-  report.failure = fmt::format("residual {:.1e} of {:.1e} after {} steps", report.residual,
-                               reference, most_newton_steps);
+  report.fault =
+      Fault{FaultKind::not_converged, fmt::format("residual {:.1e} of {:.1e} after {} steps",
+                                                  report.residual, reference, most_newton_steps)};
   return report;
 }
 
@@ -265,7 +248,7 @@ bool StokesSolver::linear_step(const StokesProblem& problem, const StokesResidua
       return true;
     }
     report.failed_solvers.push_back(
-        fmt::format("linear solver {}: {}", linear::name(method(which)), linear_report.reason));
+        fmt::format("linear solver {}: {}", linear::name(which), linear_report.reason));
     log::warning("{}; trying another way", report.failed_solvers.back());
   }
   return false;

@@ -2,9 +2,10 @@
 
 #include <map>
 
+#include "meniscus/core/fault.hpp"
 #include "meniscus/core/timer.hpp"
 #include "meniscus/flow/fem/options.hpp"
-#include "meniscus/flow/fem/share.hpp"
+#include "meniscus/flow/fem/partition.hpp"
 #include "meniscus/flow/fem/spaces.hpp"
 #include "meniscus/flow/fem/stokes_jacobian.hpp"
 #include "meniscus/flow/fem/stokes_problem.hpp"
@@ -16,9 +17,7 @@ namespace meniscus::fem {
 /// Throws InvalidInput when PETSc cannot read the options given for the linear solver.
 void check_linear_options(const Options& options);
 
-struct [[nodiscard]] StokesReport {
-  bool ok = true;
-  std::string failure;
+struct [[nodiscard]] StokesReport : Report {
   int iterations = 0;  ///< linear iterations of all steps and all solvers tried
   int newton_steps = 0;
   int picard_steps = 0;    ///< those of generalised-Newtonian liquids with the viscosity held fixed
@@ -38,8 +37,8 @@ struct [[nodiscard]] StokesReport {
 /// liquids take several, as docs/generalised-newtonian.md says.
 class StokesSolver {
  public:
-  /// Where several processes share the work, all their calls are collective and all have the same
-  /// arguments, the whole space and the whole problem, and get the same results.
+  /// With several processes all calls are collective: each process gives the same global space and
+  /// problem, and gets the same result.
   StokesSolver(const FlowSpace& space, const Options& options);
 
   [[nodiscard]] StokesState state_at_rest() const;
@@ -60,14 +59,15 @@ class StokesSolver {
   [[nodiscard]] StokesPower power(const StokesProblem& problem, const StokesState& state) const;
 
  private:
-  StokesReport solve_part(const StokesProblem& problem, StokesState& state,
-                          linear::Preconditioner preconditioner, PhaseTimes& times);
+  StokesReport solve_local(const StokesProblem& problem, StokesState& state,
+                           linear::Preconditioner preconditioner, PhaseTimes& times);
   StokesReport solve_with(LinearSolver which, const StokesProblem& problem, StokesState& state,
                           double reference, linear::Preconditioner preconditioner,
                           PhaseTimes& times);
   StokesReport solve_generalised(const StokesProblem& problem, StokesState& state, double reference,
                                  PhaseTimes& times);
-  /// One step of that: linearises, solves to `rtol`, and gives δ without the fixed components.
+  /// One step of a generalised solve: linearises, solves to `rtol`, gives δ without the fixed
+  /// components.
   [[nodiscard]] bool linear_step(const StokesProblem& problem, const StokesResidual& now,
                                  const Linearization* about, double rtol, PhaseTimes& times,
                                  StokesState& step, StokesReport& report);
@@ -75,7 +75,7 @@ class StokesSolver {
 
   Options options_;
   const FlowSpace& space_;
-  std::unique_ptr<const Share> share_;  ///< this rank's, which all but the public works on
+  std::unique_ptr<const Partition> partition_;  ///< this rank's; null on one rank
   StokesJacobian jacobian_;
   std::map<LinearSolver, linear::SaddleSolver> linear_solvers_;
 };

@@ -2,45 +2,32 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/polynomial_fit.hpp"
 
 namespace meniscus::fem {
 namespace {
 
-constexpr int kTerms = 6;
-using Matrix = Eigen::Matrix<double, kTerms, kTerms>;
-using Row = Eigen::Matrix<double, kTerms, 1>;
-
-/// Smallest pivot of the scaled normal equations over the largest below which points are too few or
-/// lie on a conic.
-constexpr double kSingularPivot = 1e-3;
+constexpr int kTerms = 1 + num_monomials(2);  // the value too
 
 /// The running sums of one vertex's fit.
 struct QuadraticFit {
   Vec3 t1, t2;
   double scale = 0.0;  ///< of an edge, so that the equations are well scaled
-  Matrix normal = Matrix::Zero();
+  PolynomialFit<kTerms> fit;
   Eigen::Matrix<double, kTerms, 3> side = Eigen::Matrix<double, kTerms, 3>::Zero();
 
   void add(const Vec3& d, const Vec3& value) {
-    const double u = d.dot(t1) / scale, v = d.dot(t2) / scale;
-    Row row;
-    row << 1.0, u, v, u * u, u * v, v * v;
-    const Row weighted = scale * scale / d.squaredNorm() * row;
-    normal += weighted * row.transpose();
-    side += weighted * value.transpose();
+    Eigen::Matrix<double, kTerms, 1> row;
+    row << 1.0, monomials<2>(d.dot(t1) / scale, d.dot(t2) / scale);
+    side += fit.add(row, scale * scale / d.squaredNorm()) * value.transpose();
   }
   [[nodiscard]] Vec3 value_or(const Vec3& fallback) const {
-    const Eigen::LLT<Matrix> factor(normal);
-    const auto pivots = factor.matrixLLT().diagonal();
-    if (factor.info() != Eigen::Success ||
-        !(pivots.minCoeff() > kSingularPivot * pivots.maxCoeff()))
-      return fallback;
-    return factor.solve(side).row(0).transpose();
+    const auto factor = fit.factor();
+    return factor ? Vec3(factor->solve(side).row(0).transpose()) : fallback;
   }
 };
 
@@ -48,6 +35,8 @@ struct QuadraticFit {
 
 VertexField<Vec3> vertex_velocity(const SurfaceMesh& surface, const FaceNodeTable& faces,
                                   const NodePositions& positions, const Field<NodeId, Vec3>& v) {
+  MENISCUS_ASSERT(v.size() == positions.x.size(), "{} velocities of {} nodes", v.size(),
+                  positions.x.size());
   VertexField<Vec3> result(surface.num_vertices());
   for (const FaceId f : surface.faces.ids())
     for (std::size_t k = 0; k < 3; ++k) result[surface.faces[f][k]] = v[faces.of(f)[k]];

@@ -38,7 +38,7 @@ struct Solution {
 };
 inline Solution solved(const Scene& scene, const Options& options = {}) {
   FlowSolution solution = make_boundary_integral_flow(options)->solve({scene}, {});
-  EXPECT_TRUE(solution.ok) << solution.failure;
+  EXPECT_TRUE(solution.ok()) << solution.text();
   return {std::move(solution.velocity), solution.iterations};
 }
 

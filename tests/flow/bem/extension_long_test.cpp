@@ -1,9 +1,9 @@
-// A drop stretched from a sphere in uniaxial extension, through the whole evolution loop.
-#include <numbers>
+// A drop stretched from a sphere in uniaxial extension, from case file to the last row.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
 
+#include "meniscus/case/case.hpp"
 #include "meniscus/evolve/evolution.hpp"
-#include "meniscus/mesh/surface_measures.hpp"
-#include "tests/flow/bem/drop_scenes.hpp"
 
 namespace meniscus::bem {
 namespace {
@@ -13,27 +13,35 @@ struct Shape {
 };
 
 std::vector<Shape> stretched(int num_vertices, double lambda, double Ca, double end) {
-  Scene scene = test::unbounded_scene(Mat3::Zero());
-  scene.Ca = Ca;
-  scene.flow = ImposedFlow(FlowFamily::axial, ImposedFlow::uniaxial_extension());
-  test::add_drop(scene, sphere(num_vertices), lambda, 1.0 / Ca);
-  Interface& drop = scene.interfaces[0];
-  drop.C0 = num_vertices / (4.0 * std::numbers::pi);
-  drop.volume = drop.initial_volume = enclosed_volume(drop.mesh);
-  EvolutionOptions options;
-  options.end = end;
-  Evolution evolution(scene, options, make_boundary_integral_flow({}));
-  EvolutionReport report = evolution.prepare();
+  const Case c = parse_case(fmt::format(R"(
+[flow]
+kind = "uniaxial-extension"
+capillary-number = {}
+[[drop]]
+radius = 1.0
+viscosity-ratio = {}
+nodes = {}
+[domain]
+shape = "unbounded"
+[solver]
+method = "boundary-integral"
+[time]
+end = {}
+)",
+                                        Ca, lambda, num_vertices, end),
+                            "extension.toml");
+  Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c));
+  Report report = evolution.prepare();
   std::vector<Shape> shapes;
   for (;;) {
-    if (report.ok) report = evolution.solve();
-    if (!report.ok) break;
+    if (report.ok()) report = evolution.solve();
+    if (!report.ok()) break;
     const DropShape shape = evolution.drop_rows()[0].shape;
     shapes.push_back({evolution.t(), shape.L, shape.B});
     if (evolution.is_finished()) break;
     report = evolution.advance();
   }
-  EXPECT_TRUE(report.ok) << report.failure;
+  EXPECT_TRUE(report.ok()) << report.text();
   return shapes;
 }
 

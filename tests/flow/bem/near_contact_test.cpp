@@ -2,9 +2,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "meniscus/flow/bem/face_moments.hpp"
 #include "meniscus/flow/bem/near_field.hpp"
+#include "meniscus/geometry/quadrature.hpp"
 #include "tests/flow/bem/drop_scenes.hpp"
 
 namespace meniscus::bem {
@@ -26,12 +28,8 @@ struct Layers {
 /// Gauss-Legendre with five points on [a, b] of a function of the polar angle.
 template <class Function>
 void integrate(double a, double b, Function&& add) {
-  constexpr std::array<double, 5> x = {-0.9061798459386640, -0.5384693101056831, 0.0,
-                                       0.5384693101056831, 0.9061798459386640};
-  constexpr std::array<double, 5> w = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
-                                       0.4786286704993665, 0.2369268850561891};
-  for (std::size_t i = 0; i < x.size(); ++i)
-    add(0.5 * (a + b) + 0.5 * (b - a) * x[i], 0.5 * (b - a) * w[i]);
+  static const std::vector<GaussPoint> kPoints = gauss_legendre(5);
+  for (const auto& [x, weight] : kPoints) add(a + (b - a) * x, (b - a) * weight);
 }
 
 /// The layers of the exact sphere at a point outside it, in polar coordinates about the nearest
@@ -144,11 +142,11 @@ Layers layers_by_near_rule(const BoundaryGeometry& geometry, const std::vector<d
   for (const FaceId f : elements.faces.ids()) {
     const InterfaceElements::Face& face = elements.faces[f];
     const auto own = std::ranges::find(elements.corners[f], VertexId{i});
-    const auto corner = static_cast<int>(own - elements.corners[f].begin());
+    const auto corner = static_cast<std::size_t>(own - elements.corners[f].begin());
     const FaceMoments moments = corner == 3 ? near_moments(face, x) : corner_moments(face, corner);
     for (std::size_t c = 0; c < face.columns.size(); ++c) {
       const std::int32_t j = face.columns[c].value;
-      for (std::size_t a = 0; a < kFaceNodes; ++a) {
+      for (std::size_t a = 0; a < kQuadraticNodes; ++a) {
         const double share =
             face.to_nodes(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(c));
         sum.single += share * (q[static_cast<std::size_t>(j)] - q_here) * moments.single[a];

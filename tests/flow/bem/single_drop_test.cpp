@@ -172,16 +172,16 @@ TEST(SingleDrop, BoundedSceneIsRefused) {
   Scene scene = drop_in(Mat3::Zero(), sphere(60), 1.0, 1.0);
   scene.is_unbounded = false;
   const FlowSolution report = make_boundary_integral_flow({})->solve({scene}, {});
-  EXPECT_FALSE(report.ok);
-  EXPECT_EQ(report.failure, "the boundary-integral solver needs an unbounded scene");
+  EXPECT_FALSE(report.ok());
+  EXPECT_EQ(report.text(), "the boundary-integral solver needs an unbounded scene");
 }
 
 TEST(SingleDrop, LiquidsWithALawAreRefused) {
   Scene scene = drop_in(Mat3::Zero(), sphere(60), 1.0, 1.0);
   scene.liquids[RegionId{1}].law = CarreauYasuda{.time_constant = 1.0, .power_index = 0.5};
   const FlowSolution report = make_boundary_integral_flow({})->solve({scene}, {});
-  EXPECT_FALSE(report.ok);
-  EXPECT_EQ(report.failure, "boundary integrals describe Newtonian liquids alone");
+  EXPECT_FALSE(report.ok());
+  EXPECT_EQ(report.text(), "boundary integrals describe Newtonian liquids alone");
 }
 
 }  // namespace

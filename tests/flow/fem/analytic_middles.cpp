@@ -12,8 +12,8 @@ namespace meniscus::fem {
 VertexField<Vec3> velocity_with_middles(const Scene& scene, const Method& method,
                                         const std::function<Vec3(VertexId, VertexId)>& middle) {
   TetMesh mesh;
-  if (const VolumeMeshReport made = tetrahedralize(scene, method.volume_mesh, mesh); !made.ok)
-    throw std::runtime_error(made.failure);
+  if (const VolumeMeshReport made = tetrahedralize(scene, method.volume_mesh, mesh); !made.ok())
+    throw std::runtime_error(made.text());
   const FlowSpace space = flow_space(mesh, method.elements);
   const Interface& drop = scene.interfaces[0];
   const FaceNodeTable faces = face_nodes(space, mesh, drop.mesh, mesh.interfaces[0]);
@@ -33,7 +33,7 @@ VertexField<Vec3> velocity_with_middles(const Scene& scene, const Method& method
                           face_nodes(space, mesh, scene.boundary.mesh, mesh.boundary), positions,
                           0.0)
           .constraints;
-  if (drop.tension != 0.0) add_capillary_force(drop, method.form, faces, positions, problem.load);
+  if (drop.tension != 0.0) add_capillary_force(drop, method.form, faces, positions, problem.force);
   Options options;
   options.elements = method.elements;
   options.rtol = method.rtol;
@@ -41,7 +41,7 @@ VertexField<Vec3> velocity_with_middles(const Scene& scene, const Method& method
   StokesState state = state_at_rest(space);
   PhaseTimes times;
   const StokesReport report = solver.solve(problem, state, linear::Preconditioner::fresh, times);
-  if (!report.ok) throw std::runtime_error(report.failure);
+  if (!report.ok()) throw std::runtime_error(report.text());
   if (!method.shows_corners) return vertex_velocity(drop.mesh, faces, positions, state.v);
   VertexField<Vec3> velocity(drop.mesh.num_vertices());
   for (const VertexId v : velocity.ids())

@@ -60,7 +60,7 @@ TEST(BoundaryConditions, ImposedVelocityWinsThenEveryWall) {
   impose_everywhere(box.boundary, shear, true);
   for (const int wall : {2, 4, 5}) box.boundary.patches[PatchId{wall}].condition = NoPenetration{};
   const BoundaryConditions conditions = TestSpace(box.mesh).conditions(box.boundary);
-  EXPECT_EQ(conditions.failure, "");
+  EXPECT_EQ(text_of(conditions.fault), "");
   EXPECT_FALSE(conditions.has_open_patch);
   for (const VertexId v : box.boundary.mesh.x.ids()) {
     const Vec3& x = box.boundary.mesh.x[v];
@@ -88,7 +88,7 @@ TEST(BoundaryConditions, InterpolatedFluxIsRemoved) {
       },
       false);
   const BoundaryConditions conditions = TestSpace(box.mesh).conditions(box.boundary);
-  EXPECT_EQ(conditions.failure, "");
+  EXPECT_EQ(text_of(conditions.fault), "");
   const VertexField<Vec3> area = vertex_area_vectors(box.boundary.mesh);
   double flux = 0.0;
   for (const VertexId v : area.ids())
@@ -122,7 +122,7 @@ TEST(BoundaryConditions, WallsDoNotCarryTheInterpolatedFlux) {
     const BoxMesh box = closed_channel(5);
     const TestSpace test(box.mesh, elements);
     const BoundaryConditions conditions = test.conditions(box.boundary);
-    ASSERT_EQ(conditions.failure, "");
+    ASSERT_EQ(text_of(conditions.fault), "");
     double flux = 0.0, largest_change = 0.0;
     const Field<NodeId, Vec3> area = node_area_vectors(
         face_nodes(test.space, box.mesh, box.boundary.mesh, box.mesh.boundary), test.positions.x);
@@ -156,7 +156,7 @@ TEST(BoundaryConditions, SlidingLidKeepsItsVelocityButAtItsEdges) {
       ImposedVelocity{[](const Vec3& x, double) { return Vec3(0, 1.0 + 0.1 * x.y(), 0); }, false};
   const TestSpace test(box.mesh);
   const BoundaryConditions conditions = test.conditions(box.boundary);
-  ASSERT_EQ(conditions.failure, "");
+  ASSERT_EQ(text_of(conditions.fault), "");
   for (const NodeConstraint& constraint : conditions.constraints.all()) {
     const Vec3& x = test.positions.x[constraint.node];
     const bool is_lid = x.x() == -1.0, leaks = is_lid && std::abs(x.y()) == 1.0;
@@ -170,11 +170,11 @@ TEST(BoundaryConditions, NetInflowNeedsAnOpenPatch) {
   impose_everywhere(box.boundary, shear, true);
   box.boundary.patches[PatchId{0}].condition =
       ImposedVelocity{[](const Vec3&, double) { return Vec3(2.0, 0.0, 0.0); }, false};
-  EXPECT_NE(TestSpace(box.mesh).conditions(box.boundary).failure.find("net flux"),
+  EXPECT_NE(text_of(TestSpace(box.mesh).conditions(box.boundary).fault).find("net flux"),
             std::string::npos);
   box.boundary.patches[PatchId{1}].condition = ImposedTraction{Vec3(-1.0, 0.0, 0.0)};
   const BoundaryConditions open = TestSpace(box.mesh).conditions(box.boundary);
-  EXPECT_EQ(open.failure, "");
+  EXPECT_EQ(text_of(open.fault), "");
   EXPECT_TRUE(open.has_open_patch);
   Vec3 sum = Vec3::Zero();
   for (const Vec3& traction : open.traction) sum += traction;

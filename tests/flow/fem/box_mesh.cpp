@@ -148,7 +148,7 @@ void add_traction_jump(const std::function<Vec3(const Vec3& x, const Vec3& n)>& 
     for (const FacePoint& point : face_points(problem.positions.x, nodes)) {
       const Vec3 part = point.area.norm() * jump(point.x, point.area.normalized());
       for (std::size_t i = 0; i < nodes.size(); ++i)
-        problem.load[nodes[i]] -= point.value[i] * part;
+        problem.force[nodes[i]] -= point.value[i] * part;
     }
   }
 }

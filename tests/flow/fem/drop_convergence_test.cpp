@@ -37,16 +37,19 @@ TEST(StaticDrop, VelocitiesAndJumpsAreAsSmallAsMeasuredElsewhere) {
   }
 }
 
-// An ellipsoidal drop relaxes too slowly with the weak form. With the nodal one it may relax too
-// fast, as the curvature is overestimated; the elements' own sluggishness compensates a part, so
-// that the overestimate, which the jump at rest shows alone, bounds what is left.
-TEST(Relaxation, ErrorsAt400VerticesAreBoundedByThoseOfTheCurvature) {
+// An ellipsoidal drop relaxes too slowly with the weak form, by what the elements resist. With the
+// nodal form that error is there too, and one of the other sign: its curvature is too large, at
+// N0 = 400 by at most what was measured elsewhere. The sum of the two lies between them, on any
+// mesh: a finer one leaves the second, a better curvature the first.
+TEST(Relaxation, ErrorsAt400VerticesLieBetweenThoseOfElementsAndCurvature) {
   const double exact = relaxation_rate(2, 1.0);
   const double weak = measured_relaxation_rate(400, CapillaryForm::weak, 2, 1.0) / exact - 1.0;
   const double nodal = measured_relaxation_rate(400, CapillaryForm::nodal, 2, 1.0) / exact - 1.0;
-  EXPECT_LT(std::abs(weak), 0.04);
-  EXPECT_LT(weak, nodal);
-  EXPECT_LT(std::abs(nodal), static_sphere(400, CapillaryForm::nodal).jump_error);
+  constexpr double of_elements = 0.04;
+  const double of_curvature = static_references[1].jump[2];
+  EXPECT_LT(std::abs(weak), of_elements);
+  EXPECT_GT(nodal, -of_elements);
+  EXPECT_LT(nodal, of_curvature);
 }
 
 TEST(Relaxation, ErrorsFallWithTheMesh) {

@@ -19,11 +19,11 @@ const std::vector<BoxOptions> kBoxes = {
 /// Some nodes fixed, some sliding on a slanted plane, others, of the outer boundary too, free.
 void constrain(StokesProblem& problem) {
   const std::vector<Vec3> slanted = {Vec3(1.0, 2.0, -0.5).normalized()}, level = {Vec3::UnitZ()};
-  for (std::int32_t i = 0; i < problem.load.size(); i += 11)
+  for (std::int32_t i = 0; i < problem.force.size(); i += 11)
     problem.constraints.forbid_penetration(NodeId{i}, slanted);
-  for (std::int32_t i = 3; i < problem.load.size(); i += 13)
+  for (std::int32_t i = 3; i < problem.force.size(); i += 13)
     problem.constraints.forbid_penetration(NodeId{i}, level);
-  for (std::int32_t i = 5; i < problem.load.size(); i += 17)
+  for (std::int32_t i = 5; i < problem.force.size(); i += 17)
     problem.constraints.fix(NodeId{i}, Vec3::Zero());
 }
 

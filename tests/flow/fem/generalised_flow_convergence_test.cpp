@@ -203,7 +203,7 @@ TEST_P(GeneralisedFlow, ConvergesToTheExactProfile) {
   std::vector<double> errors;
   for (const int n : sizes) {
     const Outcome outcome = flow(channel(n), elements, *law);
-    ASSERT_TRUE(outcome.report.ok) << outcome.report.failure;
+    ASSERT_TRUE(outcome.report.ok()) << outcome.report.text();
     EXPECT_TRUE(outcome.report.failed_solvers.empty());
     expect_quadratic_end(outcome.report);
     errors.push_back(outcome.error);
@@ -220,7 +220,7 @@ TEST(GeneralisedPipeFlow, OfOrderThreeInAPipeNeedsARoundWall) {
     Channel straight = pipe(n);
     straight.is_round = false;
     const Outcome outcome = flow(straight, Elements::p2_p1, carreau);
-    ASSERT_TRUE(outcome.report.ok) << outcome.report.failure;
+    ASSERT_TRUE(outcome.report.ok()) << outcome.report.text();
     errors.push_back(outcome.error);
   }
   EXPECT_LT(std::log(errors[0] / errors[1]) / std::log(5.0 / 3.0), 2.5);

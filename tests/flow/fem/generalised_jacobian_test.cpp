@@ -41,9 +41,9 @@ struct RandomProblem {
     problem.laws.add(given.matrix);
     problem.laws.add(given.drop);
     const std::vector<Vec3> slanted = {Vec3(1.0, 2.0, -0.5).normalized()};
-    for (std::int32_t i = 0; i < problem.load.size(); i += 5)
+    for (std::int32_t i = 0; i < problem.force.size(); i += 5)
       problem.constraints.forbid_penetration(NodeId{i}, slanted);
-    for (std::int32_t i = 2; i < problem.load.size(); i += 7)
+    for (std::int32_t i = 2; i < problem.force.size(); i += 7)
       problem.constraints.fix(NodeId{i}, draw());
   }
   void bend() {
@@ -183,7 +183,7 @@ TEST_P(GeneralisedJacobian, HasASymmetricPositiveVelocityBlock) {
 TEST_P(GeneralisedJacobian, OfPicardGivesTheResidualItself) {
   RandomProblem random(GetParam());
   StokesProblem problem = random.problem;
-  problem.constraints = Constraints(problem.load.size());
+  problem.constraints = Constraints(problem.force.size());
   for (Vec3& force : problem.body_force) force.setZero();
   StokesJacobian jacobian(random.test.space);
   const StokesState state = random.draw_state();

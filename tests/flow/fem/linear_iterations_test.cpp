@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "meniscus/flow/fem/stokes_solver.hpp"
@@ -58,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, LinearIterations,
 TEST_P(LinearIterations, AreFew) {
   for (const double lambda : {0.01, 0.1, 10.0, 100.0}) {
     const StokesReport report = solved(lambda, {});
-    ASSERT_TRUE(report.ok) << report.failure;
+    ASSERT_TRUE(report.ok()) << report.text();
     EXPECT_EQ(report.solver, LinearSolver::block);
     const int few = is_quadratic() ? 40 : 30;
     EXPECT_LE(report.iterations, lambda < 0.1 || lambda > 10.0 ? 50 : few) << "lambda " << lambda;
@@ -80,6 +82,37 @@ TEST_P(OnTheSphere, StayFewForAGas) {
     EXPECT_LE(solved(lambda, {}).iterations, 1.25 * between_likes) << "lambda " << lambda;
 }
 
+// On any shape: a thousandth of the viscosity is next to none, and less changes no more than the
+// scale of the equations inside. Measured: 49, 54, 56, 56 on the dumbbell, the worst of all.
+TEST_P(LinearIterations, NoLongerGrowForAGas) {
+  const int thousandth = solved(1e-3, {}).iterations;
+  for (const double lambda : {1e-4, 1e-6}) {
+    const StokesReport report = solved(lambda, {});
+    ASSERT_TRUE(report.ok() && report.failed_solvers.empty()) << report.text();
+    EXPECT_LE(report.iterations, 1.25 * thousandth) << "lambda " << lambda;
+  }
+}
+
+class StiffDrop : public LinearIterations {};
+INSTANTIATE_TEST_SUITE_P(WithoutNeck, StiffDrop,
+                         testing::Values(Case{DropShape::sphere, Elements::p1_p1, 300},
+                                         Case{DropShape::prolate, Elements::p1_p1, 200},
+                                         Case{DropShape::sphere, Elements::p2_p1, 60},
+                                         Case{DropShape::prolate, Elements::p2_p1, 42}));
+
+// A drop that turns as a rigid body dissipates nothing inside, where the Laplacians that stand for
+// the velocity block hold λ against it: three eigenvalues of 1/λ, all others as between like
+// liquids. To cancel each costs as many iterations as to lower the residual by λ, where those
+// between likes lower it by 1e6. A dumbbell's neck adds bending and torsion: 137 at λ = 1e4.
+TEST_P(StiffDrop, PaysForItsThreeRotations) {
+  const int between_likes = solved(1.0, {}).iterations;
+  for (const double exponent : {3.0, 4.0}) {
+    const StokesReport report = solved(std::pow(10.0, exponent), {});
+    ASSERT_TRUE(report.ok() && report.failed_solvers.empty()) << report.text();
+    EXPECT_LE(report.iterations, (1.0 + 3.0 * exponent / 6.0) * between_likes) << exponent;
+  }
+}
+
 // PETSc's own multigrid, which a PETSc without hypre is left with, does the same.
 TEST_P(OnTheSphere, AreFewWithoutHypre) {
   Options options;
@@ -87,7 +120,7 @@ TEST_P(OnTheSphere, AreFewWithoutHypre) {
       linear::default_options(linear::SaddleMethod::block, is_quadratic(), false);
   for (const double lambda : {0.1, 10.0}) {
     const StokesReport report = solved(lambda, options);
-    ASSERT_TRUE(report.ok) << report.failure;
+    ASSERT_TRUE(report.ok()) << report.text();
     EXPECT_EQ(report.solver, LinearSolver::block);
     EXPECT_LE(report.iterations, is_quadratic() ? 40 : 30) << "lambda " << lambda;
   }

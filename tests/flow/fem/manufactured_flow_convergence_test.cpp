@@ -122,7 +122,7 @@ void add_body_force(StokesProblem& problem) {
       for (std::size_t i = 0; i < nodes.size(); ++i)
         x += point.value[i] * positions.x[NodeId{nodes[i]}];
       for (std::size_t i = 0; i < nodes.size(); ++i)
-        problem.load[NodeId{nodes[i]}] += point.weight * point.value[i] * force(x, region);
+        problem.force[NodeId{nodes[i]}] += point.weight * point.value[i] * force(x, region);
     }
   }
 }
@@ -130,7 +130,7 @@ void add_body_force(StokesProblem& problem) {
 Errors solve(const TestSpace& test, const OuterBoundary& boundary) {
   StokesProblem problem = test.problem();
   BoundaryConditions conditions = test.conditions(boundary);
-  EXPECT_EQ(conditions.failure, "");
+  EXPECT_EQ(text_of(conditions.fault), "");
   problem.constraints = conditions.constraints;
   for (const CellId c : test.mesh.cells.ids())
     problem.viscosity[c] = viscosity(test.mesh.region[c]);
@@ -147,7 +147,7 @@ Errors solve(const TestSpace& test, const OuterBoundary& boundary) {
   StokesState state = solver.state_at_rest();
   PhaseTimes times;
   const StokesReport report = solver.solve(problem, state, linear::Preconditioner::fresh, times);
-  EXPECT_TRUE(report.ok) << report.failure;
+  EXPECT_TRUE(report.ok()) << report.text();
   EXPECT_EQ(report.solver, LinearSolver::block);
   return errors(problem, state);
 }
@@ -191,7 +191,7 @@ TEST_P(ManufacturedFlow, ConvergesAroundASphere) {
                           .outer_per_inner = 1.25,
                           .outer_velocity = [](const Vec3& x, double) { return velocity(x); }});
     TetMesh mesh;
-    ASSERT_TRUE(tetrahedralize(scene, {}, mesh).ok);
+    ASSERT_TRUE(tetrahedralize(scene, {}, mesh).ok());
     levels.push_back(solve(TestSpace(scene, mesh, GetParam()), scene.boundary));
   }
   expect_orders(levels, GetParam());

@@ -48,7 +48,7 @@ TEST(NodeGraph, BlocksAreDenseAndSideBySide) {
   graph.num_columns = 3;
   graph.row_start = {0, 2, 3};
   graph.columns = {0, 2, 1};
-  const ScalarPattern pattern = expanded(graph, 2, 3);
+  const ScalarPattern pattern = scalar_pattern(graph, 2, 3);
   EXPECT_EQ(pattern.row_start, (std::vector<std::int32_t>{0, 6, 12, 15, 18}));
   EXPECT_EQ(pattern.columns,
             (std::vector<std::int32_t>{0, 1, 2, 6, 7, 8, 0, 1, 2, 6, 7, 8, 3, 4, 5, 3, 4, 5}));
@@ -60,7 +60,7 @@ TEST(NodeGraph, MoreEntriesThan32BitsNumberAreRefused) {
   graph.row_start = {0, 1};
   graph.columns = {0};
   try {
-    (void)expanded(graph, 1 << 16, 1 << 16);
+    (void)scalar_pattern(graph, 1 << 16, 1 << 16);
     FAIL() << "2^32 entries were accepted";
   } catch (const RunFailure& failure) {
     EXPECT_NE(std::string(failure.what()).find("has 4294967296 matrix entries"), std::string::npos)

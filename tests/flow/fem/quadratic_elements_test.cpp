@@ -21,7 +21,7 @@ struct Ball {
   TetMesh mesh;
   explicit Ball(int num_vertices) {
     scene = sphere_in_sphere({.num_vertices = num_vertices, .outer_radius = 3.0});
-    EXPECT_TRUE(tetrahedralize(scene, {}, mesh).ok);
+    EXPECT_TRUE(tetrahedralize(scene, {}, mesh).ok());
   }
 };
 

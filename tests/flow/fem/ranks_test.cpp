@@ -6,9 +6,9 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/partition.hpp"
-#include "meniscus/flow/fem/share.hpp"
 #include "meniscus/flow/fem/stokes_residual.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
+#include "meniscus/flow/fem/vertex_ranks.hpp"
 #include "meniscus/linear/collective.hpp"
 #include "tests/flow/fem/sheared_drop.hpp"
 #include "tests/flow/fem/straight_space.hpp"
@@ -72,7 +72,7 @@ TEST_P(RanksBySolver, TogetherFindWhatOneFindsAlone) {
   options.rtol = 1e-10;
   const Solution alone = solved(problem, options, linear::Processes::alone),
                  together = solved(problem, options, linear::Processes::all);
-  ASSERT_TRUE(alone.report.ok && together.report.ok) << together.report.failure;
+  ASSERT_TRUE(alone.report.ok() && together.report.ok()) << together.report.text();
   EXPECT_EQ(together.report.solver, linear_solver);
   EXPECT_LT(together.report.residual, 2.1e-10 * together.report.reference);
   EXPECT_NEAR(together.report.reference, alone.report.reference, 1e-12 * alone.report.reference);
@@ -81,7 +81,7 @@ TEST_P(RanksBySolver, TogetherFindWhatOneFindsAlone) {
   for (std::size_t i = 0; i < alone.state.p.size(); ++i)
     EXPECT_NEAR(alone.state.p[i], together.state.p[i], 7e-6);
   EXPECT_NEAR(together.power.dissipation, alone.power.dissipation, 1e-6);
-  EXPECT_NEAR(together.power.load, alone.power.load, 1e-6);
+  EXPECT_NEAR(together.power.force, alone.power.force, 1e-6);
   EXPECT_NEAR(together.power.reaction, alone.power.reaction, 1e-5);
   EXPECT_NEAR(together.power.body_force, alone.power.body_force, 1e-6);
   EXPECT_TRUE(linear::agree(world(), std::span<const double>(numbers(together.state))));
@@ -95,7 +95,7 @@ TEST(Ranks, DoTheSameArithmeticAgain) {
   const StokesProblem problem = drop.problem();
   const Solution first = solved(problem, {}, linear::Processes::all),
                  again = solved(problem, {}, linear::Processes::all);
-  ASSERT_TRUE(first.report.ok);
+  ASSERT_TRUE(first.report.ok());
   EXPECT_EQ(numbers(first.state), numbers(again.state));
 }
 
@@ -115,7 +115,7 @@ TEST(Ranks, AgreeWhereWallsSlip) {
     options.rtol = 1e-11;
     const Solution alone = solved(problem, options, linear::Processes::alone),
                    together = solved(problem, options, linear::Processes::all);
-    ASSERT_TRUE(alone.report.ok && together.report.ok) << together.report.failure;
+    ASSERT_TRUE(alone.report.ok() && together.report.ok()) << together.report.text();
     EXPECT_LT(largest_velocity_difference(alone.state, together.state), 1e-8);
   }
 }
@@ -130,7 +130,7 @@ TEST(Ranks, AgreeOnGeneralisedNewtonianLiquids) {
     options.rtol = 1e-10;
     const Solution alone = solved(problem, options, linear::Processes::alone),
                    together = solved(problem, options, linear::Processes::all);
-    ASSERT_TRUE(alone.report.ok && together.report.ok) << together.report.failure;
+    ASSERT_TRUE(alone.report.ok() && together.report.ok()) << together.report.text();
     EXPECT_GT(together.report.newton_steps, 1);
     EXPECT_LT(largest_velocity_difference(alone.state, together.state), 4e-6);
     EXPECT_NEAR(together.power.dissipation, alone.power.dissipation, 1e-6);
@@ -145,9 +145,9 @@ TEST(Ranks, PreparedIsKeptBitForBit) {
   PhaseTimes times;
   StokesSolver fresh(drop.space, options), prepared(drop.space, options);
   StokesState a = fresh.state_at_rest(), b = a;
-  EXPECT_TRUE(fresh.solve(problem, a, linear::Preconditioner::fresh, times).ok);
+  EXPECT_TRUE(fresh.solve(problem, a, linear::Preconditioner::fresh, times).ok());
   prepared.prepare(problem);
-  EXPECT_TRUE(prepared.solve(problem, b, linear::Preconditioner::kept, times).ok);
+  EXPECT_TRUE(prepared.solve(problem, b, linear::Preconditioner::kept, times).ok());
   EXPECT_EQ(numbers(a), numbers(b));
 }
 
@@ -159,12 +159,12 @@ TEST(Ranks, ReportFailuresTogether) {
   options.max_iterations = 60;  // enough for the block solvers, far too few for the paper's
   options.rtol = 1e-6;
   const Solution replaced = solved(problem, options, linear::Processes::all);
-  ASSERT_TRUE(replaced.report.ok) << replaced.report.failure;
+  ASSERT_TRUE(replaced.report.ok()) << replaced.report.text();
   EXPECT_EQ(replaced.report.solver, LinearSolver::block);
-  problem.load[NodeId{3}][1] = std::nan("");
+  problem.force[NodeId{3}][1] = std::nan("");
   const Solution none = solved(problem, options, linear::Processes::all);
-  EXPECT_FALSE(none.report.ok);
-  EXPECT_NE(none.report.failure.find("not finite"), std::string::npos);
+  EXPECT_FALSE(none.report.ok());
+  EXPECT_NE(none.report.text().find("not finite"), std::string::npos);
 }
 
 TEST(Partition, GroupsAreSeveralVerticesEach) {
@@ -198,21 +198,21 @@ TEST(Ranks, ShareOutTheWork) {
 
 TEST(Ranks, SharesCoverTheWholeOnce) {
   const ShearedDrop drop(Elements::p2_p1);
-  const auto share = make_share(drop.space, world());
+  const auto partition = make_partition(drop.space, world());
   if (world().size() == 1) {
-    EXPECT_EQ(share, nullptr);
+    EXPECT_EQ(partition, nullptr);
     return;
   }
   const auto total = [](std::int32_t own) { return linear::sum(world(), std::int64_t{own}); };
-  EXPECT_EQ(total(share->own.num_nodes), drop.space.velocity.num_nodes);
-  EXPECT_EQ(total(share->own.num_pressures), drop.space.pressure.nodes.num_nodes);
-  EXPECT_EQ(total(share->own.num_cells), drop.mesh.num_cells());
-  EXPECT_EQ(total(share->coarse.num_own), drop.mesh.num_vertices());
+  EXPECT_EQ(total(partition->owned.num_nodes), drop.space.velocity.num_nodes);
+  EXPECT_EQ(total(partition->owned.num_pressures), drop.space.pressure.nodes.num_nodes);
+  EXPECT_EQ(total(partition->owned.num_cells), drop.mesh.num_cells());
+  EXPECT_EQ(total(partition->coarse.num_owned), drop.mesh.num_vertices());
   // The state goes out and comes back.
   StokesState state = state_at_rest(drop.space), back = state;
   for (const NodeId i : state.v.ids()) state.v[i] = Vec3(i.value, 1.0, 2.0);
   for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] = 0.5 * static_cast<double>(i);
-  assemble_whole(restricted(state, *share), *share, back);
+  gather_state(local_part(state, *partition), *partition, back);
   EXPECT_EQ(state.v, back.v);
   EXPECT_EQ(state.p, back.p);
 }
@@ -221,7 +221,7 @@ TEST(Ranks, MoreThanThereIsWorkForAreRefused) {
   const BoxMesh box = box_mesh({.n = 1, .region = [](const Vec3&) { return 0; }});
   const FlowSpace space = flow_space(box.mesh, Elements::p1_p1);
   if (world().size() > 1) {
-    EXPECT_THROW((void)make_share(space, world()), InvalidInput);
+    EXPECT_THROW((void)make_partition(space, world()), InvalidInput);
   }
 }
 

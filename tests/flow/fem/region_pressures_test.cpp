@@ -12,7 +12,7 @@ TEST(ConstantPressureShares, AreWhatTheMassMatrixLacks) {
   for (const double lambda : {0.01, 0.5, 5.0}) {
     const Scene scene = stretched_drop(DropShape::prolate, 60, lambda);
     TetMesh mesh;
-    ASSERT_TRUE(tetrahedralize(scene, {}, mesh).ok);
+    ASSERT_TRUE(tetrahedralize(scene, {}, mesh).ok());
     const FlowSpace space = flow_space(mesh, Elements::p1_p1);
     const Field<RegionId, double> shares = constant_pressure_shares(instant(scene, mesh, space));
     ASSERT_EQ(shares.size(), 2);
@@ -33,7 +33,7 @@ TEST(ConstantPressureShares, LookAcrossTheOwnInterface) {
   thin.viscosity = 0.02;
   scene.liquids.add(thin);
   TetMesh mesh;
-  ASSERT_TRUE(tetrahedralize(scene, {}, mesh).ok);
+  ASSERT_TRUE(tetrahedralize(scene, {}, mesh).ok());
   const FlowSpace space = flow_space(mesh, Elements::p1_p1);
   const Field<RegionId, double> shares = constant_pressure_shares(instant(scene, mesh, space));
   ASSERT_EQ(shares.size(), 3);

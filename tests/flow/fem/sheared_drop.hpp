@@ -27,7 +27,7 @@ struct ShearedDrop {
          .is_linear_flow = true,
          .drop_force = Vec3(0.0, 0.4, -0.7)});
     for (Vec3& x : scene.interfaces[0].mesh.x) x = x.cwiseProduct(Vec3(1.2, 1.0, 0.8));
-    EXPECT_TRUE(tetrahedralize(scene, {}, mesh).ok);
+    EXPECT_TRUE(tetrahedralize(scene, {}, mesh).ok());
     space = flow_space(mesh, elements);
   }
   StokesProblem problem() const {
@@ -42,7 +42,7 @@ struct ShearedDrop {
                             problem.positions, 0.0)
             .constraints;
     add_capillary_force(scene.interfaces[0], CapillaryForm::weak, drop_faces(), problem.positions,
-                        problem.load);
+                        problem.force);
     return problem;
   }
   FaceNodeTable drop_faces() const {

@@ -27,10 +27,10 @@ Solved solved(const Scene& scene, const Method& method) {
   options.capillary = method.form;
   options.rtol = method.rtol;
   MovingMesh mesh({.tetrahedra = method.volume_mesh});
-  if (const MeshChange made = mesh.follow(scene); !made.ok) throw std::runtime_error(made.failure);
+  if (const MeshChange made = mesh.follow(scene); !made.ok()) throw std::runtime_error(made.text());
   FlowSolution flow =
       make_finite_element_flow(options)->solve({.scene = scene, .mesh = &mesh.tetrahedra()}, {});
-  if (!flow.ok) throw std::runtime_error(flow.failure);
+  if (!flow.ok()) throw std::runtime_error(flow.text());
   return {std::move(mesh), std::move(flow)};
 }
 

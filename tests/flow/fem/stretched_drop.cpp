@@ -44,7 +44,7 @@ SurfaceMesh graded_surface(DropShape shape, int N0) {
   SurfaceMesh mesh = smooth_surface(shape, std::max(4 * N0, 4000));
   const RemeshReport report =
       remesh(mesh, {.C0 = N0 / (4.0 * std::numbers::pi), .volume = 4.0 / 3.0 * std::numbers::pi});
-  if (!report.ok) throw RunFailure(report.failure);
+  if (!report.ok()) throw RunFailure(report.text());
   return mesh;
 }
 
@@ -72,7 +72,7 @@ StokesProblem instant(const Scene& scene, const TetMesh& mesh, const FlowSpace& 
           .constraints;
   add_capillary_force(scene.interfaces[0], CapillaryForm::weak,
                       face_nodes(space, mesh, scene.interfaces[0].mesh, mesh.interfaces[0]),
-                      problem.positions, problem.load);
+                      problem.positions, problem.force);
   return problem;
 }
 

@@ -1,0 +1,142 @@
+// The columns of a run's tables: what docs/notation.md explains and what checks and plots name.
+#include "meniscus/app/run_tables.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "meniscus/core/error.hpp"
+
+namespace meniscus {
+namespace {
+
+using io::Cell;
+using Drop = RowAtStep<DropRow>;
+using Event = RowAtStep<TopologyEvent>;
+
+template <class T>
+Cell cell(const std::optional<T>& value) {
+  return value ? Cell(*value) : Cell();
+}
+
+Cell joined(const std::vector<int>& ids) { return fmt::format("{}", fmt::join(ids, ";")); }
+
+template <int I, int J>
+Cell stress(const HistoryRow& h) {
+  return h.stress ? Cell((*h.stress)(I, J)) : Cell();
+}
+/// Σ_II − Σ_JJ.
+template <int I, int J>
+Cell difference(const HistoryRow& h) {
+  return h.stress ? Cell((*h.stress)(I, I) - (*h.stress)(J, J)) : Cell();
+}
+
+constexpr const char *kPower = "μ_out G² R0³", *kStress = "μ_out G", *kEnergy = "μ_out G R0³";
+
+constexpr std::array<Column<HistoryRow>, 22> kHistory{{
+    {"step", "", [](const HistoryRow& h) { return Cell(h.step); }},
+    {"t", "1/G", [](const HistoryRow& h) { return Cell(h.t); }},
+    {"dt", "1/G", [](const HistoryRow& h) { return Cell(h.dt); }},
+    {"drops", "", [](const HistoryRow& h) { return Cell(std::int64_t{h.drops}); }},
+    {"surface_nodes", "", [](const HistoryRow& h) { return Cell(h.surface_nodes); }},
+    {"nodes", "", [](const HistoryRow& h) { return cell(h.nodes); }},
+    {"tetrahedra", "", [](const HistoryRow& h) { return cell(h.tetrahedra); }},
+    {"min_gap", "R0", [](const HistoryRow& h) { return cell(h.min_gap); }},
+    {"min_dihedral_deg", "degrees", [](const HistoryRow& h) { return cell(h.min_dihedral_deg); }},
+    {"linear_iterations", "",
+     [](const HistoryRow& h) { return Cell(std::int64_t{h.linear_iterations}); }},
+    {"power_in", kPower, [](const HistoryRow& h) { return cell(h.power_in); }},
+    {"dissipation", kPower, [](const HistoryRow& h) { return cell(h.dissipation); }},
+    {"surface_rate", kPower, [](const HistoryRow& h) { return Cell(h.surface_rate); }},
+    {"power_residual", kPower, [](const HistoryRow& h) { return cell(h.power_residual()); }},
+    {"stress_xx", kStress, stress<0, 0>},
+    {"stress_yy", kStress, stress<1, 1>},
+    {"stress_zz", kStress, stress<2, 2>},
+    {"stress_xy", kStress, stress<0, 1>},
+    {"stress_xz", kStress, stress<0, 2>},
+    {"stress_yz", kStress, stress<1, 2>},
+    {"N1", kStress, difference<0, 1>},
+    {"N2", kStress, difference<1, 2>},
+}};
+
+constexpr std::array<Column<Drop>, 20> kDrops{{
+    {"step", "", [](const Drop& d) { return Cell(d.step); }},
+    {"t", "1/G", [](const Drop& d) { return Cell(d.t); }},
+    {"drop", "", [](const Drop& d) { return Cell(std::int64_t{d.row.drop}); }},
+    {"parent", "",
+     [](const Drop& d) { return d.row.parent < 0 ? Cell() : Cell(std::int64_t{d.row.parent}); }},
+    {"volume", "R0³", [](const Drop& d) { return Cell(d.row.shape.volume); }},
+    {"volume_drift", "", [](const Drop& d) { return Cell(d.row.volume_drift); }},
+    {"volume_correction", "R0", [](const Drop& d) { return Cell(d.row.volume_correction); }},
+    {"area", "R0²", [](const Drop& d) { return Cell(d.row.shape.area); }},
+    {"x", "R0", [](const Drop& d) { return Cell(d.row.shape.centroid.x()); }},
+    {"y", "R0", [](const Drop& d) { return Cell(d.row.shape.centroid.y()); }},
+    {"z", "R0", [](const Drop& d) { return Cell(d.row.shape.centroid.z()); }},
+    {"L", "R0", [](const Drop& d) { return Cell(d.row.shape.L); }},
+    {"B", "R0", [](const Drop& d) { return Cell(d.row.shape.B); }},
+    {"W", "R0", [](const Drop& d) { return Cell(d.row.shape.W); }},
+    {"D", "", [](const Drop& d) { return Cell(d.row.shape.D); }},
+    {"angle_deg", "degrees", [](const Drop& d) { return cell(d.row.shape.angle_deg); }},
+    {"extent_x", "R0", [](const Drop& d) { return Cell(d.row.shape.extent_x); }},
+    {"H_max", "1/R0", [](const Drop& d) { return Cell(d.row.shape.H_max); }},
+    {"D_inertia", "", [](const Drop& d) { return Cell(d.row.shape.D_inertia); }},
+    {"neck_radius", "R0", [](const Drop& d) { return cell(d.row.neck_radius); }},
+}};
+
+constexpr std::array<Column<Event>, 16> kEvents{{
+    {"step", "", [](const Event& e) { return Cell(e.step); }},
+    {"t", "1/G", [](const Event& e) { return Cell(e.t); }},
+    {"kind", "",
+     [](const Event& e) {
+       return Cell(e.row.kind == EventKind::breakup ? "breakup" : "coalescence");
+     }},
+    {"x", "R0", [](const Event& e) { return Cell(e.row.place.x()); }},
+    {"y", "R0", [](const Event& e) { return Cell(e.row.place.y()); }},
+    {"z", "R0", [](const Event& e) { return Cell(e.row.place.z()); }},
+    {"parents", "", [](const Event& e) { return joined(e.row.parents); }},
+    {"children", "", [](const Event& e) { return joined(e.row.children); }},
+    {"volume_before", "R0³", [](const Event& e) { return Cell(e.row.volume_before); }},
+    {"volume_after", "R0³", [](const Event& e) { return Cell(e.row.volume_after); }},
+    {"area_before", "R0²", [](const Event& e) { return Cell(e.row.area_before); }},
+    {"area_after", "R0²", [](const Event& e) { return Cell(e.row.area_after); }},
+    {"energy_before", kEnergy, [](const Event& e) { return Cell(e.row.energy_before); }},
+    {"energy_after", kEnergy, [](const Event& e) { return Cell(e.row.energy_after); }},
+    {"neck_radius", "R0", [](const Event& e) { return cell(e.row.neck_radius); }},
+    {"gap", "R0", [](const Event& e) { return cell(e.row.gap); }},
+}};
+
+constexpr std::array kPhases{"remesh surface", "tetrahedralize",  "assemble",
+                             "solve",          "move mesh",       "diagnostics",
+                             "output",         "move interfaces", "topology"};
+
+}  // namespace
+
+std::span<const Column<HistoryRow>> history_columns() { return kHistory; }
+std::span<const Column<Drop>> drop_columns() { return kDrops; }
+std::span<const Column<Event>> event_columns() { return kEvents; }
+std::span<const char* const> timed_phases() { return kPhases; }
+
+std::vector<std::string> timing_columns() {
+  std::vector<std::string> columns{"step", "t"};
+  for (std::string phase : timed_phases()) {
+    std::ranges::replace(phase, ' ', '_');
+    columns.push_back(std::move(phase));
+  }
+  return columns;
+}
+
+std::vector<Cell> timing_row(std::int64_t step, double t, const PhaseSeconds& seconds) {
+  for ([[maybe_unused]] const auto& [phase, spent] : seconds)
+    MENISCUS_ASSERT(std::ranges::find(timed_phases(), phase) != timed_phases().end(),
+                    "no column for the phase {}", phase);
+  std::vector<Cell> row{step, t};
+  for (const std::string phase : timed_phases()) {
+    const auto found = std::ranges::find(seconds, phase, &PhaseSeconds::value_type::first);
+    row.emplace_back(found == seconds.end() ? 0.0 : found->second);
+  }
+  return row;
+}
+
+}  // namespace meniscus

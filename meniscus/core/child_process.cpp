@@ -1,0 +1,159 @@
+#include "meniscus/core/child_process.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstddef>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/asan_interface.h>
+#endif
+
+namespace meniscus {
+namespace {
+
+std::string reason(int error_number) { return std::generic_category().message(error_number); }
+
+/// The two ends of a pipe that neither waits to be read nor to be written; what is too much is
+/// lost.
+class Pipe {
+ public:
+  Pipe() : error_(pipe2(ends_.data(), O_CLOEXEC | O_NONBLOCK) == 0 ? 0 : errno) {}
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  ~Pipe() {
+    for (const int end : ends_)
+      if (end >= 0) close(end);
+  }
+  [[nodiscard]] int error() const { return error_; }
+  [[nodiscard]] int writing() const { return ends_[1]; }
+  /// The first line that lies in it.
+  [[nodiscard]] std::string first_line() const {
+    std::array<char, 512> bytes;  // of a line that is to be shown
+    const ssize_t count = read(ends_[0], bytes.data(), bytes.size());
+    const std::string text(bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+    return text.substr(0, text.find('\n'));
+  }
+
+ private:
+  std::array<int, 2> ends_{-1, -1};
+  int error_ = 0;
+};
+
+/// Memory for the calls of the child, as large as a main thread's usually is.
+class Stack {
+ public:
+  Stack()
+      : begin_(mmap(nullptr, kSize, PROT_READ | PROT_WRITE,
+                    MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0)) {
+    if (begin_ != MAP_FAILED) mprotect(begin_, kGuard, PROT_NONE);
+  }
+  Stack(const Stack&) = delete;
+  Stack& operator=(const Stack&) = delete;
+  ~Stack() {
+    if (begin_ == MAP_FAILED) return;
+#if defined(__SANITIZE_ADDRESS__)
+    __asan_unpoison_memory_region(begin_, kSize);  // calls that were cut short left marks
+#endif
+    munmap(begin_, kSize);
+  }
+  [[nodiscard]] bool is_there() const { return begin_ != MAP_FAILED; }
+  [[nodiscard]] void* top() const { return static_cast<std::byte*>(begin_) + kSize; }
+
+ private:
+  static constexpr std::size_t kSize = std::size_t{8} << 20U, kGuard = std::size_t{1} << 16U;
+  void* begin_;
+};
+
+struct Job {
+  const std::function<void()>& work;
+  unsigned seconds;
+  int errors;    // takes standard error
+  pid_t parent;  // as the child is to find it
+  std::string failure = {};
+  bool is_answered = false;
+};
+
+/// Handlers of this process (those of MPI, of the user's interrupts) are none of the child's.
+void restore_signals() {
+  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTERM, SIGXCPU})
+    std::signal(signal, SIG_DFL);
+}
+
+void limit_processor_time(unsigned seconds) {
+  const rlimit time{seconds, seconds + 1}, no_core{0, 0};
+  setrlimit(RLIMIT_CPU, &time);
+  setrlimit(RLIMIT_CORE, &no_core);
+}
+
+void redirect_output(int errors) {
+  if (const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC); nowhere >= 0)
+    dup2(nowhere, STDOUT_FILENO);
+  dup2(errors, STDERR_FILENO);
+}
+
+int do_job(void* argument) {
+  Job& job = *static_cast<Job*>(argument);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != job.parent) _exit(1);  // ended before the line above
+  restore_signals();
+  limit_processor_time(job.seconds);
+  redirect_output(job.errors);
+  try {
+    job.work();
+  } catch (const std::bad_alloc&) {
+    job.failure = "out of memory";
+  } catch (const std::exception& fault) {
+    job.failure = fault.what();
+  }
+  job.is_answered = true;
+  _exit(0);  // exit handlers belong to the other process
+}
+
+std::string words_for(int status, unsigned seconds, const std::string& said) {
+  std::string words = "it ended without an answer";
+  if (WIFSIGNALED(status)) {
+    const int signal = WTERMSIG(status);
+    words = signal == SIGXCPU
+                ? fmt::format("it took more than {} s of processor time", seconds)
+                : fmt::format("it was ended by signal {} ({})", signal, strsignal(signal));
+  }
+  return said.empty() ? words : fmt::format("{}: {}", words, said);
+}
+
+}  // namespace
+
+ChildResult run_in_child(const std::function<void()>& work, unsigned seconds) {
+  const Pipe errors;
+  const Stack stack;
+  if (errors.error() != 0)
+    return {fmt::format("no pipe could be made: {}", reason(errors.error())), 0};
+  if (!stack.is_there()) return {"no process could be started: out of memory", 0};
+  Job job{work, seconds, errors.writing(), getpid()};
+  // The memory is shared, and this thread stands still until the child has ended.
+  const pid_t child = clone(do_job, stack.top(), CLONE_VM | CLONE_VFORK | SIGCHLD, &job);
+  if (child < 0) return {fmt::format("no process could be started: {}", reason(errno)), 0};
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (job.is_answered) return {std::move(job.failure), 0};
+  return {words_for(status, seconds, errors.first_line()),
+          WIFSIGNALED(status) ? WTERMSIG(status) : 0};
+}
+
+}  // namespace meniscus

@@ -1,0 +1,42 @@
+#include "meniscus/evolve/volume_restoration.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/evolve/interface_motion.hpp"
+#include "meniscus/surface/carry_fields.hpp"
+#include "meniscus/surface/remesh.hpp"
+#include "meniscus/surface/restore_volume.hpp"
+
+namespace meniscus {
+
+void carry_fields(State& state, std::size_t i, const SurfaceMesh& before) {
+  Interface& interface = state.scene.interfaces[i];
+  if (interface.fields.empty()) return;
+  widen(state.field_excess, move_fields(interface.fields, before, interface.mesh));
+}
+
+void restore_volume(State& state, std::size_t i, SurfaceShape surface) {
+  Interface& interface = state.scene.interfaces[i];
+  MENISCUS_ASSERT(interface.volume > 0.0, "interface {} is to have a volume of {:g}", i,
+                  interface.volume);
+  const SurfaceMesh before = interface.fields.empty() ? SurfaceMesh() : interface.mesh;
+  const double shift = std::abs(restore_volume(interface.mesh, interface.volume, surface));
+  carry_fields(state, i, before);
+  state.volume_shift[i] = shift;
+  const VertexField<double> edges = mean_edges(interface.mesh);
+  state.shift_over_edge = std::max(state.shift_over_edge, shift / *std::ranges::min_element(edges));
+}
+
+ShiftVerdict ShiftJudge::judge(const State& state, bool can_shorten) {
+  const double shift = state.shift_over_edge;
+  MENISCUS_ASSERT(shift >= 0.0, "a shift of {:g} edges", shift);
+  if (shift <= kMostShiftOverEdge || state.tolerates_shift || !state.events.empty())
+    return ShiftVerdict::accept;
+  if (!can_shorten || shift > kShiftLeft * before_) return ShiftVerdict::accept_for_good;
+  before_ = shift;
+  return ShiftVerdict::shorten;
+}
+
+}  // namespace meniscus

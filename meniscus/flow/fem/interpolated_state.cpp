@@ -1,0 +1,139 @@
+#include "meniscus/flow/fem/interpolated_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/volume/cell_tree.hpp"
+#include "meniscus/volume/cell_walk.hpp"
+
+namespace meniscus::fem {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+using Barycentric = std::array<double, 4>;
+
+Vec3 velocity_at(const StokesState& state, std::span<const std::int32_t> nodes,
+                 const Barycentric& b) {
+  const auto v = [&](std::size_t k) -> const Vec3& { return state.v[NodeId{nodes[k]}]; };
+  const bool is_quadratic = nodes.size() == 10;
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < 4; ++k) sum += (is_quadratic ? 2.0 * b[k] - 1.0 : 1.0) * b[k] * v(k);
+  for (std::size_t e = 0; is_quadratic && e < 6; ++e)
+    sum += 4.0 * b[kCellEdges[e][0]] * b[kCellEdges[e][1]] * v(4 + e);
+  return sum;
+}
+
+double pressure_at(const StokesState& state, std::span<const std::int32_t> nodes,
+                   const Barycentric& b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) sum += b[k] * state.p[at(nodes[k])];
+  return sum;
+}
+
+std::int32_t num_regions(const TetMesh& mesh) {
+  return std::ranges::max_element(mesh.region)->value + 1;
+}
+
+/// Where the nodes of one region of the new mesh look for their values.
+struct Source {
+  std::vector<bool> is_allowed;  ///< by old region
+  CellId near;                   ///< a cell to start from
+};
+
+Field<RegionId, Source> sources_of_regions(const TetMesh& before, const TetMesh& after,
+                                           const RegionSources& sources) {
+  MENISCUS_ASSERT(sources.empty() || num_regions(after) <= sources.size(), "{} regions, {} sources",
+                  num_regions(after), sources.size());
+  Field<RegionId, Source> result;
+  for (const RegionId region : ids<RegionId>(num_regions(after))) {
+    std::vector<RegionId> known = {region};
+    if (!sources.empty()) known = sources[region];
+    std::vector<bool> is_allowed(at(num_regions(before)), false);
+    for (const RegionId old : known)
+      if (old.value < num_regions(before)) is_allowed[at(old.value)] = true;
+    if (std::ranges::find(is_allowed, true) == is_allowed.end())
+      is_allowed.assign(is_allowed.size(), true);
+    result.add({std::move(is_allowed), {}});
+  }
+  return result;
+}
+
+using CellsByRegion = Field<RegionId, std::vector<CellId>>;
+
+CellsByRegion cells_by_region(const TetMesh& mesh) {
+  CellsByRegion cells(num_regions(mesh));
+  for (const CellId c : mesh.cells.ids()) cells[mesh.region[c]].push_back(c);
+  return cells;
+}
+
+/// The cell with the centroid nearest to a point, among those allowed.
+CellId nearest_cell(const TetMesh& mesh, const CellsByRegion& cells,
+                    const std::vector<bool>& is_allowed, const Vec3& p) {
+  CellId nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const RegionId region : cells.ids()) {
+    if (!is_allowed[at(region.value)]) continue;
+    for (const CellId c : cells[region]) {
+      const TetCorners x = corners(mesh, c);
+      const double squared = (0.25 * (x[0] + x[1] + x[2] + x[3]) - p).squaredNorm();
+      if (squared >= least) continue;
+      least = squared;
+      nearest = c;
+    }
+  }
+  MENISCUS_ASSERT(nearest.is_valid(), "no cell is allowed");
+  return nearest;
+}
+
+Vec3 node_position(const TetMesh& mesh, CellId c, std::size_t k) {
+  const CellVertices& corners = mesh.cells[c];
+  if (k < 4) return mesh.x[corners[k]];
+  return 0.5 * (mesh.x[corners[kCellEdges[k - 4][0]]] + mesh.x[corners[kCellEdges[k - 4][1]]]);
+}
+
+}  // namespace
+
+StokesState interpolated_state(const StokesState& state, const MeshedSpace& from,
+                               const MeshedSpace& to, const RegionSources& sources) {
+  MENISCUS_ASSERT(from.space.elements == to.space.elements, "other elements");
+  MENISCUS_ASSERT(state.v.size() == from.space.velocity.num_nodes, "{} {}", state.v.size(),
+                  from.space.velocity.num_nodes);
+  const CellWalk walk(from.mesh);
+  const CellsByRegion old_cells = cells_by_region(from.mesh);
+  Field<RegionId, Source> source = sources_of_regions(from.mesh, to.mesh, sources);
+  StokesState result = state_at_rest(to.space);
+  std::vector<CellId> hit_cells(result.p.size());  // where pressures were found
+  // A vertex on an interface is looked for in the liquids on both sides: the nearer point counts.
+  Field<NodeId, double> distance(to.space.velocity.num_nodes,
+                                 std::numeric_limits<double>::infinity());
+  for (const CellId c : to.mesh.cells.ids()) {
+    const auto nodes = to.space.velocity.of(c), pressures = to.space.pressure.nodes.of(c);
+    auto& [is_allowed, near] = source[to.mesh.region[c]];
+    for (std::size_t k = 0; k < 4; ++k)
+      if (hit_cells[at(pressures[k])].is_valid()) near = hit_cells[at(pressures[k])];
+    if (!near.is_valid())
+      near = nearest_cell(from.mesh, old_cells, is_allowed, node_position(to.mesh, c, 0));
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const NodeId i{nodes[k]};
+      const bool is_known = k < 4 ? hit_cells[at(pressures[k])].is_valid() : distance[i] < HUGE_VAL;
+      if (is_known) continue;
+      const CellWalk::Hit hit = walk.find(near, node_position(to.mesh, c, k), is_allowed);
+      near = hit.cell;
+      if (hit.squared_distance < distance[i]) {
+        distance[i] = hit.squared_distance;
+        result.v[i] = velocity_at(state, from.space.velocity.of(hit.cell), hit.weights);
+      }
+      if (k >= 4) continue;
+      hit_cells[at(pressures[k])] = hit.cell;
+      result.p[at(pressures[k])] =
+          pressure_at(state, from.space.pressure.nodes.of(hit.cell), hit.weights);
+    }
+  }
+  return result;
+}
+
+}  // namespace meniscus::fem

@@ -1,0 +1,110 @@
+#include "meniscus/solids/remesh_target.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/mesh/surface_check.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/mesh/surface_pieces.hpp"
+#include "meniscus/solids/rough_pieces.hpp"
+#include "meniscus/solids/target_search.hpp"
+#include "meniscus/surface/sizing.hpp"
+
+namespace meniscus {
+namespace {
+
+using By = RemeshTarget::By;
+
+double equivalent_radius(double volume) {
+  return std::cbrt(3.0 * std::abs(volume) / (4.0 * std::numbers::pi));
+}
+
+/// The surface in units of its equivalent radius, its middle at the origin.
+struct Frame {
+  Vec3 center;
+  double radius;
+  explicit Frame(const SurfaceMesh& mesh)
+      : center(mean_vertex(mesh)), radius(equivalent_radius(enclosed_volume(mesh))) {}
+  void enter(SurfaceMesh& mesh) const {
+    for (Vec3& x : mesh.x) x = (x - center) / radius;
+  }
+  void leave(SurfaceMesh& mesh) const {
+    for (Vec3& x : mesh.x) x = center + radius * x;
+  }
+};
+
+/// Pieces in units of the frame; those that lie inside out in another are turned and marked.
+std::vector<Piece> pieces_of(const SurfaceMesh& mesh) {
+  std::vector<Piece> pieces;
+  for (SurfaceMesh& piece : connected_pieces(mesh)) {
+    double volume = enclosed_volume(piece);
+    const bool is_cavity = volume < 0.0;
+    if (is_cavity) turn_inside_out(piece);
+    pieces.push_back({std::move(piece), std::abs(volume), is_cavity});
+  }
+  return pieces;
+}
+
+/// The target in units of the frame.
+RemeshTarget target_in_frame(RemeshTarget target, double radius) {
+  if (target.by != By::nodes) target.value /= radius;
+  target.edge_floor /= radius;
+  return target;
+}
+
+}  // namespace
+
+void RemeshTarget::validate() const {
+  const auto require = [](bool holds, const char* option, double given, const char* range) {
+    if (!holds) reject_input("--{} {:g}: must be {}", option, given, range);
+  };
+  if (by == By::nodes)
+    require(value >= kFewestNodes && value <= kMostVertices, "nodes", value, "from 12 to 2e6");
+  else
+    require(value > 0.0 && std::isfinite(value), option_name(by), value, "positive");
+  require(edge_floor >= 0.0 && std::isfinite(edge_floor), "edge-floor", edge_floor,
+          "zero or positive");
+  if (by == By::edge_length && edge_floor > 0.0)
+    reject_input("--edge-floor {:g}: has no meaning with --edge-length", edge_floor);
+  require(gradation > 0.0 && std::isfinite(gradation), "gradation", gradation, "positive");
+}
+
+TargetReport remesh_to(SurfaceMesh& mesh, const RemeshTarget& target) {
+  target.validate();
+  require_thickness(mesh, target);
+  SurfaceMesh working = mesh;
+  const Frame frame(mesh);
+  frame.enter(working);
+  const RemeshTarget inner = target_in_frame(target, frame.radius);
+
+  std::vector<Piece> pieces = pieces_of(working);
+  if (inner.by == By::edge_length)
+    require_affordable(inner, surface_area(working) * density_of_length(inner.value));
+  const std::vector<Piece> given = pieces;
+  const double rough_edge = remesh_rough_pieces(pieces, inner);
+  std::vector<bool> is_cavity;
+  for (const Piece& piece : pieces) is_cavity.push_back(piece.is_cavity);
+
+  Found found = rough_edge > 0.0 ? search_rough(given, pieces, inner, rough_edge)
+                                 : TargetSearch(std::move(pieces), inner, 0.0, kMostFailures).run();
+  TargetReport report = std::move(found.report);
+  std::vector<SurfaceMesh> result = std::move(found.pieces);
+  if (result.empty()) return report;
+  for (std::size_t i = 0; i < result.size(); ++i)
+    if (is_cavity[i]) turn_inside_out(result[i]);
+  working = joined(result);
+  if (result.size() > 1)
+    if (auto fault = find_self_intersection(working)) {
+      report.fault = std::move(fault);
+      return report;
+    }
+  frame.leave(working);
+  mesh = std::move(working);
+  if (target.by != By::nodes) report.reached *= frame.radius;
+  return report;
+}
+
+}  // namespace meniscus

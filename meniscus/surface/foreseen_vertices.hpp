@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "meniscus/mesh/surface_mesh.hpp"
+
+namespace meniscus {
+
+/// More vertices than this are not made of one surface: a few gigabytes while they are made.
+inline constexpr double kMostVertices = 2e6;
+
+/// How many vertices a surface will have, before they are made.
+struct ForeseenVertices {
+  double number = 0.0;  ///< infinite where lengths or coordinates are no numbers
+  // The edge that asks for most, and the length it is to be cut into.
+  VertexId a, b;
+  double length = 0.0;
+  [[nodiscard]] bool is_too_many() const { return !(number <= kMostVertices); }
+};
+
+/// For edges of a given length at each vertex: ∮2/(√3 l²) dS of even triangles, or, where that is
+/// more, the pieces that the edges of the surface are cut into: needles have next to no area.
+[[nodiscard]] ForeseenVertices foresee_vertices(const SurfaceMesh& mesh,
+                                                const VertexField<double>& length);
+/// For the same length everywhere.
+[[nodiscard]] ForeseenVertices foresee_vertices(const SurfaceMesh& mesh, double length);
+
+/// Says that there would be too many, with the place.
+[[nodiscard]] std::string too_many(const ForeseenVertices& vertices, const SurfaceMesh& mesh);
+
+}  // namespace meniscus

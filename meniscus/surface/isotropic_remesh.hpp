@@ -1,0 +1,29 @@
+#pragma once
+
+#include "meniscus/mesh/surface_mesh.hpp"
+
+namespace meniscus {
+
+/// An icosahedron, the coarsest sphere there is to be smoothed, turns its normals by 42°.
+inline constexpr double kCreaseDeg = 50.0;
+
+/// Whether a closed surface is too rough for a smooth surface to be fitted to: normals turned by
+/// more than 50° along an edge, or a twentieth of the angles below 15°.
+[[nodiscard]] bool is_rough(const SurfaceMesh& mesh, const SurfaceTopology& topology);
+
+/// Edges where normals turn by more than `kCreaseDeg`.
+struct Creases {
+  double pieces = 0.0;    ///< beyond one each, that they are cut into
+  SurfaceEdge longest{};  ///< the longest of them, if there are any
+};
+/// The creases of a surface that is to have triangles with edges about `edge` long.
+[[nodiscard]] Creases creases(const SurfaceMesh& mesh, const SurfaceTopology& topology,
+                              double edge);
+
+/// A polyhedron in triangles with edges about `edge` long, by CGAL's isotropic remeshing. New
+/// vertices lie on the given faces. Edges where normals turn by more than `crease_deg` stay lines
+/// of edges; with 180 none do.
+[[nodiscard]] SurfaceMesh isotropic_remesh(const SurfaceMesh& mesh, double edge,
+                                           double crease_deg = kCreaseDeg);
+
+}  // namespace meniscus

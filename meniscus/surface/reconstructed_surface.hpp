@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+
+#include "meniscus/geometry/quadratic_triangle.hpp"
+#include "meniscus/surface/edge_middles.hpp"
+
+namespace meniscus {
+
+/// The closed surface that an interface's vertices stand for, as made once for a mesh: flat faces,
+/// or quadratic ones through the vertices and the `edge_middles`. Whoever asks it need not know
+/// which. Flat faces enclose too little of a smooth surface by O(h²), quadratic ones by O(h⁴). The
+/// mesh has to outlive it and to stay as it is.
+class ReconstructedSurface {
+ public:
+  ReconstructedSurface(const SurfaceMesh& mesh, SurfaceShape shape);
+
+  [[nodiscard]] double volume() const;  ///< enclosed [R0³]
+  [[nodiscard]] double area() const;    ///< [R0²]
+  /// ∫ (x − c)(x − c)ᵀ dV about the centroid c of the enclosed volume [R0⁵].
+  [[nodiscard]] Mat3 second_moments() const;
+  /// ∫ nn dS [R0²].
+  [[nodiscard]] Mat3 normal_moment() const;
+  /// ∫ un dS of a velocity given at the vertices [G R0³], linear on flat faces and quadratic on
+  /// others: the middles of their edges get u from the quadratics that fit it around both ends, to
+  /// O(h³).
+  [[nodiscard]] Mat3 velocity_moment(const VertexField<Vec3>& u) const;
+  /// dS/dt for vertices that move with this velocity [G R0²]. Exact for flat faces; for others a
+  /// central difference, its error some 1e-8 of the rate.
+  [[nodiscard]] double area_rate(const VertexField<Vec3>& motion) const;
+
+ private:
+  [[nodiscard]] bool is_flat() const { return shape_ == SurfaceShape::faceted; }
+
+  const SurfaceMesh& mesh_;
+  SurfaceShape shape_;
+  // Of quadratic faces alone:
+  std::optional<SurfaceTopology> topology_;
+  std::vector<Vec3> middles_;
+  FaceField<TriangleNodes<kQuadraticNodes>> faces_;  // seen from the mean vertex, for round-off
+};
+
+}  // namespace meniscus

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+
+#include "meniscus/scene/scene.hpp"
+#include "meniscus/volume/tetrahedralize.hpp"
+
+namespace meniscus {
+
+/// How many tetrahedra a mesh will have, before it is made.
+struct ForeseenCells {
+  double number = 0.0;      ///< within a factor of 3; of a number above the most, only that it is
+  Vec3 finest{0, 0, 0};     ///< where the shortest edge is wanted
+  double least_size = 0.0;  ///< that edge [R0]
+  [[nodiscard]] bool is_too_many() const;
+};
+
+/// More than this many are not made: a mesh of three million vertices, for which TetGen takes some
+/// 8 GB and the flow more than ten times as much.
+inline constexpr double kMostCells = 2e7;
+
+/// ∫ dV/(cell_volume h³/(6√2)) over the box around the outer boundary, h = size(x) taken constant
+/// over boxes of a few h, and what the vertices of the surfaces take at least. Ends where it
+/// exceeds `kMostCells`; a size that is no positive number, or below the precision of
+/// the coordinates, counts as too many.
+[[nodiscard]] ForeseenCells foresee_cells(const Scene& scene,
+                                          const std::function<double(const Vec3&)>& size,
+                                          double cell_volume);
+
+/// Says that there would be too many, with the place.
+[[nodiscard]] std::string too_many(const ForeseenCells& cells);
+
+}  // namespace meniscus

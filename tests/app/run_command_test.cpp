@@ -1,0 +1,111 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "meniscus/app/commands.hpp"
+#include "meniscus/core/error.hpp"
+#include "meniscus/io/table.hpp"
+#include "meniscus/surface/constants.hpp"
+#include "tests/io/temporary_folder.hpp"
+
+namespace meniscus {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// Three steps of a drop of the fewest vertices, in an unbounded liquid.
+constexpr const char* kCase =
+    "title = \"Three steps\"\n[flow]\nkind = \"uniaxial-extension\"\n[[drop]]\nradius = 1.0\nnodes "
+    "= 42\n"
+    "[domain]\nshape = \"unbounded\"\n[solver]\nmethod = \"boundary-integral\"\n"
+    "[time]\nend = 0.03\nmax-step = 0.01\n[output]\ncheckpoint-every = 1\n";
+
+/// Runs the case in `folder`; further words are overrides.
+fs::path run_in(const test::TemporaryFolder& folder, std::vector<std::string> overrides = {}) {
+  test::put(folder / "case.toml", kCase);
+  RunArguments arguments;
+  arguments.case_file = (folder / "case.toml").string();
+  arguments.output = (folder / "run").string();
+  arguments.overrides = std::move(overrides);
+  arguments.is_quiet = true;
+  EXPECT_EQ(run_command(arguments), 0);
+  return folder / "run";
+}
+
+Json record_of(const fs::path& run) { return Json::parse(test::get(run / "run.json")); }
+
+TEST(RunCommand, RecordsWhatRanAndHowFarVolumesWerePutRight) {
+  const test::TemporaryFolder folder;
+  const fs::path run = run_in(folder);
+  const Json record = record_of(run);
+  EXPECT_EQ(record["status"], "done");
+  EXPECT_EQ(record["title"], "Three steps");
+  EXPECT_EQ(record["case_text"], kCase);
+  EXPECT_EQ(record["constants"]["surface"]["most-mended-volume"], kMostMendedVolume);
+  EXPECT_EQ(record["constants"]["topology"]["prominence"], 1.1);
+  EXPECT_TRUE(record["warnings"].empty()) << record["warnings"];
+
+  const io::Table drops = io::read_table(run / "drops.csv");
+  const std::vector<double> steps = drops.column("step"),
+                            shifts = drops.column("volume_correction");
+  ASSERT_EQ(steps.size(), record["steps"].get<std::size_t>() + 1);
+  double sum = 0.0;
+  for (std::size_t i = 1; i < steps.size(); ++i) sum += shifts[i];
+  EXPECT_GT(sum, 0.0);
+  EXPECT_NEAR(record["volume_correction_sum"].get<double>(), sum, 1e-15);
+}
+
+TEST(RunCommand, ResumeEndsWithTheRowsOfTheWholeRunAndAddsUpTimes) {
+  const test::TemporaryFolder whole_folder, folder;
+  const fs::path whole = run_in(whole_folder), run = run_in(folder, {"time.end=0.01"});
+  const Json before = record_of(run);
+  ResumeArguments arguments;
+  arguments.directory = run.string();
+  arguments.until = 0.03;
+  arguments.is_quiet = true;
+  EXPECT_EQ(resume_command(arguments), 0);
+  for (const char* file : {"history.csv", "drops.csv", "events.csv"})
+    EXPECT_EQ(test::get(run / file), test::get(whole / file)) << file;
+  const Json after = record_of(run);
+  EXPECT_EQ(after["started"], before["started"]);
+  EXPECT_EQ(after["case_text"], kCase);
+  EXPECT_EQ(after["volume_correction_sum"], record_of(whole)["volume_correction_sum"]);
+  EXPECT_GT(after["wall_seconds"].get<double>(), before["wall_seconds"].get<double>());
+  EXPECT_GE(after["seconds"]["solve"].get<double>(), before["seconds"]["solve"].get<double>());
+}
+
+TEST(RunCommand, ResumeRefusesAnEndThatLiesBeforeTheCheckpoint) {
+  const test::TemporaryFolder folder;
+  ResumeArguments arguments;
+  arguments.directory = run_in(folder).string();
+  arguments.until = 0.001;
+  arguments.is_quiet = true;
+  EXPECT_NE(test::message_of<InvalidInput>([&] {
+              (void)resume_command(arguments);
+            }).find("lies before the checkpoint's t"),
+            std::string::npos);
+}
+
+TEST(RunCommand, AFolderThatHoldsARunIsKeptUnlessItMayBeReplaced) {
+  const test::TemporaryFolder folder;
+  const fs::path run = run_in(folder);
+  const std::string before = test::get(run / "drops.csv");
+  RunArguments arguments;
+  arguments.case_file = (folder / "case.toml").string();
+  arguments.output = run.string();
+  arguments.overrides = {"time.end=0.01"};
+  arguments.is_quiet = true;
+  EXPECT_NE(test::message_of<InvalidInput>([&] {
+              (void)run_command(arguments);
+            }).find("holds a run already"),
+            std::string::npos);
+  EXPECT_EQ(test::get(run / "drops.csv"), before);
+  arguments.is_overwrite = true;
+  EXPECT_EQ(run_command(arguments), 0);
+  EXPECT_LT(test::get(run / "drops.csv").size(), before.size());
+}
+
+}  // namespace
+}  // namespace meniscus

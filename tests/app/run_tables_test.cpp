@@ -1,0 +1,111 @@
+#include "meniscus/app/run_tables.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "meniscus/report/plot_catalogue.hpp"
+#include "tests/io/temporary_folder.hpp"
+
+namespace meniscus {
+namespace {
+
+using NamesAndUnits = std::vector<std::pair<std::string, std::string>>;
+
+template <class Row>
+NamesAndUnits listed(std::span<const Column<Row>> columns) {
+  NamesAndUnits list;
+  for (const Column<Row>& column : columns) list.emplace_back(column.name, column.unit);
+  return list;
+}
+
+/// The cells "| `name` | unit |" of the table under the heading of a file in docs/notation.md.
+NamesAndUnits explained(const std::string& file) {
+  const std::string page = test::get(std::filesystem::path(MENISCUS_DOCS) / "notation.md");
+  const std::size_t begin = page.find("### `" + file + "`");
+  EXPECT_NE(begin, std::string::npos) << file;
+  const std::string part = page.substr(begin, page.find("\n##", begin + 3) - begin);
+  NamesAndUnits list;
+  for (std::size_t at = part.find("\n| `"); at != std::string::npos;
+       at = part.find("\n| `", at + 1)) {
+    const std::size_t name = at + 4, name_end = part.find('`', name), unit = name_end + 4,
+                      unit_end = part.find('|', unit);
+    std::string text = part.substr(unit, unit_end - unit);
+    text.erase(text.find_last_not_of(' ') + 1);
+    list.emplace_back(part.substr(name, name_end - name), text);
+  }
+  return list;
+}
+
+TEST(RunTables, AreExplainedColumnByColumnInTheNotation) {
+  EXPECT_EQ(explained("history.csv"), listed(history_columns()));
+  EXPECT_EQ(explained("drops.csv"), listed(drop_columns()));
+  EXPECT_EQ(explained("events.csv"), listed(event_columns()));
+  std::vector<std::string> names;
+  for (const auto& [name, unit] : explained("timing.csv")) names.push_back(name);
+  EXPECT_EQ(names, timing_columns());
+}
+
+/// A unit as plots write it: "μ_out G² R0³" is "μG²R₀³".
+std::string typeset(std::string unit) {
+  for (const auto& [from, to] : {std::pair("_out", ""), std::pair("R0", "R₀"),
+                                 std::pair("degrees", "°"), std::pair(" ", "")})
+    for (std::size_t at = unit.find(from); at != std::string::npos; at = unit.find(from))
+      unit.replace(at, std::string(from).size(), to);
+  return unit;
+}
+
+TEST(RunTables, HaveTheColumnsAndUnitsOfEveryPlot) {
+  std::map<std::string, std::string> units;  // "drops.D" to ""
+  for (const auto& [name, unit] : listed(history_columns())) units["history." + name] = unit;
+  for (const auto& [name, unit] : listed(drop_columns())) units["drops." + name] = unit;
+  for (const report::PlotSpec& plot : report::plot_catalogue())
+    for (const report::PlotQuantity& quantity : plot.quantities) {
+      if (plot.derivation == report::Derivation::sum) continue;
+      const auto column = units.find(plot.table + "." + quantity.column);
+      ASSERT_NE(column, units.end()) << plot.title;
+      if (plot.derivation == report::Derivation::percent) continue;
+      EXPECT_EQ(typeset(column->second), plot.unit) << plot.title;
+    }
+}
+
+TEST(RunTables, LeaveCellsWithoutMeaningEmpty) {
+  const auto cell_of = [](const auto& columns, const auto& row, const std::string& name) {
+    const std::vector<std::string> names = names_of(columns);
+    return cells_of(columns, row)
+        .at(static_cast<std::size_t>(std::ranges::find(names, name) - names.begin()));
+  };
+  HistoryRow history;
+  EXPECT_EQ(cell_of(history_columns(), history, "power_residual"), io::Cell());
+  EXPECT_EQ(cell_of(history_columns(), history, "N1"), io::Cell());
+  history.power_in = 3.0;
+  history.dissipation = 1.5;
+  history.surface_rate = 1.0;
+  history.stress = Vec3(5.0, 3.0, 2.0).asDiagonal();
+  EXPECT_EQ(cell_of(history_columns(), history, "power_residual"), io::Cell(0.5));
+  EXPECT_EQ(cell_of(history_columns(), history, "N1"), io::Cell(2.0));
+  EXPECT_EQ(cell_of(history_columns(), history, "N2"), io::Cell(1.0));
+
+  DropRow drop;
+  drop.drop = 4;
+  EXPECT_EQ(cell_of(drop_columns(), RowAtStep<DropRow>{2, 0.5, drop}, "parent"), io::Cell());
+  TopologyEvent event;
+  event.kind = EventKind::coalescence;
+  event.parents = {0, 1};
+  event.children = {2};
+  const RowAtStep<TopologyEvent> at{3, 0.25, event};
+  EXPECT_EQ(cell_of(event_columns(), at, "kind"), io::Cell("coalescence"));
+  EXPECT_EQ(cell_of(event_columns(), at, "parents"), io::Cell("0;1"));
+}
+
+TEST(RunTables, TimingHasAZeroForAPhaseThatTookNoTime) {
+  const std::vector<io::Cell> row = timing_row(7, 0.5, {{"solve", 2.0}});
+  ASSERT_EQ(row.size(), timing_columns().size());
+  for (std::size_t i = 2; i < row.size(); ++i)
+    EXPECT_EQ(row[i], io::Cell(timing_columns()[i] == "solve" ? 2.0 : 0.0));
+}
+
+}  // namespace
+}  // namespace meniscus
