@@ -52,7 +52,7 @@ std::vector<SurfaceMesh> connected_pieces(const SurfaceMesh& mesh) {
   return pieces;
 }
 
-SurfaceMesh joined(std::span<const SurfaceMesh> pieces) {
+SurfaceMesh joined_surface(std::span<const SurfaceMesh> pieces) {
   SurfaceMesh whole;
   for (const SurfaceMesh& piece : pieces) {
     const std::int32_t first = whole.num_vertices();

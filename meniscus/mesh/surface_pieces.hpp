@@ -12,7 +12,7 @@ namespace meniscus {
 [[nodiscard]] std::vector<SurfaceMesh> connected_pieces(const SurfaceMesh& mesh);
 
 /// The pieces as one surface: vertices and faces of one after those of the other.
-[[nodiscard]] SurfaceMesh joined(std::span<const SurfaceMesh> pieces);
+[[nodiscard]] SurfaceMesh joined_surface(std::span<const SurfaceMesh> pieces);
 
 /// V − E + F of a closed surface: the sum over its pieces of 2 less twice the number of handles.
 [[nodiscard]] int euler_characteristic(const SurfaceMesh& mesh);

@@ -95,7 +95,7 @@ TargetReport remesh_to(SurfaceMesh& mesh, const RemeshTarget& target) {
   if (result.empty()) return report;
   for (std::size_t i = 0; i < result.size(); ++i)
     if (is_cavity[i]) turn_inside_out(result[i]);
-  working = joined(result);
+  working = joined_surface(result);
   if (result.size() > 1)
     if (auto fault = find_self_intersection(working)) {
       report.fault = std::move(fault);

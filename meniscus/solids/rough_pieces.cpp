@@ -127,7 +127,7 @@ Found search_cut(const std::vector<Piece>& pieces, const RemeshTarget& target, d
     std::vector<SurfaceMesh> even = cut_evenly(
         pieces, std::max(counts ? length_of_density(setting / area) : setting, target.edge_floor));
     if (even.empty()) break;
-    const SurfaceMesh all = joined(even);
+    const SurfaceMesh all = joined_surface(even);
     const double measure = counts ? all.num_vertices() : mean_edge(all);
     if (measure == last_measure) break;
     const double miss = std::abs(std::log(measure / target.value));

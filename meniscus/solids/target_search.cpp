@@ -198,8 +198,8 @@ std::optional<Fault> TargetSearch::remesh_all(double setting,
 }
 
 double TargetSearch::measure_of(const std::vector<SurfaceMesh>& remeshed) const {
-  if (target_.by == By::nodes) return joined(remeshed).num_vertices();
-  if (target_.by == By::edge_length) return mean_edge(joined(remeshed));
+  if (target_.by == By::nodes) return joined_surface(remeshed).num_vertices();
+  if (target_.by == By::edge_length) return mean_edge(joined_surface(remeshed));
   double largest = 0.0;
   for (std::size_t i = 0; i < remeshed.size(); ++i) {
     const SampledDistance d =

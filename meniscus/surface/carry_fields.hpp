@@ -48,9 +48,10 @@ ReplacedFields replaced_fields(const SurfaceFields& fields, const SurfaceMesh& b
 ReplacedFields replaced_fields(const SurfaceFields& fields, const SurfaceMesh& before,
                                const SurfaceMesh& after);
 
-/// The fields of surfaces that `joined` makes one, in the same order. All must have the same list.
+/// The fields of surfaces that `joined_surface` makes one, in the same order. All must have the
+/// same list.
 [[nodiscard]] SurfaceFields joined_fields(std::span<const SurfaceFields> parts);
-/// The fields of the pieces that `joined` made one.
+/// The fields of the pieces that `joined_surface` made one.
 [[nodiscard]] std::vector<SurfaceFields> split_fields(const SurfaceFields& whole,
                                                       std::span<const SurfaceMesh> pieces);
 /// Whether two surfaces have fields of the same names and transfers in the same order.

@@ -131,8 +131,8 @@ void EditMesh::collapse(HalfedgeId h) {
   MENISCUS_ASSERT(valence_[b] >= 3 && num_alive_ >= 4, "{} {}", valence_[b], num_alive_);
 }
 
-EditMesh::Compacted EditMesh::compacted() const {
-  Compacted result;
+EditMesh::CompactMesh EditMesh::compact_mesh() const {
+  CompactMesh result;
   VertexField<VertexId> old_to_new(out_.size());
   for (const VertexId v : out_.ids()) {
     if (!is_alive(v)) continue;

@@ -11,7 +11,7 @@ using HalfedgeId = Id<struct HalfedgeTag>;
 
 /// Connectivity of a closed triangulated surface while it is edited: half-edges 3f, 3f + 1, 3f + 2
 /// run round face f; only the partner across the edge and the vertex each starts at are stored.
-/// Removed faces and vertices stay behind as dead ids until `compacted`.
+/// Removed faces and vertices stay behind as dead ids until `compact_mesh`.
 class EditMesh {
  public:
   EditMesh(const SurfaceMesh& mesh, const SurfaceTopology& topology);
@@ -61,11 +61,11 @@ class EditMesh {
   void collapse(HalfedgeId h);
 
   /// Living vertices in the order of their ids, and the faces between them.
-  struct Compacted {
+  struct CompactMesh {
     std::vector<VertexId> vertices;
     FaceField<FaceVertices> faces;
   };
-  [[nodiscard]] Compacted compacted() const;
+  [[nodiscard]] CompactMesh compact_mesh() const;
 
  private:
   void pair(HalfedgeId a, HalfedgeId b) {

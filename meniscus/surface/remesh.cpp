@@ -74,16 +74,16 @@ void equilibrate(RemeshState& state, const RemeshOptions& options, RemeshReport&
 /// The new surface, and where its vertices lie on the old one.
 struct NewSurface {
   SurfaceMesh mesh;
-  VertexField<SurfaceLocation> points;
+  VertexField<SurfacePoint> points;
 };
 NewSurface new_surface(const RemeshState& state) {
-  const EditMesh::Compacted compacted = state.mesh.compacted();
+  const EditMesh::CompactMesh compact = state.mesh.compact_mesh();
   MENISCUS_ASSERT(state.vertices.size() == state.mesh.num_vertex_slots(), "{} {}",
                   state.vertices.size(), state.mesh.num_vertex_slots());
   NewSurface result;
-  result.mesh.faces = compacted.faces;
-  result.mesh.x.reserve(static_cast<std::int32_t>(compacted.vertices.size()));
-  for (const VertexId v : compacted.vertices) {
+  result.mesh.faces = compact.faces;
+  result.mesh.x.reserve(static_cast<std::int32_t>(compact.vertices.size()));
+  for (const VertexId v : compact.vertices) {
     result.mesh.x.add(state.vertices[v].x);
     result.points.add(state.vertices[v].point);
   }
@@ -158,8 +158,8 @@ std::optional<Fault> rebuild(SurfaceMesh& mesh, const RemeshOptions& options, Su
   correct_volume(result, enclosed_volume(mesh), options, report);
   report.min_angle_deg = smallest_angle_deg(result);
   if (auto fault = find_fault(result, smallest_angle_deg(mesh), options, report)) return fault;
-  auto [carried, excess] =
-      transferred(fields, {mesh, topology, reference.surface, reference.walk, result, points});
+  auto [carried, excess] = transferred_fields(
+      fields, {mesh, topology, reference.surface, reference.walk, result, points});
   fields = std::move(carried);
   report.field_excess = excess;
   mesh = std::move(result);

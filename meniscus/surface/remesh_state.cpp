@@ -13,7 +13,7 @@ constexpr double kUprightCosine = 0.5;
 
 }  // namespace
 
-RemeshVertex vertex_at(const RemeshReference& reference, const SurfaceLocation& point) {
+RemeshVertex vertex_at(const RemeshReference& reference, const SurfacePoint& point) {
   const FaceVertices& corners = reference.walk.corners(point.face);
   const Vec3 flat = reference.walk.flat_point(point);
   Vec3 lift = Vec3::Zero(), n = Vec3::Zero();

@@ -24,7 +24,7 @@ struct RemeshVertex {
   Vec3 x;              ///< near the smooth surface; on it after `lift_to_surface`
   double rest_length;  ///< l0 there
   Vec3 n;              ///< its unit normal there, interpolated linearly
-  SurfaceLocation point;
+  SurfacePoint point;
 };
 
 /// A triangulation under way from the old to the new one. Most of it comes to rest early: flips and
@@ -56,8 +56,7 @@ struct RemeshState {
 /// tangent planes at the corners, ½ Σ b_k (n_k·(x_k − y)) n_k: where the curvature is even, the
 /// smooth surface, otherwise O(h³) away, at a fifth of the cost. Its rest length is
 /// Σ b_k (l0_k + ½ ∇l0_k·(y − x_k)), likewise O(h³).
-[[nodiscard]] RemeshVertex vertex_at(const RemeshReference& reference,
-                                     const SurfaceLocation& point);
+[[nodiscard]] RemeshVertex vertex_at(const RemeshReference& reference, const SurfacePoint& point);
 /// Puts all vertices on the smooth surface.
 void lift_to_surface(RemeshState& state);
 /// The vertex half-way between two on the reference surface.

@@ -72,13 +72,13 @@ SmoothSurface::SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& top
   }
 }
 
-Vec3 SmoothSurface::flat_point(const SurfaceLocation& location) const {
+Vec3 SmoothSurface::flat_point(const SurfacePoint& location) const {
   const FaceVertices& v = faces_[location.face];
   return location.weights[0] * patches_[v[0]].x + location.weights[1] * patches_[v[1]].x +
          location.weights[2] * patches_[v[2]].x;
 }
 
-SmoothSurface::PointNormal SmoothSurface::at(const SurfaceLocation& location) const {
+SmoothSurface::PointNormal SmoothSurface::at(const SurfacePoint& location) const {
   const FaceVertices& v = faces_[location.face];
   const Vec3 flat = flat_point(location);
   const Vec3 squares = location.weights.cwiseProduct(location.weights);
@@ -97,7 +97,7 @@ SmoothSurface::PointNormal SmoothSurface::at(const SurfaceLocation& location) co
   return result;
 }
 
-Vec3 SmoothSurface::point(const SurfaceLocation& location) const {
+Vec3 SmoothSurface::point(const SurfacePoint& location) const {
   const FaceVertices& v = faces_[location.face];
   const Vec3 flat = flat_point(location);
   const Vec3 squares = location.weights.cwiseProduct(location.weights);

@@ -5,7 +5,7 @@
 namespace meniscus {
 
 /// A place on a triangulated surface.
-struct SurfaceLocation {
+struct SurfacePoint {
   FaceId face;
   Vec3 weights = Vec3::Zero();  ///< barycentric: non-negative, sum 1
 };
@@ -31,8 +31,8 @@ class SmoothSurface {
     Vec3 x;  ///< S(b) [R0]
     Vec3 n;  ///< unit; blended from the normals of the patches, continuous across edges
   };
-  [[nodiscard]] PointNormal at(const SurfaceLocation& location) const;
-  [[nodiscard]] Vec3 point(const SurfaceLocation& location) const;
+  [[nodiscard]] PointNormal at(const SurfacePoint& location) const;
+  [[nodiscard]] Vec3 point(const SurfacePoint& location) const;
   [[nodiscard]] Vec3 point(FaceId f, const Vec3& weights) const { return point({f, weights}); }
   [[nodiscard]] Vec3 normal(FaceId f, const Vec3& weights) const { return at({f, weights}).n; }
   /// n at a vertex, unit.
@@ -49,7 +49,7 @@ class SmoothSurface {
 
  private:
   /// y of the formula above.
-  [[nodiscard]] Vec3 flat_point(const SurfaceLocation& location) const;
+  [[nodiscard]] Vec3 flat_point(const SurfacePoint& location) const;
 
   VertexField<VertexCurvature> curvature_;
   VertexField<HeightPatch> patches_;

@@ -79,10 +79,10 @@ class VertexInterpolant {
     }
   }
 
-  [[nodiscard]] double at(const SurfaceLocation& place) const {
-    const FaceVertices& corners = change_.surface.corners(place.face);
-    const Vec3 flat = change_.walk.flat_point(place);
-    const Vec3 squares = place.weights.cwiseProduct(place.weights);
+  [[nodiscard]] double at(const SurfacePoint& point) const {
+    const FaceVertices& corners = change_.surface.corners(point.face);
+    const Vec3 flat = change_.walk.flat_point(point);
+    const Vec3 squares = point.weights.cwiseProduct(point.weights);
     double value = 0.0;
     Range range = ranges_[corners[0]];
     for (std::size_t k = 0; k < 3; ++k) {
@@ -108,16 +108,16 @@ Vec3 center(const SurfaceMesh& mesh, FaceId f) {
 
 /// Four points of a new face, the centres of the quarters it is cut into by its mid-edges, on the
 /// old surface.
-std::array<SurfaceLocation, 4> sample_places(const SurfaceChange& change, FaceId f) {
+std::array<SurfacePoint, 4> sample_points(const SurfaceChange& change, FaceId f) {
   const FaceVertices& v = change.after.faces[f];
   std::array<Vec3, 3> flat;
-  for (std::size_t k = 0; k < 3; ++k) flat[k] = change.walk.flat_point(change.places[v[k]]);
+  for (std::size_t k = 0; k < 3; ++k) flat[k] = change.walk.flat_point(change.points[v[k]]);
   const Vec3 middle = (flat[0] + flat[1] + flat[2]) / 3.0;
-  std::array<SurfaceLocation, 4> places;
+  std::array<SurfacePoint, 4> points;
   for (std::size_t k = 0; k < 3; ++k)
-    places[k] = change.walk.moved(change.places[v[k]], 0.5 * (middle - flat[k]));
-  places[3] = change.walk.moved(change.places[v[0]], middle - flat[0]);
-  return places;
+    points[k] = change.walk.moved(change.points[v[k]], 0.5 * (middle - flat[k]));
+  points[3] = change.walk.moved(change.points[v[0]], middle - flat[0]);
+  return points;
 }
 
 FaceField<double> face_areas(const SurfaceMesh& mesh) {
@@ -131,7 +131,7 @@ constexpr int kCuts = 3;
 
 /// A part of an old face, and where it comes to lie on the new surface.
 struct Part {
-  SurfaceLocation from;
+  SurfacePoint from;
   double area;
   SurfaceTree::Hit to;
 };
@@ -141,7 +141,7 @@ std::vector<Part> parts_of(const SurfaceChange& change, const FaceField<double>&
   std::vector<Part> parts;
   for (const FaceId f : areas.ids())
     for (const Vec3& center : centers) {
-      const SurfaceLocation from{f, center};
+      const SurfacePoint from{f, center};
       parts.push_back({from, areas[f] / static_cast<double>(centers.size()),
                        tree.closest(change.walk.flat_point(from))});
     }
@@ -214,7 +214,7 @@ class Conservation {
     std::vector<double> result(static_cast<std::size_t>(num_pieces), 0.0);
     const VertexPieces pieces = vertex_pieces(change_.after, SurfaceTopology(change_.after));
     for (const VertexId v : pieces.piece.ids()) {
-      const VertexId old = change_.before.faces[change_.places[v].face][0];
+      const VertexId old = change_.before.faces[change_.points[v].face][0];
       result[static_cast<std::size_t>(pieces.piece[v])] =
           of_old[static_cast<std::size_t>(old_pieces_.piece[old])];
     }
@@ -237,17 +237,17 @@ bool has_conserved(const SurfaceFields& fields) {
 
 }  // namespace
 
-ReplacedFields transferred(const SurfaceFields& fields, const SurfaceChange& change) {
+ReplacedFields transferred_fields(const SurfaceFields& fields, const SurfaceChange& change) {
   ReplacedFields result;
   if (fields.empty()) return result;
-  MENISCUS_ASSERT(change.places.size() == change.after.num_vertices(), "{} places of {} vertices",
-                  change.places.size(), change.after.num_vertices());
+  MENISCUS_ASSERT(change.points.size() == change.after.num_vertices(), "{} points of {} vertices",
+                  change.points.size(), change.after.num_vertices());
   std::optional<Conservation> conservation;
   if (has_conserved(fields)) conservation.emplace(change);
   for (const CarriedField<VertexId>& field : fields.on_vertices) {
     const VertexInterpolant interpolant(change, field.values);
     VertexField<double> values(change.after.num_vertices());
-    for (const VertexId v : values.ids()) values[v] = interpolant.at(change.places[v]);
+    for (const VertexId v : values.ids()) values[v] = interpolant.at(change.points[v]);
     if (field.transfer == FieldTransfer::conserved)
       widen(result.excess, conservation->keep(values, field.values));
     result.fields.on_vertices.push_back(
@@ -258,8 +258,8 @@ ReplacedFields transferred(const SurfaceFields& fields, const SurfaceChange& cha
     const FaceReconstruction reconstruction(change.before, change.topology, field.values);
     FaceField<double> values(change.after.num_faces(), 0.0);
     for (const FaceId f : values.ids())
-      for (const SurfaceLocation& place : sample_places(change, f))
-        values[f] += 0.25 * reconstruction.value(place.face, change.walk.flat_point(place));
+      for (const SurfacePoint& point : sample_points(change, f))
+        values[f] += 0.25 * reconstruction.value(point.face, change.walk.flat_point(point));
     if (field.transfer == FieldTransfer::conserved)
       widen(result.excess, conservation->keep(values, field.values, reconstruction));
     result.fields.on_faces.push_back({field.name, field.unit, field.transfer, std::move(values)});

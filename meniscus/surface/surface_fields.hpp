@@ -13,7 +13,7 @@ struct SurfaceChange {
   const SmoothSurface& surface;     ///< of `before`
   const SurfaceWalk& walk;          ///< on `before`
   const SurfaceMesh& after;
-  const VertexField<SurfaceLocation>& places;  ///< on `before`, of the vertices of `after`
+  const VertexField<SurfacePoint>& points;  ///< on `before`, of the vertices of `after`
 };
 
 /// Carries fields from the old mesh to the new one.
@@ -29,6 +29,6 @@ struct SurfaceChange {
 /// they held beyond the new values (`keep_amounts`): second order. What the area of the mesh gained
 /// or lost is shared by the piece within the old range, beyond it in equal parts: a constant stays
 /// one, but follows the area.
-ReplacedFields transferred(const SurfaceFields& fields, const SurfaceChange& change);
+ReplacedFields transferred_fields(const SurfaceFields& fields, const SurfaceChange& change);
 
 }  // namespace meniscus

@@ -39,7 +39,7 @@ SurfaceWalk::SurfaceWalk(const SurfaceMesh& mesh, const SurfaceTopology& topolog
   }
 }
 
-SurfaceLocation SurfaceWalk::moved(const SurfaceLocation& start, const Vec3& d) const {
+SurfacePoint SurfaceWalk::moved(const SurfacePoint& start, const Vec3& d) const {
   const Vec3 target = flat_point(start) + d;
   FaceId face = start.face, previous;
   for (int step = 0;; ++step) {

@@ -113,11 +113,11 @@ double most_added_area(const Scene& scene, std::span<const std::size_t> parents)
 }
 
 /// `replace_interfaces`, all or nothing in what it does to the area too.
-std::optional<Fault> replace_with_little_area(Scene& scene, Succession succession,
+std::optional<Fault> replace_with_little_area(Scene& scene, InterfaceReplacement replacement,
                                               TopologyEvent& event) {
-  const double most_added = most_added_area(scene, succession.parents);
+  const double most_added = most_added_area(scene, replacement.parents);
   Scene after = scene;
-  if (auto fault = replace_interfaces(after, std::move(succession), event)) return fault;
+  if (auto fault = replace_interfaces(after, std::move(replacement), event)) return fault;
   if (event.area_after - event.area_before > most_added)
     return Fault{FaultKind::added_area, "it would add area", event.place};
   scene = std::move(after);
@@ -182,9 +182,9 @@ std::optional<Fault> open_gap(Scene& scene, const Gap& gap, const TopologyOption
   event.gap = gap.width;
   Surgery surgery = bridge_gap(scene, gap, {options.coalescence_gap, options.edge_floor});
   if (surgery.fault) return std::move(surgery.fault);
-  Succession succession{{gap.a}, std::move(surgery.pieces), std::move(surgery.refined)};
-  if (gap.b != gap.a) succession.parents.push_back(gap.b);
-  return replace_with_little_area(scene, std::move(succession), event);
+  InterfaceReplacement replacement{{gap.a}, std::move(surgery.pieces), std::move(surgery.refined)};
+  if (gap.b != gap.a) replacement.parents.push_back(gap.b);
+  return replace_with_little_area(scene, std::move(replacement), event);
 }
 
 void open_gaps(Scene& scene, const TopologyOptions& options, const SurfaceMotion& motion,

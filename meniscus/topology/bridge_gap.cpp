@@ -72,7 +72,7 @@ CarryingSurface refined_surfaces(const Scene& scene, const Gap& gap, double edge
   CarryingSurface second = refined_surface(b, gap, edge);
   if (a.inside == b.outside) turn_inside_out(second.mesh);
   if (b.inside == a.outside) turn_inside_out(first.mesh);
-  return {joined(std::array{std::move(first.mesh), std::move(second.mesh)}),
+  return {joined_surface(std::array{std::move(first.mesh), std::move(second.mesh)}),
           joined_fields(std::array{std::move(first.fields), std::move(second.fields)})};
 }
 
@@ -207,7 +207,7 @@ std::optional<Fault> join(const SurfaceMesh& mesh, const Holes& patches, Surface
     result = std::move(smooth);
     return {};
   }
-  return find_defect(joined(connected_pieces(result)));
+  return find_defect(joined_surface(connected_pieces(result)));
 }
 
 /// Why an opening is not to be taken although its surface is sound: with the volume restored it
@@ -231,7 +231,7 @@ Opening opening(const Film& film, const Holes& patches, double unit) {
   SurfaceMesh result;
   if (auto fault = join(film.mesh, patches, result)) return {{{}, std::move(fault)}};
   std::vector<SurfaceMesh> pieces = connected_pieces(result);  // without the vertices taken out
-  SurfaceMesh whole = joined(pieces);
+  SurfaceMesh whole = joined_surface(pieces);
   const double moved = std::abs(enclosed_volume(whole) / enclosed_volume(film.mesh) - 1.0);
   if (auto fault = find_harm(film.mesh, std::move(whole), kMostAddedByOpening * unit * unit))
     return {{{}, std::move(fault)}};

@@ -66,40 +66,40 @@ const Interface& outermost(const Scene& scene, std::span<const std::size_t> pare
 }
 
 /// What the pieces are made of: the parents, unless surgery refined them first.
-CarryingSurface origin_of(const Scene& scene, Succession& succession) {
-  if (succession.refined.mesh.num_faces() > 0) return std::move(succession.refined);
+CarryingSurface origin_of(const Scene& scene, InterfaceReplacement& replacement) {
+  if (replacement.refined.mesh.num_faces() > 0) return std::move(replacement.refined);
   std::vector<SurfaceMesh> meshes;
   std::vector<SurfaceFields> fields;
-  for (const std::size_t i : succession.parents) {
+  for (const std::size_t i : replacement.parents) {
     meshes.push_back(scene.interfaces[i].mesh);
     fields.push_back(scene.interfaces[i].fields);
   }
-  return {joined(meshes), joined_fields(fields)};
+  return {joined_surface(meshes), joined_fields(fields)};
 }
 
 /// Gives the children what lives on the parents. `cut` has them as they were before their volumes
 /// were restored.
-FieldExcess give_fields(const Scene& scene, Succession& succession,
+FieldExcess give_fields(const Scene& scene, InterfaceReplacement& replacement,
                         std::span<const SurfaceMesh> cut, std::span<Child> children) {
-  if (scene.interfaces[succession.parents.front()].fields.empty()) return {};
+  if (scene.interfaces[replacement.parents.front()].fields.empty()) return {};
   std::vector<SurfaceMesh> restored;
   for (const Child& child : children) restored.push_back(child.interface.mesh);
-  const CarryingSurface origin = origin_of(scene, succession);
+  const CarryingSurface origin = origin_of(scene, replacement);
   const ReplacedFields replaced =
-      replaced_fields(origin.fields, origin.mesh, joined(cut), joined(restored));
+      replaced_fields(origin.fields, origin.mesh, joined_surface(cut), joined_surface(restored));
   std::vector<SurfaceFields> fields = split_fields(replaced.fields, restored);
   for (std::size_t k = 0; k < children.size(); ++k)
     children[k].interface.fields = std::move(fields[k]);
   return replaced.excess;
 }
 
-std::vector<Child> children_of(const Scene& scene, Succession& succession) {
-  const Interface& outer = outermost(scene, succession.parents);
-  const Interface& heir = scene.interfaces[largest(scene, succession.parents)];
+std::vector<Child> children_of(const Scene& scene, InterfaceReplacement& replacement) {
+  const Interface& outer = outermost(scene, replacement.parents);
+  const Interface& heir = scene.interfaces[largest(scene, replacement.parents)];
   double C0 = 0.0;
-  for (const std::size_t i : succession.parents) C0 = std::max(C0, scene.interfaces[i].C0);
+  for (const std::size_t i : replacement.parents) C0 = std::max(C0, scene.interfaces[i].C0);
   std::vector<Child> children;
-  for (SurfaceMesh& piece : succession.pieces) {
+  for (SurfaceMesh& piece : replacement.pieces) {
     Child child;
     child.interface.parent = heir.drop;
     child.interface.tension = heir.tension;
@@ -227,11 +227,12 @@ RegionSources region_sources(const Scene& scene, const Scene& after,
 
 }  // namespace
 
-std::optional<Fault> replace_interfaces(Scene& scene, Succession succession, TopologyEvent& event) {
+std::optional<Fault> replace_interfaces(Scene& scene, InterfaceReplacement replacement,
+                                        TopologyEvent& event) {
   std::vector<Interface> parents;
-  for (const std::size_t i : succession.parents) parents.push_back(scene.interfaces[i]);
-  const LiquidVolume volume = liquid_volume(scene, succession.parents);
-  std::vector<Child> children = children_of(scene, succession);
+  for (const std::size_t i : replacement.parents) parents.push_back(scene.interfaces[i]);
+  const LiquidVolume volume = liquid_volume(scene, replacement.parents);
+  std::vector<Child> children = children_of(scene, replacement);
   if (children.empty()) return Fault{FaultKind::no_volume, "nothing is left"};
   event.volume_moved = std::abs(volume.of_faces - enclosed_liquid(children));
   share_volume(children, volume.of_faces);
@@ -244,8 +245,8 @@ std::optional<Fault> replace_interfaces(Scene& scene, Succession succession, Top
     if (auto defect = find_defect(child.interface.mesh)) return defect;
   }
   add_curved_part(children, volume);
-  const FieldExcess excess = give_fields(scene, succession, cut, children);
-  Scene after = with_children(scene, succession.parents, children);
+  const FieldExcess excess = give_fields(scene, replacement, cut, children);
+  Scene after = with_children(scene, replacement.parents, children);
   if (auto conflict = find_conflict(after)) return conflict;
 
   std::vector<Interface> born;
@@ -255,7 +256,7 @@ std::optional<Fault> replace_interfaces(Scene& scene, Succession succession, Top
     born.push_back(child.interface);
   }
   event.field_excess = excess;
-  event.sources = region_sources(scene, after, succession.parents, children);
+  event.sources = region_sources(scene, after, replacement.parents, children);
   event.volume_before = volume.kept;
   event.volume_after = enclosed_liquid(children);
   event.area_before = area(parents);

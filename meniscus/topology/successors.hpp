@@ -12,7 +12,7 @@
 namespace meniscus {
 
 /// How interfaces take the place of others.
-struct Succession {
+struct InterfaceReplacement {
   std::vector<std::size_t> parents;  ///< of the scene
   std::vector<SurfaceMesh> pieces;   ///< a cavity is turned inside out
   CarryingSurface refined = {};      ///< as in `Surgery`: what the pieces were made of
@@ -28,7 +28,8 @@ struct Succession {
 /// Interfaces that stay keep their order and come first; the event's drops, volumes, areas and
 /// energies are filled in. Not done, with the reason, when a piece encloses nothing, is
 /// no sound surface, or meets another interface or the outer boundary; the scene is then as before.
-[[nodiscard]] std::optional<Fault> replace_interfaces(Scene& scene, Succession succession,
+[[nodiscard]] std::optional<Fault> replace_interfaces(Scene& scene,
+                                                      InterfaceReplacement replacement,
                                                       TopologyEvent& event);
 
 }  // namespace meniscus

@@ -22,12 +22,12 @@ constexpr double kFinest = 1e-13;
 constexpr double kCellsPerVertex = 4.0;
 
 /// A vertex of a surface, and the shortest edge at it.
-struct SurfacePoint {
+struct SizedPoint {
   Vec3 x;
   double edge = std::numeric_limits<double>::infinity();
 };
 
-void append_points(const SurfaceMesh& mesh, std::vector<SurfacePoint>& points) {
+void append_points(const SurfaceMesh& mesh, std::vector<SizedPoint>& points) {
   const std::size_t first = points.size();
   for (const Vec3& x : mesh.x) points.push_back({x});
   for (const FaceVertices& v : mesh.faces)
@@ -38,8 +38,8 @@ void append_points(const SurfaceMesh& mesh, std::vector<SurfacePoint>& points) {
     }
 }
 
-std::vector<SurfacePoint> surface_points(const Scene& scene) {
-  std::vector<SurfacePoint> points;
+std::vector<SizedPoint> sized_points(const Scene& scene) {
+  std::vector<SizedPoint> points;
   for (const Interface& interface : scene.interfaces) append_points(interface.mesh, points);
   append_points(scene.boundary.mesh, points);
   return points;
@@ -54,7 +54,7 @@ Box cube_around(const Box& box) {
 /// A cube of the domain with the vertices of surfaces in it.
 struct Cube {
   Box box;
-  std::vector<SurfacePoint> points;
+  std::vector<SizedPoint> points;
 };
 
 /// Its eight parts.
@@ -63,7 +63,7 @@ std::vector<Cube> octants(const Cube& cube) {
   std::vector<Cube> parts;
   for (int i = 0; i < 8; ++i)
     parts.push_back({Box(middle).extend(cube.box.corner(static_cast<Box::CornerType>(i))), {}});
-  for (const SurfacePoint& p : cube.points) {
+  for (const SizedPoint& p : cube.points) {
     const int corner = (p.x.x() > middle.x() ? 1 : 0) + (p.x.y() > middle.y() ? 2 : 0) +
                        (p.x.z() > middle.z() ? 4 : 0);
     parts[static_cast<std::size_t>(corner)].points.push_back(p);
@@ -73,10 +73,10 @@ std::vector<Cube> octants(const Cube& cube) {
 
 /// The least size in a box: at its middle, or as the edges in it have it, whose surfaces a law may
 /// rise from so steeply that the middle says nothing of them.
-SurfacePoint least_size(const Box& part, const std::vector<SurfacePoint>& points,
-                        const std::function<double(const Vec3&)>& size) {
-  SurfacePoint least{part.center(), size(part.center())};
-  for (const SurfacePoint& p : points)
+SizedPoint least_size(const Box& part, const std::vector<SizedPoint>& points,
+                      const std::function<double(const Vec3&)>& size) {
+  SizedPoint least{part.center(), size(part.center())};
+  for (const SizedPoint& p : points)
     if (!(p.edge >= least.edge)) least = p;
   return least;
 }
@@ -88,7 +88,7 @@ bool ForeseenCells::is_too_many() const { return !(number <= kMostCells); }
 ForeseenCells foresee_cells(const Scene& scene, const std::function<double(const Vec3&)>& size,
                             double cell_volume) {
   const Box domain = bounding_box(scene.boundary.mesh);
-  Cube whole{cube_around(domain), surface_points(scene)};
+  Cube whole{cube_around(domain), sized_points(scene)};
   ForeseenCells cells{.number = kCellsPerVertex * static_cast<double>(whole.points.size()),
                       .finest = domain.center(),
                       .least_size = std::numeric_limits<double>::infinity()};

@@ -102,12 +102,12 @@ bool SizeLaw::Sized::has_outside_gap() const {
 
 SizeLaw::Inner::Inner(std::span<const Sized> surfaces, std::vector<std::size_t> of)
     : members(std::move(of)), boxes(boxes_of(surfaces, members)) {
-  for (std::size_t place = 0; place < members.size(); ++place) {
-    const Sized& surface = surfaces[members[place]];
+  for (std::size_t position = 0; position < members.size(); ++position) {
+    const Sized& surface = surfaces[members[position]];
     const auto [least, largest] = std::ranges::minmax(surface.size);
     least_size = std::min(least_size, least);
     largest_size = std::max(largest_size, largest);
-    if (surface.has_outside_gap()) folded.push_back(place);
+    if (surface.has_outside_gap()) folded.push_back(position);
   }
 }
 
@@ -146,10 +146,11 @@ SizeLaw::Sized::Nearest SizeLaw::ask(std::size_t surface, const Vec3& x) const {
   return surfaces_[surface].nearest(x);
 }
 
-const SizeLaw::Sized::Nearest& SizeLaw::ask_member(std::size_t place, Around& around) const {
-  const auto known = std::ranges::find(around.asked, place, &Asked::place);
+const SizeLaw::Sized::Nearest& SizeLaw::ask_member(std::size_t position, Around& around) const {
+  const auto known = std::ranges::find(around.asked, position, &Asked::position);
   if (known != around.asked.end()) return known->nearest;
-  return around.asked.emplace_back(place, ask(around.inner->members[place], around.x)).nearest;
+  return around.asked.emplace_back(position, ask(around.inner->members[position], around.x))
+      .nearest;
 }
 
 double SizeLaw::least_law(Around& around) const {
@@ -166,32 +167,32 @@ double SizeLaw::least_law(Around& around) const {
                               kRoundOff
                         : 0.0;
       },
-      [&](std::size_t place) {
-        const Sized::Nearest at = ask_member(place, around);
+      [&](std::size_t position) {
+        const Sized::Nearest at = ask_member(position, around);
         return graded_size(options_.grading, at.size, at.distance, outer.size, outer.distance);
       });
 }
 
 void SizeLaw::ask_sides_of_gaps(double widest, Around& around) const {
   const Inner& inner = *around.inner;
-  for (const std::size_t place : inner.folded) ask_member(place, around);
+  for (const std::size_t position : inner.folded) ask_member(position, around);
   struct Side {
     double distance;  // at least
-    std::size_t place;
+    std::size_t position;
   };
   std::vector<Side> sides;
   const Box at(around.x);
-  inner.boxes.visit_within(at, widest, [&](std::size_t place) {
-    sides.push_back({inner.boxes.distance(place, around.x), place});
+  inner.boxes.visit_within(at, widest, [&](std::size_t position) {
+    sides.push_back({inner.boxes.distance(position, around.x), position});
   });
   std::ranges::sort(sides, {},
-                    [](const Side& side) { return std::pair(side.distance, side.place); });
+                    [](const Side& side) { return std::pair(side.distance, side.position); });
   for (std::size_t i = 0; i < sides.size(); ++i) {
     double opposite = around.outer.distance;
     for (std::size_t j = 0; j < sides.size(); ++j)
       if (j != i) opposite = std::min(opposite, sides[j].distance);
     if (sides[i].distance + opposite > widest) continue;
-    sides[i].distance = ask_member(sides[i].place, around).distance;
+    sides[i].distance = ask_member(sides[i].position, around).distance;
   }
 }
 

@@ -36,7 +36,7 @@ namespace meniscus {
 ///
 /// With `gap_layers` > 0 the size is, besides, at most `gap_size` of each gap the point lies in:
 /// between any two of the surfaces around its region, the width being the sum of its distances from
-/// them; and between two sheets of one of them, the width being that at the nearest place.
+/// them; and between two sheets of one of them, the width being the one at the nearest point.
 class SizeLaw {
  public:
   SizeLaw(const Scene& scene, const VolumeMeshOptions& options);
@@ -69,11 +69,11 @@ class SizeLaw {
     std::vector<std::size_t> members;  // indices into surfaces_
     BoxTree boxes;                     // of the members
     double least_size = std::numeric_limits<double>::infinity(), largest_size = 0.0;  // of edges
-    std::vector<std::size_t> folded;  // places in `members` of those with outside gaps of their own
+    std::vector<std::size_t> folded;  // positions in `members`: those with outside gaps
   };
   /// What a member of an Inner has at a point.
   struct Asked {
-    std::size_t place;
+    std::size_t position;
     Sized::Nearest nearest;
   };
   /// What is known of the surroundings of a point.
@@ -85,7 +85,7 @@ class SizeLaw {
     std::vector<Asked> asked;  // of the members so far
   };
   [[nodiscard]] Sized::Nearest ask(std::size_t surface, const Vec3& x) const;
-  const Sized::Nearest& ask_member(std::size_t place, Around& around) const;
+  const Sized::Nearest& ask_member(std::size_t position, Around& around) const;
   [[nodiscard]] double least_law(Around& around) const;
   /// Asks the members that a gap no wider than that may lie at.
   void ask_sides_of_gaps(double widest, Around& around) const;

@@ -13,7 +13,7 @@ namespace {
 TEST(SurfacePieces, ComeBackInTheOrderOfTheirFaces) {
   const std::array pieces{sphere(60), sphere(12, 0.5, Vec3(3, 0, 0)),
                           sphere(30, 0.2, Vec3(0, 5, 0))};
-  SurfaceMesh whole = joined(pieces);
+  SurfaceMesh whole = joined_surface(pieces);
   EXPECT_EQ(whole.num_vertices(), 102);
   whole.x.add(Vec3(9, 9, 9));  // no face has it
   const std::vector<SurfaceMesh> found = connected_pieces(whole);

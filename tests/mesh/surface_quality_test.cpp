@@ -52,7 +52,7 @@ TEST(SurfaceQuality, CountsHandlesOfAllPieces) {
   const SurfaceMesh ring = test::torus(20, 10, 1.0, 0.4);
   EXPECT_EQ(quality_of(ring).genus, 1);
   const SurfaceQuality q =
-      quality_of(joined(std::array{ring, sphere(40, 1.0, Vec3(5, 0, 0)), ring}));
+      quality_of(joined_surface(std::array{ring, sphere(40, 1.0, Vec3(5, 0, 0)), ring}));
   EXPECT_EQ(q.genus, 2);
   EXPECT_EQ(q.num_pieces, 3);
 }

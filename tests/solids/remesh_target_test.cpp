@@ -77,7 +77,8 @@ TEST(RemeshTarget, KeepsTheChordalErrorToTheTrueSurface) {
 TEST(RemeshTarget, RemeshesEveryPieceAndTurnsCavitiesBack) {
   SurfaceMesh cavity = sphere(200, 0.5);
   turn_inside_out(cavity);
-  SurfaceMesh mesh = joined(std::array{sphere(400), cavity, sphere(300, 0.3, Vec3(4, 0, 0))});
+  SurfaceMesh mesh =
+      joined_surface(std::array{sphere(400), cavity, sphere(300, 0.3, Vec3(4, 0, 0))});
   const double volume = enclosed_volume(mesh);
   const TargetReport report = remesh_to(mesh, {.by = By::nodes, .value = 600});
   ASSERT_TRUE(report.ok()) << report.text();

@@ -13,13 +13,14 @@ namespace {
 TEST(SolidCheck, AllowsPiecesAndCavities) {
   SurfaceMesh cavity = sphere(60, 0.5);
   turn_inside_out(cavity);
-  EXPECT_EQ(text_of(find_solid_defect(joined(std::array{sphere(60), cavity}))), "");
-  EXPECT_EQ(text_of(find_solid_defect(joined(std::array{sphere(60), sphere(60, 0.5)}))), "");
-  const std::string outside =
-      text_of(find_solid_defect(joined(std::array{cavity, sphere(60, 1.0, Vec3(3, 0, 0))})));
+  EXPECT_EQ(text_of(find_solid_defect(joined_surface(std::array{sphere(60), cavity}))), "");
+  EXPECT_EQ(text_of(find_solid_defect(joined_surface(std::array{sphere(60), sphere(60, 0.5)}))),
+            "");
+  const std::string outside = text_of(
+      find_solid_defect(joined_surface(std::array{cavity, sphere(60, 1.0, Vec3(3, 0, 0))})));
   EXPECT_NE(outside.find("inside out"), std::string::npos) << outside;
-  const std::string crossing = text_of(
-      find_solid_defect(joined(std::array{sphere(60), sphere(60, 1.0, Vec3(0.3, 0.1, 0))})));
+  const std::string crossing = text_of(find_solid_defect(
+      joined_surface(std::array{sphere(60), sphere(60, 1.0, Vec3(0.3, 0.1, 0))})));
   EXPECT_NE(crossing.find("meets itself"), std::string::npos) << crossing;
 }
 

@@ -11,9 +11,9 @@ namespace {
 /// Of the surface as edited, which must be a closed manifold.
 int checked_euler_characteristic(const EditMesh& mesh) {
   SurfaceMesh surface;
-  const EditMesh::Compacted compacted = mesh.compacted();
-  surface.faces = compacted.faces;
-  for (std::size_t i = 0; i < compacted.vertices.size(); ++i) surface.x.add(Vec3::Zero());
+  const EditMesh::CompactMesh compact = mesh.compact_mesh();
+  surface.faces = compact.faces;
+  for (std::size_t i = 0; i < compact.vertices.size(); ++i) surface.x.add(Vec3::Zero());
   EXPECT_EQ(text_of(find_broken_connectivity(surface)), "");
   EXPECT_EQ(surface.num_vertices(), mesh.num_vertices());
   return euler_characteristic(surface);

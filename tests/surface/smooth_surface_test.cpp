@@ -82,7 +82,7 @@ TEST(SmoothSurface, PassesThroughVerticesAndJoinsAcrossEdges) {
       if (mesh.faces[f][std::size_t(k)] == a) weights[k] = 1.0 - s;
       if (mesh.faces[f][std::size_t(k)] == b) weights[k] = s;
     }
-    return SurfaceLocation{f, weights};
+    return SurfacePoint{f, weights};
   };
   for (const SurfaceEdge& e : topology.edges())
     for (const double s : {0.25, 0.5, 0.9}) {
@@ -114,8 +114,8 @@ TEST(SurfaceWalk, ReachesWhatLiesBelowTheTarget) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
   for (const FaceId f : mesh.faces.ids()) {
-    const SurfaceLocation start{f, Vec3(0.2, 0.3, 0.5)};
-    const SurfaceLocation same = walk.moved(start, Vec3::Zero());
+    const SurfacePoint start{f, Vec3(0.2, 0.3, 0.5)};
+    const SurfacePoint same = walk.moved(start, Vec3::Zero());
     EXPECT_EQ(same.face, f);
     EXPECT_LT((same.weights - start.weights).norm(), 1e-12);
     const Vec3 d = 0.2 * Vec3(normal(random), normal(random), normal(random));

@@ -23,7 +23,7 @@ void add_point(const Face& face, const QuadraturePoint<3>& point, const Vec3& x,
                                              point.share * tangents(shape, face.nodes).area());
   for (std::size_t a = 0; a < shape.value.size(); ++a) {
     moments.single[a] += shape.value[a] * kernels.single;
-    add(moments.dual[a], shape.value[a], kernels.dual);
+    add(moments.double_layer[a], shape.value[a], kernels.double_layer);
   }
 }
 
@@ -62,8 +62,8 @@ LayerKernels layer_kernels(const Vec3& r, const Vec3& a) {
   const double along = r.dot(a) * inverse * inverse * inverse;
   const double factor = along * inverse * inverse;
   return {.single = inverse * a + along * r,
-          .dual = {factor * r[0] * r[0], factor * r[1] * r[1], factor * r[2] * r[2],
-                   factor * r[0] * r[1], factor * r[0] * r[2], factor * r[1] * r[2]}};
+          .double_layer = {factor * r[0] * r[0], factor * r[1] * r[1], factor * r[2] * r[2],
+                           factor * r[0] * r[1], factor * r[0] * r[2], factor * r[1] * r[2]}};
 }
 
 FaceMoments corner_moments(const Face& face, std::size_t corner) {

@@ -9,8 +9,8 @@ namespace meniscus::bem {
 
 /// The kernels of both layers at r = y − x for the area vector a = n dS.
 struct LayerKernels {
-  Vec3 single;     ///< a/r + r (r·a)/r³
-  Symmetric dual;  ///< rr (r·a)/r⁵
+  Vec3 single;             ///< a/r + r (r·a)/r³
+  Symmetric double_layer;  ///< rr (r·a)/r⁵
 };
 [[nodiscard]] LayerKernels layer_kernels(const Vec3& r, const Vec3& a);
 
@@ -21,7 +21,7 @@ inline void add(Symmetric& sum, double factor, const Symmetric& term) {
 /// Integrals of the kernels over a face, times the face's six functions.
 struct FaceMoments {
   std::array<Vec3, kQuadraticNodes> single;
-  std::array<Symmetric, kQuadraticNodes> dual{};
+  std::array<Symmetric, kQuadraticNodes> double_layer{};
 };
 
 /// Moments seen from a vertex of the face itself (`corner` 0, 1, 2).

@@ -129,7 +129,7 @@ Vec3 IntegralEquation::double_layer(const SourceVectors& density, std::int32_t i
   Vec3 sum = double_layer_sum(geometry_.points, density, geometry_.points.point(i));
   const NearRow& near = rows_[static_cast<std::size_t>(i)];
   for (std::size_t c = 0; c < near.columns.size(); ++c)
-    sum += near.dual[c] * density.at(near.columns[c]);
+    sum += near.double_layer[c] * density.at(near.columns[c]);
   return kDoubleFactor * sum;
 }
 

@@ -113,7 +113,7 @@ ConstantLayers constant_layer_sums(const SourcePoints& points, SourceRange range
                   static_cast<std::size_t>(range.end - range.begin), p.x(), p.y(), p.z(),
                   sums.data());
   return {.single = {sums[0], sums[1], sums[2]},
-          .dual = {sums[3], sums[4], sums[5], sums[6], sums[7], sums[8]}};
+          .double_layer = {sums[3], sums[4], sums[5], sums[6], sums[7], sums[8]}};
 }
 
 }  // namespace meniscus::bem

@@ -64,7 +64,7 @@ using Symmetric = std::array<double, 6>;
 /// The same sums over a range for q = 1 and u = the unit vectors.
 struct ConstantLayers {
   Vec3 single = Vec3::Zero();
-  Symmetric dual{};  ///< Σ rr (r·a_j)/r⁵
+  Symmetric double_layer{};  ///< Σ rr (r·a_j)/r⁵
 };
 [[nodiscard]] ConstantLayers constant_layer_sums(const SourcePoints& points, SourceRange range,
                                                  const Vec3& p);

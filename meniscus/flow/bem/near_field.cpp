@@ -40,10 +40,10 @@ bool is_turned_away(const Triangle& face, const Vec3& normal) {
 class RowBuilder {
  public:
   RowBuilder(const BoundaryGeometry& geometry, const std::vector<double>& q,
-             const std::vector<bool>& has_dual)
+             const std::vector<bool>& has_double_layer)
       : geometry_(geometry),
         q_(q),
-        has_dual_(has_dual),
+        has_double_layer_(has_double_layer),
         dense_(static_cast<std::size_t>(geometry.size())),
         is_touched_(static_cast<std::size_t>(geometry.size()), false) {}
 
@@ -54,7 +54,7 @@ class RowBuilder {
     std::ranges::sort(row_.columns);
     for (const std::int32_t c : row_.columns) {
       const auto at = static_cast<std::size_t>(c);
-      row_.dual.push_back(dense_[at]);
+      row_.double_layer.push_back(dense_[at]);
       dense_[at] = {};
       is_touched_[at] = false;
     }
@@ -113,31 +113,31 @@ class RowBuilder {
     for (std::size_t c = 0; c < face.columns.size(); ++c) {
       const VertexId v = face.columns[c];
       const std::int32_t j = geometry_.index(m, v);
-      LayerKernels entry{.single = Vec3::Zero(), .dual = {}};
+      LayerKernels entry{.single = Vec3::Zero(), .double_layer = {}};
       for (std::size_t a = 0; a < kQuadraticNodes; ++a) {
         const double to_node =
             face.to_nodes(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(c));
         if (to_node == 0.0) continue;
         entry.single += to_node * moments.single[a];
-        add(entry.dual, to_node, moments.dual[a]);
+        add(entry.double_layer, to_node, moments.double_layer[a]);
       }
       if (j != i) {
         const LayerKernels far = layer_kernels(elements.x[v] - x_, face.share[c] * elements.n[v]);
         entry.single -= far.single;
-        add(entry.dual, -1.0, far.dual);
+        add(entry.double_layer, -1.0, far.double_layer);
       }
       row_.single += q_[static_cast<std::size_t>(j)] * entry.single;
       constant_.single += entry.single;
-      add(constant_.dual, 1.0, entry.dual);
-      if (has_dual_[m]) add(at(j), 1.0, entry.dual);
+      add(constant_.double_layer, 1.0, entry.double_layer);
+      if (has_double_layer_[m]) add(at(j), 1.0, entry.double_layer);
     }
   }
 
   /// Replaces the rule's integral of the constant weight × (value at point j) by the exact one.
   void subtract(std::size_t m, std::int32_t j, double weight, double exact) {
     row_.single -= weight * q_[static_cast<std::size_t>(j)] * constant_.single;
-    if (!has_dual_[m]) return;
-    add(at(j), -weight, constant_.dual);
+    if (!has_double_layer_[m]) return;
+    add(at(j), -weight, constant_.double_layer);
     add_identity(at(j), weight * exact);
   }
 
@@ -150,7 +150,7 @@ class RowBuilder {
 
   const BoundaryGeometry& geometry_;
   const std::vector<double>& q_;
-  const std::vector<bool>& has_dual_;
+  const std::vector<bool>& has_double_layer_;
   std::vector<Symmetric> dense_;
   std::vector<bool> is_touched_;
   Vec3 x_ = Vec3::Zero();
@@ -162,14 +162,15 @@ class RowBuilder {
 }  // namespace
 
 std::vector<NearRow> near_rows(const BoundaryGeometry& geometry, const std::vector<double>& q,
-                               const std::vector<bool>& has_dual, const SharedPoints& shared) {
+                               const std::vector<bool>& has_double_layer,
+                               const SharedPoints& shared) {
   MENISCUS_ASSERT(q.size() == static_cast<std::size_t>(geometry.size()),
                   "{} densities of {} points", q.size(), geometry.size());
-  MENISCUS_ASSERT(has_dual.size() == geometry.surfaces.size(), "{} marks of {} surfaces",
-                  has_dual.size(), geometry.surfaces.size());
+  MENISCUS_ASSERT(has_double_layer.size() == geometry.surfaces.size(), "{} marks of {} surfaces",
+                  has_double_layer.size(), geometry.surfaces.size());
   std::vector<NearRow> rows(static_cast<std::size_t>(geometry.size()));
   shared.for_own([&](std::int32_t begin, std::int32_t end) {
-    RowBuilder builder(geometry, q, has_dual);
+    RowBuilder builder(geometry, q, has_double_layer);
     for (std::int32_t i = begin; i < end; ++i) rows[static_cast<std::size_t>(i)] = builder.row(i);
   });
   return rows;

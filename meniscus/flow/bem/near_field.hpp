@@ -12,16 +12,16 @@ namespace meniscus::bem {
 /// nearest point of another surface close by, subtracted under the integral and its known integral
 /// added. Linear in the densities.
 struct NearRow {
-  std::vector<std::int32_t> columns;  ///< points
-  std::vector<Symmetric> dual;        ///< to be multiplied by the points' u, in double_layer_sum
-  Vec3 single = Vec3::Zero();         ///< to be added to single_layer_sum
+  std::vector<std::int32_t> columns;    ///< points
+  std::vector<Symmetric> double_layer;  ///< to be multiplied by the points' u, in double_layer_sum
+  Vec3 single = Vec3::Zero();           ///< to be added to single_layer_sum
 };
 
 /// Rows of this process's own points, the others' being empty. `q` is the density of the single
-/// layer by point; the double layer is left out of surfaces where `has_dual` is false.
+/// layer by point; the double layer is left out of surfaces where `has_double_layer` is false.
 [[nodiscard]] std::vector<NearRow> near_rows(const BoundaryGeometry& geometry,
                                              const std::vector<double>& q,
-                                             const std::vector<bool>& has_dual,
+                                             const std::vector<bool>& has_double_layer,
                                              const SharedPoints& shared);
 
 }  // namespace meniscus::bem

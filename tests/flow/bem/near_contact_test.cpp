@@ -22,7 +22,7 @@ Vec3 vector_density(const Vec3& x) {
 }
 
 struct Layers {
-  Vec3 single = Vec3::Zero(), dual = Vec3::Zero();
+  Vec3 single = Vec3::Zero(), double_layer = Vec3::Zero();
 };
 
 /// Gauss-Legendre with five points on [a, b] of a function of the polar angle.
@@ -50,7 +50,7 @@ Layers exact_layers(const Vec3& target) {
       const LayerKernels kernels =
           layer_kernels(y - target, weight * std::sin(angle) * 2.0 * kPi / kAzimuths * n);
       sum.single += scalar_density(y) * kernels.single;
-      sum.dual += kernels.dual * vector_density(y);
+      sum.double_layer += kernels.double_layer * vector_density(y);
     }
   };
   double edge = 0.0, width = 0.125 * gap;
@@ -69,16 +69,16 @@ Layers layers_by_rows(const BoundaryGeometry& geometry, const std::vector<double
   const Vec3 x = geometry.points.point(i);
   const NearRow& row = rows[static_cast<std::size_t>(i)];
   Layers sum{.single = single_layer_sum(geometry.points, q, x) + row.single,
-             .dual = double_layer_sum(geometry.points, u, x)};
+             .double_layer = double_layer_sum(geometry.points, u, x)};
   for (std::size_t c = 0; c < row.columns.size(); ++c)
-    sum.dual += row.dual[c] * u.at(row.columns[c]);
+    sum.double_layer += row.double_layer[c] * u.at(row.columns[c]);
   return sum;
 }
 
 /// Largest error of the layers of the sphere at the vertices of another sphere `gap` away, over the
 /// largest value.
 struct LayerErrors {
-  double single = 0.0, dual = 0.0;
+  double single = 0.0, double_layer = 0.0;
 };
 LayerErrors layer_errors(int num_vertices, double gap) {
   Scene scene = test::unbounded_scene(Mat3::Zero());
@@ -101,11 +101,12 @@ LayerErrors layer_errors(int num_vertices, double gap) {
     const Layers exact = exact_layers(x);
     const Layers given = layers_by_rows(geometry, q, u, rows, i);
     error.single = std::max(error.single, (given.single - exact.single).norm());
-    error.dual = std::max(error.dual, (given.dual - exact.dual).norm());
+    error.double_layer =
+        std::max(error.double_layer, (given.double_layer - exact.double_layer).norm());
     size.single = std::max(size.single, exact.single.norm());
-    size.dual = std::max(size.dual, exact.dual.norm());
+    size.double_layer = std::max(size.double_layer, exact.double_layer.norm());
   }
-  return {error.single / size.single, error.dual / size.dual};
+  return {error.single / size.single, error.double_layer / size.double_layer};
 }
 
 // Largest errors measured over all gaps: single 4.5e-4 and 3e-5, double 2.6e-3 and 4e-4 of the
@@ -114,9 +115,9 @@ TEST(NearContact, LayersOfACloseSphereAreAccurateAtAnyGap) {
   for (const double gap : {0.3, 0.03, 0.01, 0.003}) {
     const LayerErrors coarse = layer_errors(250, gap), fine = layer_errors(1000, gap);
     EXPECT_LT(coarse.single, 8e-4) << gap;
-    EXPECT_LT(coarse.dual, 5e-3) << gap;
+    EXPECT_LT(coarse.double_layer, 5e-3) << gap;
     EXPECT_LT(fine.single, 6e-5) << gap;
-    EXPECT_LT(fine.dual, 8e-4) << gap;
+    EXPECT_LT(fine.double_layer, 8e-4) << gap;
   }
 }
 
@@ -150,11 +151,11 @@ Layers layers_by_near_rule(const BoundaryGeometry& geometry, const std::vector<d
         const double share =
             face.to_nodes(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(c));
         sum.single += share * (q[static_cast<std::size_t>(j)] - q_here) * moments.single[a];
-        sum.dual += share * (moments.dual[a] * (u.at(j) - u_here));
+        sum.double_layer += share * (moments.double_layer[a] * (u.at(j) - u_here));
       }
     }
   }
-  sum.dual += 2.0 * kPi / 3.0 * u_here;
+  sum.double_layer += 2.0 * kPi / 3.0 * u_here;
   return sum;
 }
 
@@ -180,11 +181,12 @@ LayerErrors errors_in_own_film(int num_vertices) {
     const Layers exact = layers_by_near_rule(geometry, q, u, i);
     const Layers given = layers_by_rows(geometry, q, u, rows, i);
     error.single = std::max(error.single, (given.single - exact.single).norm());
-    error.dual = std::max(error.dual, (given.dual - exact.dual).norm());
+    error.double_layer =
+        std::max(error.double_layer, (given.double_layer - exact.double_layer).norm());
     size.single = std::max(size.single, exact.single.norm());
-    size.dual = std::max(size.dual, exact.dual.norm());
+    size.double_layer = std::max(size.double_layer, exact.double_layer.norm());
   }
-  return {error.single / size.single, error.dual / size.dual};
+  return {error.single / size.single, error.double_layer / size.double_layer};
 }
 
 // Across the film the point's own surface comes back as another sheet, 2.5 and 3.5 edges away.
@@ -193,13 +195,13 @@ LayerErrors errors_in_own_film(int num_vertices) {
 TEST(NearContact, LayersInADropsOwnFilmAreThoseOfAFinerRule) {
   struct Expected {
     int num_vertices;
-    double single, dual;
+    double single, double_layer;
   };
-  for (const auto& [num_vertices, single, dual] :
+  for (const auto& [num_vertices, single, double_layer] :
        {Expected{500, 6e-3, 3.5e-3}, Expected{1000, 3e-3, 2.2e-3}}) {
     const LayerErrors errors = errors_in_own_film(num_vertices);
     EXPECT_LT(errors.single, single) << num_vertices;
-    EXPECT_LT(errors.dual, dual) << num_vertices;
+    EXPECT_LT(errors.double_layer, double_layer) << num_vertices;
   }
 }
 
