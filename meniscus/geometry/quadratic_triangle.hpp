@@ -41,7 +41,7 @@ struct TriangleShape {
 
 /// Σ value_i x_i.
 template <std::size_t Nodes>
-[[nodiscard]] inline Vec3 interpolated(const std::array<double, Nodes>& value,
+[[nodiscard]] inline Vec3 weighted_sum(const std::array<double, Nodes>& value,
                                        const TriangleNodes<Nodes>& x) {
   Vec3 sum = value[0] * x[0];
   for (std::size_t i = 1; i < Nodes; ++i) sum += value[i] * x[i];
@@ -58,7 +58,7 @@ struct TriangleTangents {
 template <std::size_t Nodes>
 [[nodiscard]] inline TriangleTangents tangents(const TriangleShape<Nodes>& shape,
                                                const TriangleNodes<Nodes>& x) {
-  return {interpolated(shape.by_1, x), interpolated(shape.by_2, x)};
+  return {weighted_sum(shape.by_1, x), weighted_sum(shape.by_2, x)};
 }
 
 /// The gradients along the surface of b1 and b2: in the tangent plane, g_i·t_j = δ_ij. Those of a

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string escaped(const std::string& text) {
+std::string escaped_text(const std::string& text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
@@ -41,7 +41,7 @@ void write_pvd(const fs::path& path, std::span<const PvdEntry> entries) {
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
   for (const PvdEntry& entry : entries) {
     text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.t,
-                        escaped(entry.file));
+                        escaped_text(entry.file));
   }
   write_file(path, text + "  </Collection>\n</VTKFile>\n");
 }

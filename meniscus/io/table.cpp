@@ -71,7 +71,7 @@ std::vector<Record> parse_records(const fs::path& path, std::string_view text) {
   return records;
 }
 
-std::string quoted(const std::string& text) {
+std::string quoted_text(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string result(1, '"');
   for (const char c : text) result.append(c == '"' ? 2 : 1, c);
@@ -83,12 +83,12 @@ struct CellText {
   std::string operator()(std::monostate) const { return {}; }
   std::string operator()(std::int64_t value) const { return std::to_string(value); }
   std::string operator()(double value) const { return fmt::format("{}", value); }
-  std::string operator()(const std::string& value) const { return quoted(value); }
+  std::string operator()(const std::string& value) const { return quoted_text(value); }
 };
 
 std::string header_line(const std::vector<std::string>& columns) {
   std::string line;
-  for (const std::string& column : columns) line += quoted(column) + ',';
+  for (const std::string& column : columns) line += quoted_text(column) + ',';
   line.back() = '\n';
   return line;
 }

@@ -48,7 +48,7 @@ class ElementsByPlace {
  public:
   explicit ElementsByPlace(const SurfaceMesh& mesh) {
     for (const VertexId v : mesh.x.ids()) vertices_.emplace(key(mesh.x[v]), v);
-    for (const FaceId f : mesh.faces.ids()) faces_.emplace(sorted(mesh.faces[f]), f);
+    for (const FaceId f : mesh.faces.ids()) faces_.emplace(sorted_corners(mesh.faces[f]), f);
   }
   /// Invalid where there is none.
   [[nodiscard]] VertexId vertex(const Vec3& x) const {
@@ -56,14 +56,14 @@ class ElementsByPlace {
     return found == vertices_.end() ? VertexId() : found->second;
   }
   [[nodiscard]] FaceId face(const FaceVertices& corners) const {
-    const auto found = faces_.find(sorted(corners));
+    const auto found = faces_.find(sorted_corners(corners));
     return found == faces_.end() ? FaceId() : found->second;
   }
 
  private:
   using Key = std::tuple<double, double, double>;
   static Key key(const Vec3& x) { return {x.x(), x.y(), x.z()}; }
-  static FaceVertices sorted(FaceVertices corners) {
+  static FaceVertices sorted_corners(FaceVertices corners) {
     std::ranges::sort(corners);
     return corners;
   }
@@ -119,7 +119,7 @@ class Replacement {
     find_parts();
   }
 
-  [[nodiscard]] VertexField<double> interpolated(const VertexField<double>& values) const {
+  [[nodiscard]] VertexField<double> values_nearby(const VertexField<double>& values) const {
     VertexField<double> result(after_.num_vertices());
     for (const VertexId v : result.ids()) {
       if (old_.vertices[v].is_valid()) {
@@ -133,7 +133,7 @@ class Replacement {
     }
     return result;
   }
-  [[nodiscard]] FaceField<double> interpolated(const FaceField<double>& values) const {
+  [[nodiscard]] FaceField<double> values_nearby(const FaceField<double>& values) const {
     const FaceReconstruction linear(before_, topology_, values);
     FaceField<double> result(after_.num_faces(), 0.0);
     for (const FaceId f : result.ids()) {
@@ -154,7 +154,7 @@ class Replacement {
   }
 
   /// What the elements of the new surface receive of a field.
-  [[nodiscard]] VertexField<double> received(const VertexField<double>& values) const {
+  [[nodiscard]] VertexField<double> received_amounts(const VertexField<double>& values) const {
     VertexField<double> amounts(after_.num_vertices(), 0.0);
     for (const FaceId f : before_.faces.ids())
       if (kept_.faces[f].is_valid())
@@ -168,7 +168,7 @@ class Replacement {
     }
     return amounts;
   }
-  [[nodiscard]] FaceField<double> received(const FaceField<double>& values) const {
+  [[nodiscard]] FaceField<double> received_amounts(const FaceField<double>& values) const {
     FaceField<double> amounts(after_.num_faces(), 0.0);
     for (const FaceId f : before_.faces.ids())
       if (kept_.faces[f].is_valid()) amounts[kept_.faces[f]] += old_areas_[f] * values[f];
@@ -202,14 +202,14 @@ class Replacement {
 };
 
 template <class IdType>
-std::vector<CarriedField<IdType>> replaced(const std::vector<CarriedField<IdType>>& fields,
-                                           const Replacement& replacement,
-                                           const Shares<IdType>& shares, FieldExcess& excess) {
+std::vector<CarriedField<IdType>> new_fields(const std::vector<CarriedField<IdType>>& fields,
+                                             const Replacement& replacement,
+                                             const Shares<IdType>& shares, FieldExcess& excess) {
   std::vector<CarriedField<IdType>> result;
   for (const CarriedField<IdType>& field : fields) {
-    Field<IdType, double> values = replacement.interpolated(field.values);
+    Field<IdType, double> values = replacement.values_nearby(field.values);
     if (field.transfer == FieldTransfer::conserved)
-      widen(excess, keep_amounts(values, replacement.received(field.values), shares,
+      widen(excess, keep_amounts(values, replacement.received_amounts(field.values), shares,
                                  range_of(field.values)));
     result.push_back({field.name, field.unit, field.transfer, std::move(values)});
   }
@@ -287,9 +287,9 @@ ReplacedFields replaced_fields(const SurfaceFields& fields, const SurfaceMesh& b
   MENISCUS_ASSERT(after.faces == settled.faces, "settled on other faces");
   const Replacement replacement(before, after);
   result.fields.on_vertices =
-      replaced(fields.on_vertices, replacement, vertex_shares(settled), result.excess);
+      new_fields(fields.on_vertices, replacement, vertex_shares(settled), result.excess);
   result.fields.on_faces =
-      replaced(fields.on_faces, replacement, face_shares(settled), result.excess);
+      new_fields(fields.on_faces, replacement, face_shares(settled), result.excess);
   return result;
 }
 

@@ -97,7 +97,7 @@ SurfaceMesh DiffusedSurface::contour_of_volume() const {
   return surface;
 }
 
-std::optional<SurfaceMesh> DiffusedSurface::smoothed(double length, double most_lost) {
+std::optional<SurfaceMesh> DiffusedSurface::smoother_surface(double length, double most_lost) {
   MENISCUS_ASSERT(length >= 0.0 && most_lost > 0.0, "{} {}", length, most_lost);
   smooth_by(length * length - variance_);
   variance_ = std::max(variance_, length * length);

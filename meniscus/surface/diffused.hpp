@@ -19,7 +19,7 @@ class DiffusedSurface {
 
   /// Smoothed over `length`, not less than the last: its largest piece, of any number of holes, in
   /// even triangles; none where what is lost with others is more than `most_lost` of the volume.
-  [[nodiscard]] std::optional<SurfaceMesh> smoothed(double length, double most_lost);
+  [[nodiscard]] std::optional<SurfaceMesh> smoother_surface(double length, double most_lost);
 
  private:
   void smooth_by(double variance);

@@ -119,14 +119,14 @@ std::vector<Vec3> edge_middles(const SurfaceMesh& mesh, const SurfaceTopology& t
     case SurfaceShape::faceted:
       break;
     case SurfaceShape::patched:
-      return patched_middles(SmoothSurface(mesh, topology), topology);
+      return middles_on_patches(SmoothSurface(mesh, topology), topology);
     case SurfaceShape::splined:
-      return splined_middles(mesh, topology);
+      return middles_on_splines(mesh, topology);
   }
   return straight_middles(mesh, topology);
 }
 
-std::vector<Vec3> patched_middles(const SmoothSurface& smooth, const SurfaceTopology& topology) {
+std::vector<Vec3> middles_on_patches(const SmoothSurface& smooth, const SurfaceTopology& topology) {
   std::vector<Vec3> middles;
   middles.reserve(topology.edges().size());
   for (const SurfaceEdge& edge : topology.edges())
@@ -134,7 +134,7 @@ std::vector<Vec3> patched_middles(const SmoothSurface& smooth, const SurfaceTopo
   return middles;
 }
 
-std::vector<Vec3> splined_middles(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
+std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
   const SmoothSurface smooth(mesh, topology);
   const VertexField<VertexCurvature>& curvature = smooth.vertex_curvature();
   RingGatherer rings(mesh, topology);

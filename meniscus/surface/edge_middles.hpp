@@ -22,8 +22,8 @@ enum class SurfaceShape { faceted, patched, splined };
                                              const SurfaceTopology& topology, SurfaceShape shape);
 
 /// On the patches: O(h⁴).
-[[nodiscard]] std::vector<Vec3> patched_middles(const SmoothSurface& smooth,
-                                                const SurfaceTopology& topology);
+[[nodiscard]] std::vector<Vec3> middles_on_patches(const SmoothSurface& smooth,
+                                                   const SurfaceTopology& topology);
 
 /// On splines. With z along the normal at the smooth surface's edge point and H the half-sum of
 /// curvatures there, the function
@@ -37,7 +37,7 @@ enum class SurfaceShape { faceted, patched, splined };
 /// the vertices in and the middles out, 1.6 % too slow a relaxation at 110 vertices. Where the
 /// rings do not determine the spline, it would amplify the vertices' noise, or it swings far from
 /// the edge, the smooth surface's point stands. About 16 µs per edge, where the patches take 2.
-[[nodiscard]] std::vector<Vec3> splined_middles(const SurfaceMesh& mesh,
-                                                const SurfaceTopology& topology);
+[[nodiscard]] std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh,
+                                                   const SurfaceTopology& topology);
 
 }  // namespace meniscus

@@ -82,7 +82,7 @@ FaceReconstruction::FaceReconstruction(const SurfaceMesh& mesh, const SurfaceTop
 }
 
 double FaceReconstruction::value(FaceId f, const Vec3& x) const {
-  return std::clamp(continued(f, x), faces_[f].low, faces_[f].high);
+  return std::clamp(unclamped_value(f, x), faces_[f].low, faces_[f].high);
 }
 
 }  // namespace meniscus

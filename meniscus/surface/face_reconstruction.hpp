@@ -13,7 +13,7 @@ class FaceReconstruction {
                      const FaceField<double>& values);
 
   /// The value of the function of a face at a point near it.
-  [[nodiscard]] double continued(FaceId f, const Vec3& x) const {
+  [[nodiscard]] double unclamped_value(FaceId f, const Vec3& x) const {
     return faces_[f].mean + faces_[f].gradient.dot(x - faces_[f].center);
   }
   /// The value there, kept in the range.

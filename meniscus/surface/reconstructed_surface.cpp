@@ -42,7 +42,7 @@ template <class Result, class Function>
 Result sum_over_points(const FaceField<QuadraticFace>& faces, Result total, Function&& f) {
   for (const QuadraticFace& face : faces)
     for (std::size_t q = 0; q < kShapes.size(); ++q)
-      total += f(interpolated(kShapes[q].value, face),
+      total += f(weighted_sum(kShapes[q].value, face),
                  Vec3(kTriangleRule4[q].share * tangents(kShapes[q], face).area()));
   return total;
 }
@@ -132,7 +132,7 @@ Mat3 ReconstructedSurface::velocity_moment(const VertexField<Vec3>& u) const {
   Mat3 sum = Mat3::Zero();
   for (const FaceId f : mesh_.faces.ids())
     for (std::size_t q = 0; q < kShapes.size(); ++q)
-      sum += interpolated(kShapes[q].value, velocity[f]) *
+      sum += weighted_sum(kShapes[q].value, velocity[f]) *
              (kTriangleRule4[q].share * tangents(kShapes[q], faces_[f]).area()).transpose();
   return sum;
 }

@@ -38,7 +38,7 @@ void lift_to_surface(RemeshState& state) {
 RemeshVertex halfway(const RemeshReference& reference, const RemeshVertex& a,
                      const RemeshVertex& b) {
   const Vec3 half = 0.5 * (reference.walk.flat_point(b.point) - reference.walk.flat_point(a.point));
-  return vertex_at(reference, reference.walk.moved(a.point, half));
+  return vertex_at(reference, reference.walk.destination(a.point, half));
 }
 
 bool is_consistently_oriented(const RemeshVertex& a, const RemeshVertex& b, const RemeshVertex& c) {

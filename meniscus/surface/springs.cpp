@@ -87,7 +87,7 @@ bool try_move(RemeshState& state, VertexId v, Vec3 d) {
   RemeshVertex& vertex = state.vertices[v];
   for (int attempt = 0; attempt < kMostAttempts; ++attempt, d *= 0.5) {
     const RemeshVertex moved =
-        vertex_at(state.reference, state.reference.walk.moved(vertex.point, d));
+        vertex_at(state.reference, state.reference.walk.destination(vertex.point, d));
     if (would_fold(state, v, moved)) continue;
     vertex = moved;
     return true;

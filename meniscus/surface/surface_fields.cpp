@@ -21,7 +21,7 @@ struct Range {
     low = std::min(low, other.low);
     high = std::max(high, other.high);
   }
-  [[nodiscard]] double clamped(double value) const { return std::clamp(value, low, high); }
+  [[nodiscard]] double clamped_value(double value) const { return std::clamp(value, low, high); }
 };
 
 /// The value at a vertex plus monomials in the frame of the smooth surface's patch.
@@ -92,7 +92,7 @@ class VertexInterpolant {
                patches_[corners[k]].at(d.dot(frame.t1), d.dot(frame.t2));
       range.include(ranges_[corners[k]]);
     }
-    return range.clamped(value);
+    return range.clamped_value(value);
   }
 
  private:
@@ -115,8 +115,8 @@ std::array<SurfacePoint, 4> sample_points(const SurfaceChange& change, FaceId f)
   const Vec3 middle = (flat[0] + flat[1] + flat[2]) / 3.0;
   std::array<SurfacePoint, 4> points;
   for (std::size_t k = 0; k < 3; ++k)
-    points[k] = change.walk.moved(change.points[v[k]], 0.5 * (middle - flat[k]));
-  points[3] = change.walk.moved(change.points[v[0]], middle - flat[0]);
+    points[k] = change.walk.destination(change.points[v[k]], 0.5 * (middle - flat[k]));
+  points[3] = change.walk.destination(change.points[v[0]], middle - flat[0]);
   return points;
 }
 
@@ -191,7 +191,7 @@ class Conservation {
     for (const Part& part : parts_)
       missing[part.to.face] +=
           part.area *
-          (reconstruction.continued(part.from.face, center(change_.after, part.to.face)) -
+          (reconstruction.unclamped_value(part.from.face, center(change_.after, part.to.face)) -
            values[part.to.face]);
     std::vector<double> amounts(static_cast<std::size_t>(old_pieces_.count), 0.0);
     for (const FaceId f : before.ids())

@@ -8,7 +8,7 @@ namespace {
 constexpr double kInside = -1e-13;  // round-off of a barycentric coordinate
 constexpr int kMaxFaces = 64;       // a walk turns in circles only above the tip of a sharp cone
 
-Vec3 clamped(const Vec3& b) {
+Vec3 clamped_weights(const Vec3& b) {
   const Vec3 inside = b.cwiseMax(0.0);
   return inside / inside.sum();
 }
@@ -39,7 +39,7 @@ SurfaceWalk::SurfaceWalk(const SurfaceMesh& mesh, const SurfaceTopology& topolog
   }
 }
 
-SurfacePoint SurfaceWalk::moved(const SurfacePoint& start, const Vec3& d) const {
+SurfacePoint SurfaceWalk::destination(const SurfacePoint& start, const Vec3& d) const {
   const Vec3 target = flat_point(start) + d;
   FaceId face = start.face, previous;
   for (int step = 0;; ++step) {
@@ -48,9 +48,9 @@ SurfacePoint SurfaceWalk::moved(const SurfacePoint& start, const Vec3& d) const 
     const double b1 = chart.g1.dot(offset), b2 = chart.g2.dot(offset);
     const Vec3 b(1.0 - b1 - b2, b1, b2);
     int lowest = 0;
-    if (b.minCoeff(&lowest) >= kInside) return {face, clamped(b)};
+    if (b.minCoeff(&lowest) >= kInside) return {face, clamped_weights(b)};
     const FaceId next = chart.neighbour[static_cast<std::size_t>(lowest)];
-    if (next == previous || step == kMaxFaces) return {face, clamped(b)};
+    if (next == previous || step == kMaxFaces) return {face, clamped_weights(b)};
     previous = face;
     face = next;
   }

@@ -16,7 +16,7 @@ class SurfaceWalk {
   /// The point reached from `start` on its flat face by the displacement d: where the walk from
   /// face to face toward the target ends. Zero displacement returns the start. Beyond an edge that
   /// bends away, where the target is above no face, it is the nearest point on that edge.
-  [[nodiscard]] SurfacePoint moved(const SurfacePoint& start, const Vec3& d) const;
+  [[nodiscard]] SurfacePoint destination(const SurfacePoint& start, const Vec3& d) const;
   /// The point of the flat face.
   [[nodiscard]] Vec3 flat_point(const SurfacePoint& point) const {
     const FaceVertices& v = charts_[point.face].corners;

@@ -196,7 +196,7 @@ std::optional<Fault> join(const SurfaceMesh& mesh, const Holes& patches, Surface
                   "holes that are no discs");
   FacePatch both = patches[0];
   for (const FaceId f : both.ids()) both[f] = both[f] || patches[1][f];
-  result = without(mesh, both);
+  result = remaining_surface(mesh, both);
   const std::int32_t num_kept = result.num_faces();
   for (const FaceVertices& f : tube_faces(mesh, first->front(), second->front()))
     result.faces.add(f);

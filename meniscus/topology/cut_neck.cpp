@@ -47,7 +47,7 @@ FacePatch band_around(const SurfaceMesh& mesh, const FaceNeighbours& neighbours,
 /// Takes one band out and closes its ends, unless that fails.
 std::optional<Fault> cut(const SurfaceMesh& mesh, const FacePatch& band,
                          std::vector<SurfaceMesh>& pieces) {
-  const std::vector<SurfaceMesh> open = connected_pieces(without(mesh, band));
+  const std::vector<SurfaceMesh> open = connected_pieces(remaining_surface(mesh, band));
   SurfaceMesh closed = joined_surface(open);
   if (!cap_holes(closed)) return Fault{FaultKind::no_surgery, "an end could not be closed"};
   if (auto fault = find_self_intersection(closed)) return fault;

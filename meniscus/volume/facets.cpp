@@ -10,13 +10,13 @@ namespace meniscus {
 namespace {
 
 /// A facet with its smallest vertex first and its sense of rotation kept.
-FacetVertices rotated(const FacetVertices& f) {
+FacetVertices canonical_facet(const FacetVertices& f) {
   if (f[0] < f[1]) return f[0] < f[2] ? f : FacetVertices{f[2], f[0], f[1]};
   return f[1] < f[2] ? FacetVertices{f[1], f[2], f[0]} : FacetVertices{f[2], f[0], f[1]};
 }
 
 /// The other two vertices of a rotated facet whatever its sense: equal for the two sides of one.
-std::pair<TetVertexId, TetVertexId> without_sense(const FacetVertices& f) {
+std::pair<TetVertexId, TetVertexId> other_vertices(const FacetVertices& f) {
   return std::minmax(f[1], f[2]);
 }
 
@@ -44,12 +44,12 @@ FacetTable::FacetTable(const TetMesh& mesh)
 void FacetTable::gather(const TetMesh& mesh) {
   for (const CellVertices& cell : mesh.cells)
     for (std::size_t k = 0; k < 4; ++k)
-      ++first_[static_cast<std::size_t>(rotated(facet(cell, k))[0].value) + 1];
+      ++first_[static_cast<std::size_t>(canonical_facet(facet(cell, k))[0].value) + 1];
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
   std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
   for (const CellId c : mesh.cells.ids())
     for (std::uint8_t k = 0; k < 4; ++k) {
-      const FacetVertices f = rotated(facet(mesh.cells[c], k));
+      const FacetVertices f = canonical_facet(facet(mesh.cells[c], k));
       std::int32_t& slot = next[static_cast<std::size_t>(f[0].value)];
       MENISCUS_ASSERT(slot < first_[static_cast<std::size_t>(f[0].value) + 1], "slot {}", slot);
       entries_[static_cast<std::size_t>(slot++)] = {f, c, k};
@@ -59,12 +59,12 @@ void FacetTable::gather(const TetMesh& mesh) {
 /// Makes the two sides of each facet among those of one smallest vertex neighbours in memory.
 void FacetTable::pair_up(std::span<Entry> entries) {
   std::ranges::sort(entries, [](const Entry& a, const Entry& b) {
-    return std::pair(without_sense(a.facet), a.facet[1]) <
-           std::pair(without_sense(b.facet), b.facet[1]);
+    return std::pair(other_vertices(a.facet), a.facet[1]) <
+           std::pair(other_vertices(b.facet), b.facet[1]);
   });
   for (std::size_t i = 0; i + 1 < entries.size(); ++i) {
     const Entry &a = entries[i], &b = entries[i + 1];
-    if (without_sense(a.facet) != without_sense(b.facet)) continue;
+    if (other_vertices(a.facet) != other_vertices(b.facet)) continue;
     if (a.facet == b.facet) {
       overlapping_ = a.cell;
       continue;
@@ -75,7 +75,7 @@ void FacetTable::pair_up(std::span<Entry> entries) {
 }
 
 CellId FacetTable::find(const FacetVertices& facet) const {
-  const FacetVertices wanted = rotated(facet);
+  const FacetVertices wanted = canonical_facet(facet);
   const auto v = static_cast<std::size_t>(wanted[0].value);
   MENISCUS_ASSERT(v + 1 < first_.size(), "vertex {}", wanted[0].value);
   for (std::int32_t i = first_[v]; i < first_[v + 1]; ++i) {

@@ -14,7 +14,7 @@ namespace {
 
 /// Integrals of the reconstruction over the intersections and the uncovered parts, divided by the
 /// covered measure; what that gave too much or too little is owed.
-IndebtedField projected(const MeshOverlay& overlay, const LinearReconstruction& linear) {
+IndebtedField projection(const MeshOverlay& overlay, const LinearReconstruction& linear) {
   const std::int32_t size = overlay.after.mesh.num_cells();
   CellField<double> integral(size, 0.0), measure(size, 0.0), debt(size, 0.0);
   CellField<double> kept(overlay.before.mesh.num_cells(), 0.0);
@@ -47,9 +47,9 @@ IndebtedField projected(const MeshOverlay& overlay, const LinearReconstruction& 
 }
 
 /// Pays what a projected field owes, and keeps the amount of every group.
-CellField<double> settled(IndebtedField field, const MeshOverlay& overlay,
-                          const GroupNeighbours& neighbours, const CellField<double>& old,
-                          FieldExcess& excess) {
+CellField<double> settled_values(IndebtedField field, const MeshOverlay& overlay,
+                                 const GroupNeighbours& neighbours, const CellField<double>& old,
+                                 FieldExcess& excess) {
   const GroupedMesh &before = overlay.before, &after = overlay.after;
   const auto ranges = group_ranges(old, before.group, overlay.groups.num_groups);
   settle_debts(field, after.volume, neighbours);
@@ -71,10 +71,10 @@ void transfer_on_cells(std::vector<CarriedField<CellId>>& fields, MeshOverlay& o
   for (auto& field : fields) {
     const auto ranges =
         group_ranges(field.values, overlay.groups.before, overlay.groups.num_groups);
-    IndebtedField moved = projected(
+    IndebtedField moved = projection(
         overlay, reconstruct(before, stencils, field.values, overlay.groups.before, ranges));
     field.values = field.transfer == FieldTransfer::conserved
-                       ? settled(std::move(moved), overlay, neighbours, field.values, excess)
+                       ? settled_values(std::move(moved), overlay, neighbours, field.values, excess)
                        : std::move(moved.value);
   }
 }

@@ -196,13 +196,12 @@ void SizeLaw::ask_sides_of_gaps(double widest, Around& around) const {
   }
 }
 
-double SizeLaw::bounded_by_gap(double size, const Sized::Nearest& a,
-                               const Sized::Nearest& b) const {
+double SizeLaw::size_in_gap(double size, const Sized::Nearest& a, const Sized::Nearest& b) const {
   return std::min(size,
                   gap_size(a.distance + b.distance, options_.gap_layers, std::min(a.size, b.size)));
 }
 
-double SizeLaw::bounded_by_gaps(double size, Around& around) const {
+double SizeLaw::size_in_gaps(double size, Around& around) const {
   const double layers = options_.gap_layers;
   const Sized::Nearest& outer = around.outer;
   if (around.enclosing < container_.size())
@@ -213,8 +212,8 @@ double SizeLaw::bounded_by_gaps(double size, Around& around) const {
   for (std::size_t i = 0; i < around.asked.size(); ++i) {
     const Sized::Nearest& inner = around.asked[i].nearest;
     size = std::min(size, gap_size(inner.outside, layers, inner.size));
-    size = bounded_by_gap(size, inner, outer);
-    for (std::size_t j = 0; j < i; ++j) size = bounded_by_gap(size, inner, around.asked[j].nearest);
+    size = size_in_gap(size, inner, outer);
+    for (std::size_t j = 0; j < i; ++j) size = size_in_gap(size, inner, around.asked[j].nearest);
   }
   return size;
 }
@@ -223,7 +222,7 @@ double SizeLaw::operator()(const Vec3& x) const {
   const std::size_t enclosing = enclosing_surface(x);
   Around around{x, enclosing, &inner_[enclosing], ask(enclosing, x), {}};
   const double size = least_law(around);
-  return options_.gap_layers > 0.0 ? bounded_by_gaps(size, around) : size;
+  return options_.gap_layers > 0.0 ? size_in_gaps(size, around) : size;
 }
 
 }  // namespace meniscus

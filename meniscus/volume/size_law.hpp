@@ -89,9 +89,9 @@ class SizeLaw {
   [[nodiscard]] double least_law(Around& around) const;
   /// Asks the members that a gap no wider than that may lie at.
   void ask_sides_of_gaps(double widest, Around& around) const;
-  [[nodiscard]] double bounded_by_gap(double size, const Sized::Nearest& a,
-                                      const Sized::Nearest& b) const;
-  [[nodiscard]] double bounded_by_gaps(double size, Around& around) const;
+  [[nodiscard]] double size_in_gap(double size, const Sized::Nearest& a,
+                                   const Sized::Nearest& b) const;
+  [[nodiscard]] double size_in_gaps(double size, Around& around) const;
   static BoxTree boxes_of(std::span<const Sized> surfaces, std::span<const std::size_t> members);
   [[nodiscard]] std::size_t enclosing_surface(const Vec3& x) const;
 

@@ -126,7 +126,7 @@ TEST_F(RandomFace, IsStraightWhereItsMiddlesAre) {
                            linear = tangents(linear_shape(b), corners);
     EXPECT_LT((quadratic.t1 - linear.t1).norm(), 1e-15);
     EXPECT_LT((quadratic.t2 - linear.t2).norm(), 1e-15);
-    EXPECT_LT((interpolated(quadratic_values(b), x_) - interpolated(b, corners)).norm(), 1e-15);
+    EXPECT_LT((weighted_sum(quadratic_values(b), x_) - weighted_sum(b, corners)).norm(), 1e-15);
     EXPECT_LT((linear.area() - 0.5 * (x_[1] - x_[0]).cross(x_[2] - x_[0])).norm(), 1e-16);
   }
 }

@@ -21,7 +21,7 @@ TEST(DiffusedSurface, OfASphereIsTheSphere) {
   const double edge = mean_edge(mesh);
   DiffusedSurface diffused(mesh, edge);
   for (const double length : {0.5, 1.0, 2.0}) {
-    const std::optional<SurfaceMesh> smooth = diffused.smoothed(length * edge, kMostLost);
+    const std::optional<SurfaceMesh> smooth = diffused.smoother_surface(length * edge, kMostLost);
     ASSERT_TRUE(smooth);
     EXPECT_EQ(text_of(find_defect(*smooth)), "");
     EXPECT_NEAR(enclosed_volume(*smooth), enclosed_volume(mesh), 1e-12 * enclosed_volume(mesh));
@@ -39,7 +39,7 @@ TEST(DiffusedSurface, LosesTheRoughnessAndKeepsTheVolume) {
   DiffusedSurface diffused(mesh, edge);
   double area = surface_area(mesh);
   for (const double length : {0.5, 0.71, 1.0, 1.41, 2.0}) {
-    const std::optional<SurfaceMesh> smooth = diffused.smoothed(length * edge, kMostLost);
+    const std::optional<SurfaceMesh> smooth = diffused.smoother_surface(length * edge, kMostLost);
     ASSERT_TRUE(smooth) << length;
     EXPECT_EQ(text_of(find_defect(*smooth)), "") << length;
     EXPECT_NEAR(enclosed_volume(*smooth), volume, 1e-12 * volume);
@@ -59,7 +59,7 @@ TEST(DiffusedSurface, ThatBreaksIsNone) {
     x = Vec3(x.x() * waist, x.y() * waist, 2.0 * x.z());
   }
   DiffusedSurface diffused(mesh, mean_edge(mesh));
-  EXPECT_FALSE(diffused.smoothed(2.0 * mean_edge(mesh), kMostLost));
+  EXPECT_FALSE(diffused.smoother_surface(2.0 * mean_edge(mesh), kMostLost));
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ double largest_error(const std::vector<Vec3>& points) {
 TEST(EdgeMiddles, AreExactOnSpheres) {
   for (const int num_vertices : {42, 110, 400}) {
     const SurfaceMesh mesh = sphere(num_vertices, 2.0, Vec3(3.0, -1.0, 0.5));
-    for (const Vec3& x : splined_middles(mesh, SurfaceTopology(mesh)))
+    for (const Vec3& x : middles_on_splines(mesh, SurfaceTopology(mesh)))
       // What the smooth surface's own point leaves, O(h⁶), where the rings are too poor; else
       // roundoff of the splines' weights.
       EXPECT_NEAR((x - Vec3(3.0, -1.0, 0.5)).norm(), 2.0, num_vertices == 42 ? 2e-3 : 1e-4);
@@ -48,7 +48,7 @@ TEST(EdgeMiddles, AreOfHigherOrderThanTheCubicPatches) {
   for (const int num_vertices : {200, 400, 800}) {
     const SurfaceMesh mesh = wavy_sphere(num_vertices);
     const SurfaceTopology topology(mesh);
-    errors.push_back(largest_error(splined_middles(mesh, topology)));
+    errors.push_back(largest_error(middles_on_splines(mesh, topology)));
     const SmoothSurface smooth(mesh, topology);
     std::vector<Vec3> cubic;
     for (const SurfaceEdge& edge : topology.edges())
@@ -62,7 +62,8 @@ TEST(EdgeMiddles, AreOfHigherOrderThanTheCubicPatches) {
 /// Largest distance between the middles of two meshes of one topology.
 double largest_move(const SurfaceMesh& a, const SurfaceMesh& b) {
   const SurfaceTopology topology(a);
-  const std::vector<Vec3> from = splined_middles(a, topology), to = splined_middles(b, topology);
+  const std::vector<Vec3> from = middles_on_splines(a, topology),
+                          to = middles_on_splines(b, topology);
   double largest = 0.0;
   for (std::size_t e = 0; e < from.size(); ++e)
     largest = std::max(largest, (to[e] - from[e]).norm());
@@ -110,7 +111,7 @@ TEST(EdgeMiddles, StayNearTheirEdgesOnCrumpledSurfaces) {
     for (Vec3& x : mesh.x) x += Vec3(noise(random), noise(random), noise(random));
     const SurfaceTopology topology(mesh);
     const SmoothSurface smooth(mesh, topology);
-    const std::vector<Vec3> middles = splined_middles(mesh, topology);
+    const std::vector<Vec3> middles = middles_on_splines(mesh, topology);
     for (std::size_t e = 0; e < middles.size(); ++e) {
       const auto& [a, b] = std::pair(topology.edges()[e].a, topology.edges()[e].b);
       const Vec3 straight = 0.5 * (mesh.x[a] + mesh.x[b]);

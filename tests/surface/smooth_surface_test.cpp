@@ -115,13 +115,13 @@ TEST(SurfaceWalk, ReachesWhatLiesBelowTheTarget) {
   std::normal_distribution<double> normal;
   for (const FaceId f : mesh.faces.ids()) {
     const SurfacePoint start{f, Vec3(0.2, 0.3, 0.5)};
-    const SurfacePoint same = walk.moved(start, Vec3::Zero());
+    const SurfacePoint same = walk.destination(start, Vec3::Zero());
     EXPECT_EQ(same.face, f);
     EXPECT_LT((same.weights - start.weights).norm(), 1e-12);
     const Vec3 d = 0.2 * Vec3(normal(random), normal(random), normal(random));
     const Vec3 from = walk.flat_point(start);
     const Vec3 tangential = d - d.dot(from.normalized()) * from.normalized();
-    const Vec3 reached = walk.flat_point(walk.moved(start, tangential));
+    const Vec3 reached = walk.flat_point(walk.destination(start, tangential));
     // Projected along face normals instead of the sphere's: off by the face's tilt times its sag.
     const Vec3 radial = (from + tangential).normalized();
     EXPECT_LT((reached.normalized() - radial).norm(), 0.2 * tangential.squaredNorm() + 0.01);

@@ -19,7 +19,7 @@ constexpr int kMostQuarterings = 14;  // parts of 6e-5 of the face: surfaces tha
 void add_point(const Face& face, const QuadraturePoint<3>& point, const Vec3& x,
                FaceMoments& moments) {
   const TriangleShape<kQuadraticNodes> shape = quadratic_shape(point.barycentric);
-  const LayerKernels kernels = layer_kernels(interpolated(shape.value, face.nodes) - x,
+  const LayerKernels kernels = layer_kernels(weighted_sum(shape.value, face.nodes) - x,
                                              point.share * tangents(shape, face.nodes).area());
   for (std::size_t a = 0; a < shape.value.size(); ++a) {
     moments.single[a] += shape.value[a] * kernels.single;
@@ -28,7 +28,7 @@ void add_point(const Face& face, const QuadraturePoint<3>& point, const Vec3& x,
 }
 
 Vec3 point_of(const Face& face, const Vec3& b) {
-  return interpolated(quadratic_values({b[0], b[1], b[2]}), face.nodes);
+  return weighted_sum(quadratic_values({b[0], b[1], b[2]}), face.nodes);
 }
 
 FaceMoments no_moments() {

@@ -105,7 +105,7 @@ std::vector<RigidMotion> IntegralEquation::rigid_parts(std::span<const double> w
   return parts;
 }
 
-SourceVectors IntegralEquation::without_rigid_parts(std::span<const double> w) const {
+SourceVectors IntegralEquation::deformation(std::span<const double> w) const {
   const std::vector<RigidMotion> rigid = rigid_parts(w);
   SourceVectors rest(geometry_.size());
   for (std::int32_t j = 0; j < geometry_.size(); ++j)
@@ -134,7 +134,7 @@ Vec3 IntegralEquation::double_layer(const SourceVectors& density, std::int32_t i
 }
 
 void IntegralEquation::apply(std::span<const double> w, std::span<double> result) const {
-  SourceVectors density = without_rigid_parts(w);
+  SourceVectors density = deformation(w);
   // Rigid motions carry no flux, but the quadrature would see some.
   std::vector<double> mean_normal;
   for (std::size_t m = 0; m < contrast_.size(); ++m)

@@ -59,7 +59,7 @@ class IntegralEquation {
   [[nodiscard]] std::size_t surface_of(std::int32_t i) const;
   [[nodiscard]] Vec3 at(std::span<const double> w, std::int32_t i) const;
   void set(std::span<double> w, std::int32_t i, const Vec3& value) const;
-  [[nodiscard]] SourceVectors without_rigid_parts(std::span<const double> w) const;
+  [[nodiscard]] SourceVectors deformation(std::span<const double> w) const;
   [[nodiscard]] double mean_normal_component(std::size_t m, const SourceVectors& v) const;
   [[nodiscard]] Vec3 double_layer(const SourceVectors& density, std::int32_t i) const;
   [[nodiscard]] std::vector<RigidMotion> rigid_parts(std::span<const double> w) const;

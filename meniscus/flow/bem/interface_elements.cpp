@@ -24,7 +24,7 @@ struct Edges {
 Edges make_edges(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                  const SmoothSurface& smooth, const VertexField<Vec3>& normals) {
   Edges edges;
-  edges.middle = patched_middles(smooth, topology);
+  edges.middle = middles_on_patches(smooth, topology);
   edges.stencil = edge_stencils(mesh, topology, normals, edges.middle);
   edges.of_face = face_edges(mesh, topology);
   return edges;

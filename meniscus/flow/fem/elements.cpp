@@ -50,8 +50,8 @@ struct ReferencePoints {
 const ReferencePoints<kTetrahedronRule2.size()> kStraight(kTetrahedronRule2);
 const ReferencePoints<kTetrahedronRule5.size()> kCurved(kTetrahedronRule5);
 
-Eigen::Matrix<double, 10, 3> gathered(const Field<NodeId, Vec3>& x,
-                                      std::span<const std::int32_t> nodes) {
+Eigen::Matrix<double, 10, 3> node_positions(const Field<NodeId, Vec3>& x,
+                                            std::span<const std::int32_t> nodes) {
   Eigen::Matrix<double, 10, 3> rows;
   for (std::size_t i = 0; i < 10; ++i)
     rows.row(static_cast<Eigen::Index>(i)) = x[NodeId{nodes[i]}].transpose();
@@ -105,7 +105,7 @@ std::span<const QuadraticElement::Point> QuadraticElement::straight_points(
 
 std::span<const QuadraticElement::Point> QuadraticElement::curved_points(
     std::span<const std::int32_t> nodes) {
-  const Eigen::Matrix<double, 10, 3> x = gathered(positions_.x, nodes);
+  const Eigen::Matrix<double, 10, 3> x = node_positions(positions_.x, nodes);
   for (std::size_t q = 0; q < kTetrahedronRule5.size(); ++q) {
     const Mat3 jacobian = kCurved.gradient[q] * x;  // ∂x_b/∂ξ_a at (a, b)
     points_[q].weight = kTetrahedronRule5[q].share * jacobian.determinant() / 6.0;
@@ -117,7 +117,7 @@ std::span<const QuadraticElement::Point> QuadraticElement::curved_points(
 }
 
 double least_jacobian(const Field<NodeId, Vec3>& x, std::span<const std::int32_t> nodes) {
-  const Eigen::Matrix<double, 10, 3> positions = gathered(x, nodes);
+  const Eigen::Matrix<double, 10, 3> positions = node_positions(x, nodes);
   double least = std::numeric_limits<double>::infinity();
   for (const Gradients& gradient : kCurved.gradient)
     least = std::min(least, Mat3(gradient * positions).determinant());

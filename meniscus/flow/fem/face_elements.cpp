@@ -25,7 +25,7 @@ FacePoint face_point(const TriangleNodes<Nodes>& x, const TriangleShape<Nodes>& 
   const TriangleTangents at = tangents(shape, x);
   const TriangleGradients gradients = surface_gradients(at);
   FacePoint point;
-  point.x = interpolated(shape.value, x);
+  point.x = weighted_sum(shape.value, x);
   point.area = share * at.area();
   for (std::size_t i = 0; i < Nodes; ++i) {
     point.value[i] = shape.value[i];

@@ -114,7 +114,7 @@ NodePositions node_positions(const Scene& scene, const TetMesh& mesh, const Flow
     const SurfaceMesh& surface = scene.interfaces[i].mesh;
     const SurfaceTopology topology(surface);
     curve_edges(surface, topology, face_nodes(space, mesh, surface, mesh.interfaces[i]),
-                splined_middles(surface, topology), positions);
+                middles_on_splines(surface, topology), positions);
   }
   const SurfaceMesh& wall = scene.boundary.mesh;
   const SurfaceTopology topology(wall);

@@ -78,8 +78,8 @@ std::optional<SurfaceMesh> rounded_shape(SurfaceMesh mesh, const Rounding& round
 std::optional<SurfaceMesh> capped_shape(const SurfaceMesh& mesh, double crease_deg, double margin) {
   const FacePatch patch = crease_patch(mesh, crease_deg);
   if (is_empty(patch)) return std::nullopt;
-  std::vector<SurfaceMesh> left =
-      connected_pieces(without(mesh, patch_within(mesh, patch, margin * mean_edge(mesh))));
+  std::vector<SurfaceMesh> left = connected_pieces(
+      remaining_surface(mesh, patch_within(mesh, patch, margin * mean_edge(mesh))));
   if (left.empty()) return std::nullopt;
   SurfaceMesh closed = std::move(*std::ranges::max_element(left, {}, &SurfaceMesh::num_faces));
   if (!cap_holes(closed) || !has_volume_of(closed, enclosed_volume(mesh))) return std::nullopt;

@@ -152,7 +152,7 @@ bool make_disc(const SurfaceMesh& mesh, const SurfaceTopology& topology,
   return curves && curves->size() == 1 && is_planar(mesh, patch, 1);
 }
 
-SurfaceMesh without(const SurfaceMesh& mesh, const FacePatch& patch) {
+SurfaceMesh remaining_surface(const SurfaceMesh& mesh, const FacePatch& patch) {
   MENISCUS_ASSERT(patch.size() == mesh.num_faces(), "{} {}", patch.size(), mesh.num_faces());
   SurfaceMesh rest;
   rest.x = mesh.x;

@@ -38,6 +38,6 @@ using FacePatch = FaceField<char>;
                              const FaceNeighbours& neighbours, FacePatch& patch);
 
 /// The surface without the faces of a patch; its vertices keep their ids.
-[[nodiscard]] SurfaceMesh without(const SurfaceMesh& mesh, const FacePatch& patch);
+[[nodiscard]] SurfaceMesh remaining_surface(const SurfaceMesh& mesh, const FacePatch& patch);
 
 }  // namespace meniscus

@@ -14,7 +14,7 @@ SmoothedShapes::SmoothedShapes(SurfaceMesh mesh, double edge)
 
 std::optional<SurfaceMesh> SmoothedShapes::at(double length) {
   if (!diffused_) diffused_.emplace(mesh_, edge_);
-  return diffused_->smoothed(length, kMostMendedVolume);
+  return diffused_->smoother_surface(length, kMostMendedVolume);
 }
 
 }  // namespace meniscus
