@@ -1,5 +1,5 @@
 // Wall seconds of what a flow solver does with a new mesh, on as many ranks as mpirun starts: the
-// share of each rank, the sparsity, a solve from rest with a fresh preconditioner, and one with the
+// partition, the sparsity, a solve from rest with a fresh preconditioner, and one with the
 // preconditioner kept, as in the two stages of a time step. The least of several repetitions, each
 // phase beginning when all ranks are there (docs/parallel.md).
 // Arguments: vertices on the drop [1430: 47 thousand in all], viscosity ratio [0.1], elements
@@ -36,14 +36,14 @@ double seconds(const std::function<void()>& action) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-enum Phase { share, share_and_sparsity, first_solve, second_solve, num_phases };
+enum Phase { partition, partition_and_sparsity, first_solve, second_solve, num_phases };
 using Times = std::array<double, num_phases>;
 
 Times measured(const StokesProblem& problem, const Options& options, int& iterations) {
   Times times{};
-  times[share] = seconds([&] { (void)make_partition(problem.space, world()); });
+  times[partition] = seconds([&] { (void)make_partition(problem.space, world()); });
   std::optional<StokesSolver> solver;
-  times[share_and_sparsity] = seconds([&] { solver.emplace(problem.space, options); });
+  times[partition_and_sparsity] = seconds([&] { solver.emplace(problem.space, options); });
   PhaseTimes ignored;
   const auto solve = [&](linear::Preconditioner preconditioner) {
     StokesState state = solver->state_at_rest();
@@ -86,12 +86,13 @@ int main(int count, char** arguments) {
   }
   if (world().rank() != 0) return EXIT_SUCCESS;
   fmt::print(
-      "| ranks | elements | nodes | iterations | share | share + sparsity | fresh solve | kept "
+      "| ranks | elements | nodes | iterations | partition | partition + sparsity | fresh solve | "
+      "kept "
       "solve | all |\n|---|---|---|---|---|---|---|---|---|\n"
       "| {} | {} | {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} |\n",
       world().size(), options.elements == Elements::p1_p1 ? "P1-P1" : "P2-P1",
-      space.velocity.num_nodes, iterations, least[share], least[share_and_sparsity],
+      space.velocity.num_nodes, iterations, least[partition], least[partition_and_sparsity],
       least[first_solve], least[second_solve],
-      least[share_and_sparsity] + least[first_solve] + least[second_solve]);
+      least[partition_and_sparsity] + least[first_solve] + least[second_solve]);
   return EXIT_SUCCESS;
 }

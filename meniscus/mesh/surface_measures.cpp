@@ -26,6 +26,12 @@ Vec3 face_area_vector(const SurfaceMesh& mesh, FaceId f) {
   return 0.5 * (mesh.x[v[1]] - mesh.x[v[0]]).cross(mesh.x[v[2]] - mesh.x[v[0]]);
 }
 
+FaceField<double> face_areas(const SurfaceMesh& mesh) {
+  FaceField<double> areas(mesh.num_faces());
+  for (const FaceId f : areas.ids()) areas[f] = face_area_vector(mesh, f).norm();
+  return areas;
+}
+
 double surface_area(const SurfaceMesh& mesh) {
   double area = 0.0;
   for (const FaceId f : mesh.faces.ids()) area += face_area_vector(mesh, f).norm();

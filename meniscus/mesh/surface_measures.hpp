@@ -6,6 +6,8 @@ namespace meniscus {
 
 /// (x1 − x0) × (x2 − x0)/2: outward, its length the area of the face [R0²].
 [[nodiscard]] Vec3 face_area_vector(const SurfaceMesh& mesh, FaceId f);
+/// The area of each face [R0²].
+[[nodiscard]] FaceField<double> face_areas(const SurfaceMesh& mesh);
 [[nodiscard]] double surface_area(const SurfaceMesh& mesh);
 /// Volume enclosed, 1/6 Σ_f x0·(x1 × x2), positive when the faces are outward [R0³]. Summed about
 /// the mean vertex, so that a distant drop loses no digits.

@@ -25,12 +25,6 @@ FieldRange range_of(const Field<IdType, double>& values) {
   return {low, high};
 }
 
-FaceField<double> face_areas(const SurfaceMesh& mesh) {
-  FaceField<double> areas(mesh.num_faces());
-  for (const FaceId f : areas.ids()) areas[f] = face_area_vector(mesh, f).norm();
-  return areas;
-}
-
 template <class IdType>
 void move_field(CarriedField<IdType>& field, const Field<IdType, double>& before,
                 const Field<IdType, double>& after, FieldExcess& excess) {
@@ -44,9 +38,9 @@ void move_field(CarriedField<IdType>& field, const Field<IdType, double>& before
 }
 
 /// The elements of a surface found by the positions of their corners.
-class ElementsByPlace {
+class ElementsByPosition {
  public:
-  explicit ElementsByPlace(const SurfaceMesh& mesh) {
+  explicit ElementsByPosition(const SurfaceMesh& mesh) {
     for (const VertexId v : mesh.x.ids()) vertices_.emplace(key(mesh.x[v]), v);
     for (const FaceId f : mesh.faces.ids()) faces_.emplace(sorted_corners(mesh.faces[f]), f);
   }
@@ -77,11 +71,11 @@ struct SameElements {
   FaceField<FaceId> faces;
 };
 SameElements same_elements(const SurfaceMesh& from, const SurfaceMesh& to) {
-  const ElementsByPlace places(to);
+  const ElementsByPosition elements(to);
   SameElements same;
-  for (const Vec3& x : from.x) same.vertices.add(places.vertex(x));
+  for (const Vec3& x : from.x) same.vertices.add(elements.vertex(x));
   for (const FaceVertices& v : from.faces)
-    same.faces.add(places.face({same.vertices[v[0]], same.vertices[v[1]], same.vertices[v[2]]}));
+    same.faces.add(elements.face({same.vertices[v[0]], same.vertices[v[1]], same.vertices[v[2]]}));
   return same;
 }
 

@@ -120,12 +120,6 @@ std::array<SurfacePoint, 4> sample_points(const SurfaceChange& change, FaceId f)
   return points;
 }
 
-FaceField<double> face_areas(const SurfaceMesh& mesh) {
-  FaceField<double> areas(mesh.num_faces());
-  for (const FaceId f : areas.ids()) areas[f] = face_area_vector(mesh, f).norm();
-  return areas;
-}
-
 /// Each side of an old face is cut in this many, to find what its parts come to lie on.
 constexpr int kCuts = 3;
 

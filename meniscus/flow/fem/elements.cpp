@@ -14,14 +14,6 @@ using Gradients = Eigen::Matrix<double, 3, 10>;
 const std::array<Vec3, 4> kReferenceGradients = {Vec3(-1, -1, -1), Vec3::UnitX(), Vec3::UnitY(),
                                                  Vec3::UnitZ()};
 
-std::array<double, 10> quadratic_values(const Barycentric& b) {
-  std::array<double, 10> value{};
-  for (std::size_t i = 0; i < 4; ++i) value[i] = b[i] * (2.0 * b[i] - 1.0);
-  for (std::size_t e = 0; e < 6; ++e)
-    value[4 + e] = 4.0 * b[kCellEdges[e][0]] * b[kCellEdges[e][1]];
-  return value;
-}
-
 /// By columns, from the gradients of the barycentric coordinates.
 Gradients quadratic_gradients(const Barycentric& b, const std::array<Vec3, 4>& g) {
   Gradients gradient;
@@ -42,7 +34,7 @@ struct ReferencePoints {
 
   explicit ReferencePoints(const std::array<QuadraturePoint<4>, Count>& rule) {
     for (std::size_t q = 0; q < Count; ++q) {
-      value[q] = quadratic_values(rule[q].barycentric);
+      value[q] = quadratic_tetrahedron_values(rule[q].barycentric);
       gradient[q] = quadratic_gradients(rule[q].barycentric, kReferenceGradients);
     }
   }
@@ -73,6 +65,14 @@ Barycentric node_barycentric(std::size_t node) {
 }
 
 }  // namespace
+
+std::array<double, 10> quadratic_tetrahedron_values(const std::array<double, 4>& b) {
+  std::array<double, 10> value{};
+  for (std::size_t i = 0; i < 4; ++i) value[i] = b[i] * (2.0 * b[i] - 1.0);
+  for (std::size_t e = 0; e < 6; ++e)
+    value[4 + e] = 4.0 * b[kCellEdges[e][0]] * b[kCellEdges[e][1]];
+  return value;
+}
 
 std::span<const LinearElement::Point> LinearElement::points(CellId c) {
   const LinearTetrahedron tet = linear_tetrahedron(corners(positions_.x, space_.velocity.of(c)));

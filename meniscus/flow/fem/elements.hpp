@@ -24,6 +24,10 @@ struct ElementPoint {
   Eigen::Matrix<double, 3, Nodes> gradient = Eigen::Matrix<double, 3, Nodes>::Zero();
 };
 
+/// φ_i of the quadratic tetrahedron at barycentric b: the four corners, then the middles of the
+/// edges in the order of `kCellEdges`.
+[[nodiscard]] std::array<double, 10> quadratic_tetrahedron_values(const std::array<double, 4>& b);
+
 /// Stabilisation parameter τ = 0.25 h²/μ, h half the edge of the regular tetrahedron of equal
 /// volume, V = (2h)³/(6√2) (eq. 11 of hooper2001; the division by μ is not printed there).
 [[nodiscard]] inline double pspg_parameter(double volume, double viscosity) {

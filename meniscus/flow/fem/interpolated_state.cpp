@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/flow/fem/elements.hpp"
 #include "meniscus/volume/cell_tree.hpp"
 #include "meniscus/volume/cell_walk.hpp"
 
@@ -18,13 +19,12 @@ using Barycentric = std::array<double, 4>;
 
 Vec3 velocity_at(const StokesState& state, std::span<const std::int32_t> nodes,
                  const Barycentric& b) {
-  const auto v = [&](std::size_t k) -> const Vec3& { return state.v[NodeId{nodes[k]}]; };
-  const bool is_quadratic = nodes.size() == 10;
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t k = 0; k < 4; ++k) sum += (is_quadratic ? 2.0 * b[k] - 1.0 : 1.0) * b[k] * v(k);
-  for (std::size_t e = 0; is_quadratic && e < 6; ++e)
-    sum += 4.0 * b[kCellEdges[e][0]] * b[kCellEdges[e][1]] * v(4 + e);
-  return sum;
+  const auto sum = [&](std::span<const double> value) {
+    Vec3 total = Vec3::Zero();
+    for (std::size_t k = 0; k < value.size(); ++k) total += value[k] * state.v[NodeId{nodes[k]}];
+    return total;
+  };
+  return nodes.size() == 10 ? sum(quadratic_tetrahedron_values(b)) : sum(b);
 }
 
 double pressure_at(const StokesState& state, std::span<const std::int32_t> nodes,
