@@ -34,4 +34,16 @@ template <class Vector>
   return linear_tetrahedron<Vec3>(corners);
 }
 
+/// The barycentric coordinates of p in a straight tetrahedron that is not flat.
+[[nodiscard]] inline std::array<double, 4> barycentric_coordinates(
+    const std::array<Vec3, 4>& corners, const Vec3& p) {
+  const Vec3& o = corners[0];
+  const Vec3 e1 = corners[1] - o, e2 = corners[2] - o, e3 = corners[3] - o, d = p - o;
+  const Vec3 n1 = e2.cross(e3);
+  const double scale = 1.0 / e1.dot(n1);
+  const double b1 = scale * d.dot(n1), b2 = scale * d.dot(e3.cross(e1)),
+               b3 = scale * d.dot(e1.cross(e2));
+  return {1.0 - b1 - b2 - b3, b1, b2, b3};
+}
+
 }  // namespace meniscus

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include <Eigen/Geometry>
-
 #include "meniscus/core/error.hpp"
+#include "meniscus/geometry/tetrahedron.hpp"
 #include "meniscus/volume/cell_tree.hpp"
 
 namespace meniscus {
@@ -17,19 +16,9 @@ constexpr int kMostSteps = 1000;
 
 }  // namespace
 
-std::array<double, 4> CellWalk::barycentric(CellId c, const Vec3& p) const {
-  const TetCorners x = corners(mesh_, c);
-  const Vec3 e1 = x[1] - x[0], e2 = x[2] - x[0], e3 = x[3] - x[0], d = p - x[0];
-  const Vec3 n1 = e2.cross(e3);
-  const double scale = 1.0 / e1.dot(n1);
-  const double b1 = scale * d.dot(n1), b2 = scale * d.dot(e3.cross(e1)),
-               b3 = scale * d.dot(e1.cross(e2));
-  return {1.0 - b1 - b2 - b3, b1, b2, b3};
-}
-
 CellWalk::Hit CellWalk::find(CellId start, const Vec3& p,
                              const std::vector<bool>& is_allowed) const {
-  Hit hit{start, barycentric(start, p), 0.0};
+  Hit hit{start, barycentric_coordinates(corners(mesh_, start), p), 0.0};
   for (int step = 0; step < kMostSteps; ++step) {
     MENISCUS_ASSERT(is_allowed[static_cast<std::size_t>(mesh_.region[hit.cell].value)], "cell {}",
                     hit.cell.value);
@@ -45,7 +34,7 @@ CellWalk::Hit CellWalk::find(CellId start, const Vec3& p,
     }
     if (!next.is_valid()) break;
     hit.cell = next;
-    hit.weights = barycentric(next, p);
+    hit.weights = barycentric_coordinates(corners(mesh_, next), p);
   }
   if (std::ranges::min(hit.weights) >= kOnFacet) return hit;
   const TetPoint nearest = closest_point(corners(mesh_, hit.cell), p);

@@ -24,8 +24,6 @@ class CellWalk {
   [[nodiscard]] Hit find(CellId start, const Vec3& p, const std::vector<bool>& is_allowed) const;
 
  private:
-  [[nodiscard]] std::array<double, 4> barycentric(CellId c, const Vec3& p) const;
-
   const TetMesh& mesh_;
   FacetTable facets_;
 };

@@ -76,5 +76,17 @@ TEST(LinearTetrahedron, IsTheSameOfPlainNumbers) {
   }
 }
 
+TEST(BarycentricCoordinates, GiveThePointBack) {
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    const std::array<Vec3, 4> x = random_corners(seed);
+    const Vec3 p = random_corners(seed + 1000)[0];
+    const std::array<double, 4> b = barycentric_coordinates(x, p);
+    const double tolerance = 1e-14 / std::abs(linear_tetrahedron(x).volume);
+    EXPECT_NEAR(b[0] + b[1] + b[2] + b[3], 1.0, tolerance) << "seed " << seed;
+    EXPECT_LT((b[0] * x[0] + b[1] * x[1] + b[2] * x[2] + b[3] * x[3] - p).norm(), tolerance)
+        << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace meniscus
