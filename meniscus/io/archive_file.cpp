@@ -28,6 +28,7 @@ std::uint64_t checksum(std::string_view bytes) {
 std::string prefix(std::string_view image) {
   std::string text = fmt::format("{} {}\nbytes {}\nchecksum {:016x}\n", magic, format_version,
                                  image.size(), checksum(image));
+  MENISCUS_ASSERT(text.size() <= prefix_size, "{} bytes", text.size());
   text.resize(prefix_size, '\0');
   return text;
 }
@@ -47,6 +48,7 @@ Hdf5Handle memory_access(std::string_view image) {
 /// Creates one array at a path of groups, without the time of its creation.
 void write_array(hid_t file, const std::string& name, hid_t type, const Hdf5Handle& space,
                  const void* values) {
+  MENISCUS_ASSERT(!name.empty(), "an array without a name");
   const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "H5Pcreate");
   hdf5_check(H5Pset_create_intermediate_group(links, 1), "H5Pset_create_intermediate_group");
   const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "H5Pcreate");

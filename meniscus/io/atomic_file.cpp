@@ -38,6 +38,7 @@ class Descriptor {
 
 /// 0, or the error number of the first system call that failed.
 int write_all(int descriptor, std::string_view bytes) {
+  MENISCUS_ASSERT(descriptor >= 0, "descriptor {}", descriptor);
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
@@ -80,6 +81,7 @@ void write_in_place(const fs::path& path, std::string_view bytes) {
 }  // namespace
 
 void fail_writing(const fs::path& path, int error_number) {
+  MENISCUS_ASSERT(error_number != 0, "no failure of {}", path.string());
   throw RunFailure(fmt::format("{}: cannot be written: {}", path.string(),
                                std::generic_category().message(error_number)));
 }

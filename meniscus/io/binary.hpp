@@ -7,11 +7,14 @@
 #include <string>
 #include <string_view>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus::io {
 
 /// The value of type T at the start of `bytes` (at least sizeof(T) of them), of the given order.
 template <class T>
 [[nodiscard]] T load(std::string_view bytes, std::endian order) {
+  MENISCUS_ASSERT(bytes.size() >= sizeof(T), "{} bytes for a value of {}", bytes.size(), sizeof(T));
   std::array<char, sizeof(T)> raw;
   std::memcpy(raw.data(), bytes.data(), sizeof(T));
   if (order != std::endian::native) std::ranges::reverse(raw);

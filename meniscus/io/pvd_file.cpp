@@ -1,4 +1,5 @@
 #include <charconv>
+#include <cmath>
 
 #include <vtkSmartPointer.h>
 #include <vtkXMLDataElement.h>
@@ -40,6 +41,7 @@ void write_pvd(const fs::path& path, std::span<const PvdEntry> entries) {
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
   for (const PvdEntry& entry : entries) {
+    MENISCUS_ASSERT(std::isfinite(entry.t), "t = {} of {}", entry.t, entry.file);
     text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.t,
                         escaped_text(entry.file));
   }

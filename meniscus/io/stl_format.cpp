@@ -34,6 +34,7 @@ class CornerMerger {
   }
   [[nodiscard]] int num_corners() const { return num_corners_; }
   void finish_triangle(int tag) {
+    MENISCUS_ASSERT(num_corners_ == 3, "{} corners", num_corners_);
     triangles_.corners.push_back(corners_);
     triangles_.tags.push_back(tag);
     num_corners_ = 0;

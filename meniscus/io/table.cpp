@@ -87,6 +87,7 @@ struct CellText {
 };
 
 std::string header_line(const std::vector<std::string>& columns) {
+  MENISCUS_ASSERT(!columns.empty(), "a table without columns");
   std::string line;
   for (const std::string& column : columns) line += quoted_text(column) + ',';
   line.back() = '\n';
@@ -174,6 +175,7 @@ std::vector<double> Table::column(const std::string& name) const {
   if (!index) reject_input("the table has no column `{}`", name);
   std::vector<double> values;
   for (const std::vector<std::string>& row : rows) {
+    MENISCUS_ASSERT(*index < row.size(), "{} cells for {} columns", row.size(), columns.size());
     const std::string& cell = row[*index];
     double value = 0.0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);

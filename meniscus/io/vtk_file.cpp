@@ -25,6 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 vtkNew<vtkDoubleArray> to_vtk(const NamedArray& array) {
+  MENISCUS_ASSERT(array.components > 0, "array {} has {} components", array.name, array.components);
   vtkNew<vtkDoubleArray> result;
   result->SetName(array.name.c_str());
   result->SetNumberOfComponents(array.components);
@@ -86,6 +87,9 @@ vtkNew<vtkPolyData> to_poly_data(std::span<const SurfaceMesh* const> surfaces,
 
 /// Values at the vertices, given to every corner of every cell.
 NamedArray spread_to_corners(const TetMesh& mesh, const NamedArray& array) {
+  MENISCUS_ASSERT(array.values.size() == static_cast<std::size_t>(mesh.num_vertices()) *
+                                             static_cast<std::size_t>(array.components),
+                  "array {} has {} values", array.name, array.values.size());
   NamedArray result{.name = array.name, .components = array.components, .values = {}};
   for (const CellVertices& cell : mesh.cells) {
     for (const TetVertexId v : cell) {

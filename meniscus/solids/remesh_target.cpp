@@ -27,7 +27,9 @@ struct Frame {
   Vec3 center;
   double radius;
   explicit Frame(const SurfaceMesh& mesh)
-      : center(mean_vertex(mesh)), radius(equivalent_radius(enclosed_volume(mesh))) {}
+      : center(mean_vertex(mesh)), radius(equivalent_radius(enclosed_volume(mesh))) {
+    MENISCUS_ASSERT(radius > 0.0, "a surface without volume");
+  }
   void enter(SurfaceMesh& mesh) const {
     for (Vec3& x : mesh.x) x = (x - center) / radius;
   }
@@ -93,6 +95,8 @@ TargetReport remesh_to(SurfaceMesh& mesh, const RemeshTarget& target) {
   TargetReport report = std::move(found.report);
   std::vector<SurfaceMesh> result = std::move(found.pieces);
   if (result.empty()) return report;
+  MENISCUS_ASSERT(result.size() == is_cavity.size(), "{} pieces of {}", result.size(),
+                  is_cavity.size());
   for (std::size_t i = 0; i < result.size(); ++i)
     if (is_cavity[i]) turn_inside_out(result[i]);
   working = joined_surface(result);

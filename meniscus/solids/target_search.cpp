@@ -69,6 +69,8 @@ TargetSearch::TargetSearch(std::vector<Piece> pieces, const RemeshTarget& target
       target_(target),
       rough_edge_(rough_edge),
       most_failures_(most_failures) {
+  MENISCUS_ASSERT(!pieces_.empty() && most_failures > 0, "{} pieces, {} failures", pieces_.size(),
+                  most_failures);
   if (target.by == By::chordal_error) build_references();
 }
 
@@ -198,6 +200,8 @@ std::optional<Fault> TargetSearch::remesh_all(double setting,
 }
 
 double TargetSearch::measure_of(const std::vector<SurfaceMesh>& remeshed) const {
+  MENISCUS_ASSERT(remeshed.size() == pieces_.size(), "{} of {} pieces", remeshed.size(),
+                  pieces_.size());
   if (target_.by == By::nodes) return joined_surface(remeshed).num_vertices();
   if (target_.by == By::edge_length) return mean_edge(joined_surface(remeshed));
   double largest = 0.0;

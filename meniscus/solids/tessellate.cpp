@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus {
 namespace {
 
@@ -24,6 +26,8 @@ int num_cuts(const SurfaceMesh& mesh, const SmoothSurface& surface, FaceId f, do
 
 SurfaceMesh tessellation(const SurfaceMesh& mesh, const SmoothSurface& surface,
                          double chordal_error) {
+  MENISCUS_ASSERT(surface.vertex_curvature().size() == mesh.num_vertices(),
+                  "the smooth surface of another mesh");
   SurfaceMesh result;
   for (const FaceId f : mesh.faces.ids()) {
     const int n = num_cuts(mesh, surface, f, chordal_error);
