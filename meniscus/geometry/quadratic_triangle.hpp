@@ -26,7 +26,7 @@ struct TriangleShape {
   return {.value = b, .by_1 = {-1.0, 1.0, 0.0}, .by_2 = {-1.0, 0.0, 1.0}};
 }
 
-/// Their values alone.
+/// The values of these functions, without derivatives.
 [[nodiscard]] constexpr std::array<double, 6> quadratic_values(const std::array<double, 3>& b) {
   return {b[0] * (2.0 * b[0] - 1.0), b[1] * (2.0 * b[1] - 1.0), b[2] * (2.0 * b[2] - 1.0),
           4.0 * b[0] * b[1],         4.0 * b[1] * b[2],         4.0 * b[2] * b[0]};
@@ -61,8 +61,8 @@ template <std::size_t Nodes>
   return {weighted_sum(shape.by_1, x), weighted_sum(shape.by_2, x)};
 }
 
-/// The gradients along the surface of b1 and b2: in the tangent plane, g_i·t_j = δ_ij. Those of a
-/// function f are f_1 g1 + f_2 g2. Not finite where the tangents are parallel.
+/// The gradients along the surface of b1 and b2: in the tangent plane, g_i·t_j = δ_ij. The gradient
+/// of a function f is f_1 g1 + f_2 g2. Not finite where the tangents are parallel.
 struct TriangleGradients {
   Vec3 g1, g2;
 };

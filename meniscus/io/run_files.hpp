@@ -39,7 +39,7 @@ struct RunFiles {
       surface_frames, volume_frames, surface_folder, volume_folder, reference};
 };
 
-/// checkpoint-<step>.h5.
+/// The name of a checkpoint, checkpoint-<step>.h5.
 [[nodiscard]] std::string checkpoint_name(std::int64_t step);
 /// The checkpoints in a folder in rising order of step; none where there is no such folder.
 [[nodiscard]] std::vector<std::pair<std::int64_t, std::filesystem::path>> checkpoints(

@@ -19,13 +19,13 @@ using Box = Eigen::AlignedBox3d;
 /// The smallest box around the vertices of a surface.
 [[nodiscard]] Box bounding_box(const SurfaceMesh& mesh);
 
-/// A tree over boxes, named by their place in the list it was built from: O(n log n) to build,
+/// A tree over boxes, named by their index in the list it was built from: O(n log n) to build,
 /// O(log n + k) for a query that k boxes answer. Queries visit in an order that the boxes decide.
 class BoxTree {
  public:
   explicit BoxTree(std::span<const Box> boxes);
 
-  /// Of a point from box i; zero within it.
+  /// The distance of a point from box i; zero within it.
   [[nodiscard]] double distance(std::size_t i, const Vec3& point) const {
     return boxes_[i].exteriorDistance(point);
   }

@@ -13,8 +13,8 @@
 namespace meniscus {
 namespace {
 
-/// A vertex keeps so far from the ends of its lattice edge, in lengths of the edge: else triangles
-/// shrink to nothing where the surface passes through a lattice point.
+/// Least distance of a vertex from the ends of its lattice edge, in lengths of the edge: closer to
+/// them, triangles shrink to nothing where the surface passes through a lattice point.
 constexpr double kClearance = 0.05;
 
 /// The lattice points of one tetrahedron.

@@ -17,7 +17,7 @@ namespace meniscus {
 /// The first place where faces of a closed oriented manifold cross or touch others that they are
 /// not joined to (exact predicates). About 0.6 µs per face.
 [[nodiscard]] std::optional<Fault> find_self_intersection(const SurfaceMesh& mesh);
-/// Where two surfaces cross or touch; none if nowhere.
+/// The first place where two surfaces cross or touch; none if they do not.
 [[nodiscard]] std::optional<Fault> find_intersection(const SurfaceMesh& a, const SurfaceMesh& b);
 /// Whether a point lies inside a closed surface (exact ray shooting); a point on
 /// the surface does not.

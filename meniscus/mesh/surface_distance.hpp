@@ -9,8 +9,8 @@ namespace meniscus {
 struct SampledDistance {
   double distance = 0.0;  ///< attained between `from` and `to`
   double error = 0.0;
-  Vec3 from = Vec3::Zero();  ///< the point of the first surface that is farthest …
-  Vec3 to = Vec3::Zero();    ///< … from the second, and the nearest point of that
+  Vec3 from = Vec3::Zero();  ///< the point of the first surface farthest from the second
+  Vec3 to = Vec3::Zero();    ///< the point of the second surface nearest to `from`
 };
 
 struct DistanceOptions {

@@ -27,7 +27,7 @@ struct RemeshTarget {
 struct [[nodiscard]] TargetReport : Report {
   int passes = 0;        ///< remeshings from the given surface, until the target was met
   double reached = 0.0;  ///< vertices, mean edge or largest distance of the result
-  bool is_met = false;   ///< within the bands below; shapes have fewest vertices they need
+  bool is_met = false;   ///< within the bands below; a shape may need more vertices
   // Where the surface had creases or slivers: see below.
   bool are_creases_rounded = false, are_creases_kept = false;
 };

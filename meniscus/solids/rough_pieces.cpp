@@ -20,7 +20,7 @@ namespace {
 using By = RemeshTarget::By;
 
 constexpr double kRoughEdge = 0.5;  // of the target's mean edge
-/// Of the chordal error: creases are rounded by about half of it.
+/// Edge of the even triangles over the chordal error: creases are rounded by about half of it.
 constexpr double kRoughChord = 2.0;
 /// Vertices on creases over those that the area takes, above which a surface is a needle: that of a
 /// bar, one edge thick, is near 1. Beyond, CGAL makes fans of triangles without end.
@@ -71,7 +71,7 @@ class RoughPieces {
   std::map<std::size_t, SmoothedShapes> shapes_;
 };
 
-/// The first of the roundings that meets the target; the one that comes nearest to it, else.
+/// The first of the roundings that meets the target; if none does, the one that comes nearest.
 Found search_rounded(const std::vector<Piece>& pieces, const RemeshTarget& target,
                      double rough_edge) {
   RoughPieces rough(pieces, rough_edge);

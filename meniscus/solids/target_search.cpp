@@ -21,7 +21,8 @@ using By = RemeshTarget::By;
 /// A surface that does not flow needs its springs no nearer to rest: angles gain nothing by it.
 constexpr double kSpringTolerance = 0.01;
 constexpr int kMaxSweeps = 60;  // a sweep collapses about a fifth of the vertices: 1e6 → 10
-/// Of each target: where the search ends. Counts scatter by a percent (the remesher's own band).
+/// Bands of the targets, in which the search ends. Counts scatter by a percent (the remesher's own
+/// band).
 constexpr double kNodesBand = 0.02, kEdgeBand = 0.01, kChordalBand = 0.1, kChordalAim = 0.9;
 constexpr double kOtherSetting = 0.9;  // of the one that failed; the next passes correct for it
 constexpr double kGain = 0.8;       // a pass that leaves more of the miss than that gained little
@@ -139,7 +140,8 @@ void TargetSearch::build_references() {
   require_affordable(target_, num_vertices);
 }
 
-/// What is turned until the target is met: C0, the length asked for, the chordal error asked for.
+/// The setting that is varied until the target is met: C0, the length asked for, the chordal error
+/// asked for.
 double TargetSearch::first_setting() const {
   if (target_.by == By::nodes)
     return target_.value / (4.0 * std::numbers::pi * static_cast<double>(pieces_.size()));

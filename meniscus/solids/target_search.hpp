@@ -34,7 +34,7 @@ struct Found {
   TargetReport report;
 };
 
-/// The nearest |ln(measure/target)| at which a search ends.
+/// The largest |ln(measure/target)| at which a search ends.
 [[nodiscard]] double band(RemeshTarget::By by);
 
 /// The next setting: first as if the measure were proportional to it, then by the secant of the two

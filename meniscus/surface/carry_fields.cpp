@@ -147,7 +147,7 @@ class Replacement {
     return result;
   }
 
-  /// What the elements of the new surface receive of a field.
+  /// The amounts of a field that the elements of the new surface receive.
   [[nodiscard]] VertexField<double> received_amounts(const VertexField<double>& values) const {
     VertexField<double> amounts(after_.num_vertices(), 0.0);
     for (const FaceId f : before_.faces.ids())

@@ -8,7 +8,7 @@ namespace meniscus {
 
 /// Largest |∇l0| of the rest length that a surface is remeshed with.
 inline constexpr double kGradation = 0.5;
-/// However small or round a drop, it has about as many vertices: an icosahedron whose faces are
+/// Fewest vertices of a drop, however small or round: those of an icosahedron whose faces are
 /// divided in four. Fewer cannot hold a drop's shape through a remeshing.
 inline constexpr int kFewestVertices = 42;
 /// Σ|weights| of the vertices that a fitted middle of an edge rests on: 1.6 to 3 where they are
@@ -20,7 +20,8 @@ inline constexpr double kMostAmplification = 4.0;
 /// little more than the height of a circle over the sides of its regular triangle. Where vertices
 /// lie as on a crease, fits swing out by a hundred.
 inline constexpr double kHighestMiddle = 0.3;
-/// Of a drop's volume: a mending that moves more has pulled the surface off its shape.
+/// Largest part of a drop's volume that a mending may move: one that moves more has pulled the
+/// surface off its shape.
 inline constexpr double kMostMendedVolume = 0.05;
 
 inline constexpr std::array kSurfaceConstants{

@@ -31,7 +31,7 @@ struct VertexCurvature {
 /// O(h²).
 [[nodiscard]] VertexField<VertexCurvature> osculating_curvature(const SurfaceMesh& mesh,
                                                                 const SurfaceTopology& topology);
-/// The same, with the mesh's rings at hand.
+/// The osculating curvature with a gatherer of rings that the caller keeps.
 [[nodiscard]] VertexField<VertexCurvature> osculating_curvature(const SurfaceMesh& mesh,
                                                                 const SurfaceTopology& topology,
                                                                 RingGatherer& rings);

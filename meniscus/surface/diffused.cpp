@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kPointsPerEdge = 2.0;
 constexpr double kMostPoints = 2e6;  // 5 s, 32 MB
-/// Distances beyond, in edges, are not told apart: what lies farther off has no say.
+/// Distances are cut off at this many edges: what lies farther away has no effect.
 constexpr double kReach = 2.0;
 constexpr int kBorder = 3;     // lattice points beyond what is inside
 constexpr double kEven = 0.7;  // edges of the result: what is left of a fold is still to be seen

@@ -17,16 +17,17 @@ enum class SurfaceShape { faceted, patched, splined };
 [[nodiscard]] FaceField<std::array<std::size_t, 3>> face_edges(const SurfaceMesh& mesh,
                                                                const SurfaceTopology& topology);
 
-/// A point of that surface over the middle of every edge, in the order of the topology.
+/// The point of the interface's surface over the middle of every edge, in the order of the
+/// topology.
 [[nodiscard]] std::vector<Vec3> edge_middles(const SurfaceMesh& mesh,
                                              const SurfaceTopology& topology, SurfaceShape shape);
 
-/// On the patches: O(h⁴).
+/// The middles on the patches of SmoothSurface: O(h⁴).
 [[nodiscard]] std::vector<Vec3> middles_on_patches(const SmoothSurface& smooth,
                                                    const SurfaceTopology& topology);
 
-/// On splines. With z along the normal at the smooth surface's edge point and H the half-sum of
-/// curvatures there, the function
+/// The middles on splines. With z along the normal at the smooth surface's edge point and H the
+/// half-sum of curvatures there, the function
 ///
 ///   g(u, v) = z + ½H (u² + v² + z²),
 ///

@@ -16,7 +16,7 @@ class FaceReconstruction {
   [[nodiscard]] double unclamped_value(FaceId f, const Vec3& x) const {
     return faces_[f].mean + faces_[f].gradient.dot(x - faces_[f].center);
   }
-  /// The value there, kept in the range.
+  /// The value at x, kept in the range of the face.
   [[nodiscard]] double value(FaceId f, const Vec3& x) const;
 
  private:

@@ -6,7 +6,7 @@
 
 namespace meniscus {
 
-/// More vertices than this are not made of one surface: a few gigabytes while they are made.
+/// The largest number of vertices that one surface is given: a few gigabytes while they are made.
 inline constexpr double kMostVertices = 2e6;
 
 /// How many vertices a surface will have, before they are made.
@@ -18,11 +18,12 @@ struct ForeseenVertices {
   [[nodiscard]] bool is_too_many() const { return !(number <= kMostVertices); }
 };
 
-/// For edges of a given length at each vertex: ∮2/(√3 l²) dS of even triangles, or, where that is
-/// more, the pieces that the edges of the surface are cut into: needles have next to no area.
+/// The number of vertices for edges of a given length at each vertex: ∮2/(√3 l²) dS of even
+/// triangles, or, where that is more, the pieces that the edges of the surface are cut into:
+/// needles have next to no area.
 [[nodiscard]] ForeseenVertices foresee_vertices(const SurfaceMesh& mesh,
                                                 const VertexField<double>& length);
-/// For the same length everywhere.
+/// The number of vertices for edges of one length everywhere.
 [[nodiscard]] ForeseenVertices foresee_vertices(const SurfaceMesh& mesh, double length);
 
 /// Says that there would be too many, with the place.

@@ -37,7 +37,7 @@ double width_along(const SurfaceTree& tree, const Vec3& x, const Vec3& direction
   return hit ? hit->distance : kInfinity;
 }
 
-/// Those of the neighbours whose boxes are within `reach` of that of a mesh.
+/// The neighbours whose boxes are within `reach` of a mesh's box.
 std::vector<const SurfaceTree*> within_reach(const SurfaceMesh& mesh, double reach,
                                              std::span<const SurfaceTree* const> neighbours) {
   const Box box = bounding_box(mesh);

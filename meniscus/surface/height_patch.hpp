@@ -26,7 +26,7 @@ struct HeightPatch {
   /// z = f(su, sv), s² = 1 + f(u, v)²/(u² + v²), and its gradient: the surface of a patch fitted to
   /// unrolled points. Second-order terms alone make a sphere to O(u⁶).
   [[nodiscard]] Height rolled_height(double u, double v) const;
-  [[nodiscard]] double rolled_z(double u, double v) const;  ///< its z alone
+  [[nodiscard]] double rolled_z(double u, double v) const;  ///< z of `rolled_height` alone
   /// Normal and principal curvatures at the vertex, exact for the polynomial.
   [[nodiscard]] VertexCurvature curvature() const;
 };

@@ -13,7 +13,7 @@ inline constexpr double kCreaseDeg = 50.0;
 
 /// Edges where normals turn by more than `kCreaseDeg`.
 struct Creases {
-  double pieces = 0.0;    ///< beyond one each, that they are cut into
+  double pieces = 0.0;    ///< how many they are cut into, less one for each
   SurfaceEdge longest{};  ///< the longest of them, if there are any
 };
 /// The creases of a surface that is to have triangles with edges about `edge` long.

@@ -12,7 +12,7 @@ namespace {
 /// Exchanges with neighbours before what is missing is taken: over some two edges, which evens out
 /// how old elements fall on new ones.
 constexpr int kExchanges = 6;
-/// Times that what the range did not let an element take is passed on: some ten edges in all.
+/// Rounds in which elements pass on what their range did not let them take: some ten edges in all.
 constexpr int kPasses = 20;
 
 template <class IdType>

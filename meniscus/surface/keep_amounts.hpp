@@ -36,8 +36,8 @@ template <class IdType>
 FieldExcess keep_amounts(Field<IdType, double>& values, const Field<IdType, double>& amounts,
                          const Shares<IdType>& shares, const FieldRange& range);
 
-/// Gives `values` what is `missing` at each element, as an amount, in this way. In the end Σ value
-/// · measure over each piece is `amount_of_piece`.
+/// Gives `values` the amounts that are `missing` at the elements, as `keep_amounts` does. In the
+/// end Σ value · measure over each piece is `amount_of_piece`.
 template <class IdType>
 FieldExcess keep_amounts(Field<IdType, double>& values, Field<IdType, double> missing,
                          const std::vector<double>& amount_of_piece, const Shares<IdType>& shares,

@@ -13,7 +13,7 @@ namespace {
 using QuadraticFace = TriangleNodes<kQuadraticNodes>;
 using Shapes = std::array<TriangleShape<kQuadraticNodes>, kTriangleRule4.size()>;
 
-/// At the points of the rule, which is exact for the volume under a quadratic face.
+/// Shape functions at the points of the rule, which is exact for the volume under a quadratic face.
 constexpr Shapes kShapes = [] {
   Shapes shapes;
   for (std::size_t q = 0; q < shapes.size(); ++q)
@@ -47,7 +47,7 @@ Result sum_over_points(const FaceField<QuadraticFace>& faces, Result total, Func
   return total;
 }
 
-/// nn dS of n dS.
+/// nn dS from n dS.
 Mat3 normal_product(const Vec3& area) {
   const double size = area.norm();
   if (size > 0.0) return area * area.transpose() / size;

@@ -34,7 +34,7 @@ class ReconstructedSurface {
 
   const SurfaceMesh& mesh_;
   SurfaceShape shape_;
-  // Of quadratic faces alone:
+  // Only with quadratic faces:
   std::optional<SurfaceTopology> topology_;
   std::vector<Vec3> middles_;
   FaceField<TriangleNodes<kQuadraticNodes>> faces_;  // seen from the mean vertex, for round-off

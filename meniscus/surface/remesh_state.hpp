@@ -36,7 +36,7 @@ struct RemeshState {
   VertexSet unflipped = {};  ///< around these an edge may be due to flip
   VertexSet unrelaxed = {};  ///< these and their neighbours may be pulled
 
-  /// To be said of a vertex that has moved or whose edges have changed.
+  /// Marks a vertex that has moved or whose edges have changed.
   void touch(VertexId v) {
     unflipped.insert(v);
     unrelaxed.insert(v);

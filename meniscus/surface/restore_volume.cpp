@@ -28,9 +28,9 @@ double restore_flat_volume(SurfaceMesh& mesh, double volume) {
   return restore_volume(mesh, volume, VertexField<double>(mesh.num_vertices(), 1.0));
 }
 
-/// From the volume that the curved surface has, by a change of scale about the centroid, which
-/// moves the middles as it moves the vertices, so that V ∝ scale³ exactly. Returns how far the
-/// surface moves on average, (scale − 1) 3V/A.
+/// Changes the scale about the centroid until the curved surface has its volume. The middles move
+/// as the vertices do, so that V ∝ scale³ exactly. Returns how far the surface moves on average,
+/// (scale − 1) 3V/A.
 double scale_to_volume(SurfaceMesh& mesh, double from, double to) {
   // A surface far off is crumpled; its curved volume says nothing.
   if (!(from > 0.5 * to && from < 2.0 * to)) return 0.0;

@@ -14,7 +14,7 @@ namespace meniscus {
 /// is off by more than a factor of two, as on crumpled surfaces, it stays off.
 double restore_volume(SurfaceMesh& mesh, double volume, SurfaceShape shape = SurfaceShape::faceted);
 
-/// The flat faces' volume by vertices that move by a length times their weights. Returns the
+/// Restores the flat faces' volume: vertices move by a length times their weights. Returns the
 /// length.
 double restore_volume(SurfaceMesh& mesh, double volume, const VertexField<double>& weights);
 

@@ -65,7 +65,7 @@ class CellMeans {
   VertexField<double> area_;
 };
 
-/// Means over the corners.
+/// The mean over the corners of each face.
 FaceField<double> corner_means(const VertexField<double>& values, const SurfaceMesh& mesh) {
   FaceField<double> means;
   for (const FaceVertices& v : mesh.faces)
@@ -73,7 +73,7 @@ FaceField<double> corner_means(const VertexField<double>& values, const SurfaceM
   return means;
 }
 
-/// What each face exceeds the mean over its corners' cells by.
+/// How much the value of each face exceeds the mean over its corners' cells.
 FaceField<double> excess(const FaceField<double>& values, const VertexField<double>& cell_means,
                          const SurfaceMesh& mesh) {
   FaceField<double> result = corner_means(cell_means, mesh);

@@ -4,7 +4,7 @@
 
 namespace meniscus {
 
-/// A place on a triangulated surface.
+/// A point of a triangulated surface.
 struct SurfacePoint {
   FaceId face;
   Vec3 weights = Vec3::Zero();  ///< barycentric: non-negative, sum 1
@@ -48,7 +48,7 @@ class SmoothSurface {
   [[nodiscard]] std::int32_t num_vertices() const { return patches_.size(); }
 
  private:
-  /// y of the formula above.
+  /// The point y = Σ b_k x_k of the flat face.
   [[nodiscard]] Vec3 flat_point(const SurfacePoint& location) const;
 
   VertexField<VertexCurvature> curvature_;

@@ -202,7 +202,7 @@ class Conservation {
     const auto [low, high] = std::ranges::minmax(values);
     return {low, high};
   }
-  /// The same numbers in the order of the pieces of the new surface.
+  /// Numbers given by old pieces, in the order of the pieces of the new surface.
   [[nodiscard]] std::vector<double> of_new_pieces(const std::vector<double>& of_old,
                                                   int num_pieces) const {
     std::vector<double> result(static_cast<std::size_t>(num_pieces), 0.0);

@@ -17,7 +17,7 @@ class SurfaceWalk {
   /// face to face toward the target ends. Zero displacement returns the start. Beyond an edge that
   /// bends away, where the target is above no face, it is the nearest point on that edge.
   [[nodiscard]] SurfacePoint destination(const SurfacePoint& start, const Vec3& d) const;
-  /// The point of the flat face.
+  /// The position of a surface point on its flat face.
   [[nodiscard]] Vec3 flat_point(const SurfacePoint& point) const {
     const FaceVertices& v = charts_[point.face].corners;
     return point.weights[0] * x_[v[0]] + point.weights[1] * x_[v[1]] + point.weights[2] * x_[v[2]];

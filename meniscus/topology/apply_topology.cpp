@@ -112,7 +112,7 @@ double most_added_area(const Scene& scene, std::span<const std::size_t> parents)
   return kMostAddedByEvent * 4.0 * std::numbers::pi * radius * radius;
 }
 
-/// `replace_interfaces`, all or nothing in what it does to the area too.
+/// Replaces interfaces, unless that adds too much area: then the scene stays, with the reason.
 std::optional<Fault> replace_with_little_area(Scene& scene, InterfaceReplacement replacement,
                                               TopologyEvent& event) {
   const double most_added = most_added_area(scene, replacement.parents);

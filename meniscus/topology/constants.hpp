@@ -24,8 +24,8 @@ inline constexpr double kMostAddedByEvent = 1e-3;
 /// Area that an opening may add, in limits²; at the default limit of 0.01 it is 1.5e-4. Taking much
 /// film out adds more, where its liquid swells the rest.
 inline constexpr double kMostAddedByOpening = 1.5;
-/// Of the liquid: an opening moves of the order of the limit cubed, but of drops no larger than the
-/// hole, or flat ones, it would take most.
+/// Largest part of the liquid that an opening may move. Most openings move of the order of the
+/// limit cubed; from a drop no larger than the hole, or a flat one, an opening would take most.
 inline constexpr double kMostMoved = 0.1;
 
 inline constexpr std::array kTopologyConstants{

@@ -21,8 +21,8 @@ struct Ground {
   [[nodiscard]] double height(const Vec3& x) const { return up.dot(x - origin); }
 };
 
-/// Whether the edge that a face which a section crosses shares with one beside it, and which is not
-/// crossed, lies above the plane: above the face's third vertex.
+/// A section crosses two edges of the face `crossed`. Whether the third edge, which `beside`
+/// shares, lies above the plane: higher than the vertex opposite it.
 bool is_joined_above(const SurfaceMesh& mesh, const Ground& ground, FaceId crossed, FaceId beside) {
   double shared = 0.0, third = 0.0;
   for (const VertexId v : mesh.faces[crossed]) {

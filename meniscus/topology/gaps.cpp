@@ -110,7 +110,7 @@ class JoinSearch {
         neighbours_(face_neighbours(sheet.mesh, SurfaceTopology(sheet.mesh))),
         seen_in_(sheet.mesh.num_faces(), 0) {}
 
-  /// Whether faces within `radius` of the middle do.
+  /// Whether faces within `radius` of the middle join the two sides.
   [[nodiscard]] bool are_joined(const Contact& c, double radius) {
     const Vec3 middle = 0.5 * (c.from + c.to);
     const FaceId start = sheet_.tree.closest(c.from).face, goal = sheet_.tree.closest(c.to).face;

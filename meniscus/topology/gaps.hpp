@@ -36,7 +36,7 @@ struct Gap {
 [[nodiscard]] std::vector<Gap> find_gaps(const Scene& scene, double limit,
                                          const SurfaceMotion& motion);
 
-/// The same, time and again while events change a scene: only what they changed is looked at anew.
+/// Finds the gaps of a scene while events change it: only what they changed is searched again.
 /// While this lives the id of a drop stands for one mesh.
 class GapSearch {
  public:
@@ -45,7 +45,7 @@ class GapSearch {
   GapSearch(const GapSearch&) = delete;
   GapSearch& operator=(const GapSearch&) = delete;
 
-  /// Those that `find_gaps` gives.
+  /// The gaps that `find_gaps` gives.
   [[nodiscard]] std::vector<Gap> gaps(const Scene& scene);
   /// How many drops and pairs of them have been searched: what it costs.
   [[nodiscard]] std::int64_t num_searches() const { return num_searches_; }

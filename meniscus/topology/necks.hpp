@@ -23,8 +23,8 @@ struct Neck {
 /// locally thinnest when the thread widens by a tenth on either side of it before it becomes any
 /// thinner; so neither a pointed end nor the roughness of a triangulation is one. A thread of the
 /// liquid outside is the hole of a torus. Necks closer than four radii count as one. What they are
-/// depends on the surface alone, not on the numbering of its vertices. A place
-/// that is tried costs O(|F|); how many are `find_threads` says.
+/// depends on the surface alone, not on the numbering of its vertices. A place that is tried costs
+/// O(|F|); `find_threads` says how many are tried.
 [[nodiscard]] std::vector<Neck> find_necks(const SurfaceMesh& mesh, const SurfaceTree& tree,
                                            Side side, double radius, const SurfaceMotion& motion);
 

@@ -25,7 +25,7 @@ struct Crossing {
   FaceId face;
   bool is_followed = false;
 };
-/// In rising order of the edges they come from.
+/// Crossings in rising order of the edges they come from.
 using Crossings = std::vector<Crossing>;
 
 /// The crossing that comes from an edge, or none if it was followed or not looked at.

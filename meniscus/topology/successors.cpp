@@ -23,7 +23,7 @@ struct Child {
   bool is_cavity = false;
 };
 
-/// A direction along which no two places of a symmetric scene are the same.
+/// A direction along which no two points of a symmetric scene are level.
 Vec3 generic_direction() { return {1.0, std::sqrt(2.0) / 2.0, std::sqrt(3.0) / 3.0}; }
 
 /// Whether a parent lies in the liquid of another one.
@@ -33,11 +33,11 @@ bool is_within_another(const Scene& scene, std::span<const std::size_t> parents,
   });
 }
 
-/// What all parents enclose of the liquid whose surface the pieces are: one that lies in another
-/// parent counts as taken from it.
+/// The volume that all parents enclose of the liquid that the pieces bound: a parent that lies in
+/// another one counts as taken from it.
 struct LiquidVolume {
   double kept = 0.0;      ///< the volumes that remeshing restores
-  double of_faces = 0.0;  ///< that of the triangulations: less, where the surface kept is curved
+  double of_faces = 0.0;  ///< of the triangulations: less where the surface kept is curved
 };
 LiquidVolume liquid_volume(const Scene& scene, std::span<const std::size_t> parents) {
   LiquidVolume volume;

@@ -11,19 +11,19 @@
 
 namespace meniscus {
 
-/// How interfaces take the place of others.
+/// The surfaces that are to replace some interfaces of a scene.
 struct InterfaceReplacement {
   std::vector<std::size_t> parents;  ///< of the scene
   std::vector<SurfaceMesh> pieces;   ///< a cavity is turned inside out
   CarryingSurface refined = {};      ///< as in `Surgery`: what the pieces were made of
 };
 
-/// Puts pieces in the place of their parents: volumes made to add up, drops given
-/// new ids (the least never used), regions and nesting found again. What the pieces enclose, less
-/// their cavities, is what the parents enclosed (of a drop released from another, less it): what
-/// the surgery took from that is given back to the pieces in equal parts. A cavity becomes an
-/// interface around the liquid of the first parent's other side. Fields of the parents go to the
-/// pieces as their volumes are restored (`replaced_fields`).
+/// Replaces the parents by the pieces: volumes are made to add up, drops get new ids (the least
+/// never used), regions and nesting are found again. What the pieces enclose, less their cavities,
+/// is what the parents enclosed (of a drop released from another, less it): what the surgery took
+/// from that is given back to the pieces in equal parts. A cavity becomes an interface around the
+/// liquid of the first parent's other side. Fields of the parents go to the pieces as their volumes
+/// are restored (`replaced_fields`).
 ///
 /// Interfaces that stay keep their order and come first; the event's drops, volumes, areas and
 /// energies are filled in. Not done, with the reason, when a piece encloses nothing, is

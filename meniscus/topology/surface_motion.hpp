@@ -17,7 +17,7 @@ class SurfaceMotion {
   void add(SurfaceMesh mesh, VertexField<Vec3> velocity);
   /// Velocity at the nearest point of all surfaces; zero when there is none.
   [[nodiscard]] Vec3 at(const Vec3& x) const;
-  /// Nothing is known: what asks for motion toward each other takes it for granted.
+  /// Whether no motion is known: necks then count as thinning, and gaps as closing.
   [[nodiscard]] bool is_unknown() const { return surfaces_.empty(); }
 
  private:

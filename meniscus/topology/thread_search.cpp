@@ -26,7 +26,7 @@ struct ThinPlace {
   Vec3 middle;
 };
 
-/// In an order that does not depend on how vertices are numbered.
+/// The thin places of a surface, in an order that does not depend on how vertices are numbered.
 std::vector<ThinPlace> thin_places(const SurfaceMesh& mesh, const SurfaceTree& tree, Side side,
                                    double widest) {
   std::vector<ThinPlace> places;

@@ -18,9 +18,9 @@ class CellWalk {
     std::array<double, 4> weights{};  ///< of the corners, sum 1
     double squared_distance = 0.0;    ///< of their point [R0²]
   };
-  /// The cell that a walk from `start` towards p ends in, through regions that are allowed, by
-  /// number. Where it meets the end of these the weights are those of that cell's nearest point;
-  /// there may be a nearer one elsewhere.
+  /// The cell that a walk from `start` towards p ends in. The walk stays in the regions that are
+  /// allowed (by number). Where it cannot go on, the weights are those of the cell's point nearest
+  /// to p; another cell may have a nearer one.
   [[nodiscard]] Hit find(CellId start, const Vec3& p, const std::vector<bool>& is_allowed) const;
 
  private:

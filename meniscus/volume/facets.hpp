@@ -22,7 +22,7 @@ class FacetTable {
 
   /// The cell that has the facet v0 v1 v2 counter-clockwise seen from outside it; invalid if none.
   [[nodiscard]] CellId find(const FacetVertices& facet) const;
-  /// The cell on the other side of that facet.
+  /// The cell on the other side of the facet v0 v1 v2; invalid if none.
   [[nodiscard]] CellId find_across(const FacetVertices& facet) const {
     return find({facet[0], facet[2], facet[1]});
   }

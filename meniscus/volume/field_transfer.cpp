@@ -13,7 +13,7 @@ namespace meniscus {
 namespace {
 
 /// Integrals of the reconstruction over the intersections and the uncovered parts, divided by the
-/// covered measure; what that gave too much or too little is owed.
+/// covered measure. What that misses of the amounts is the cells' debt.
 IndebtedField projection(const MeshOverlay& overlay, const LinearReconstruction& linear) {
   const std::int32_t size = overlay.after.mesh.num_cells();
   CellField<double> integral(size, 0.0), measure(size, 0.0), debt(size, 0.0);

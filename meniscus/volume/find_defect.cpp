@@ -61,7 +61,7 @@ std::optional<Fault> find_wrong_size(const TetMesh& mesh, const Scene& scene) {
   return {};
 }
 
-/// Surface vertices come first, in order, at the scene's very coordinates.
+/// Surface vertices come first, in order, exactly at the scene's coordinates.
 std::optional<Fault> find_moved_vertex(const TetMesh& mesh, const std::vector<SurfacePair>& pairs) {
   std::int32_t first = 0;
   for (const SurfacePair& pair : pairs) {

@@ -57,7 +57,7 @@ struct Cube {
   std::vector<SizedPoint> points;
 };
 
-/// Its eight parts.
+/// The eight parts of a cube.
 std::vector<Cube> octants(const Cube& cube) {
   const Vec3 middle = cube.box.center();
   std::vector<Cube> parts;
@@ -71,8 +71,8 @@ std::vector<Cube> octants(const Cube& cube) {
   return parts;
 }
 
-/// The least size in a box: at its middle, or as the edges in it have it, whose surfaces a law may
-/// rise from so steeply that the middle says nothing of them.
+/// The least size in a box: the law's at its middle, or the shortest edge of a surface in the box.
+/// A law may rise so steeply from a surface that the middle does not show the surface's edges.
 SizedPoint least_size(const Box& part, const std::vector<SizedPoint>& points,
                       const std::function<double(const Vec3&)>& size) {
   SizedPoint least{part.center(), size(part.center())};

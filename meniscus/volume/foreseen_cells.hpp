@@ -9,14 +9,14 @@ namespace meniscus {
 
 /// How many tetrahedra a mesh will have, before it is made.
 struct ForeseenCells {
-  double number = 0.0;      ///< within a factor of 3; of a number above the most, only that it is
+  double number = 0.0;      ///< within a factor of 3; a lower bound where it is too many
   Vec3 finest{0, 0, 0};     ///< where the shortest edge is wanted
-  double least_size = 0.0;  ///< that edge [R0]
+  double least_size = 0.0;  ///< the shortest edge wanted [R0]
   [[nodiscard]] bool is_too_many() const;
 };
 
-/// More than this many are not made: a mesh of three million vertices, for which TetGen takes some
-/// 8 GB and the flow more than ten times as much.
+/// The largest number of cells that is made: a mesh of three million vertices, for which TetGen
+/// takes some 8 GB and the flow more than ten times as much.
 inline constexpr double kMostCells = 2e7;
 
 /// ∫ dV/(cell_volume h³/(6√2)) over the box around the outer boundary, h = size(x) taken constant

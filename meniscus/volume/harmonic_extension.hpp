@@ -5,9 +5,9 @@
 
 namespace meniscus {
 
-/// Which entries the matrices of a mesh's harmonic extension have: those of its edges. They stay
-/// the same while the mesh is only moved. The values are none here. Rows are the free vertices,
-/// from `first_free` on.
+/// The pattern of the matrices of a mesh's harmonic extension: an entry for every edge. It stays
+/// the same while the mesh is only moved. It holds no values. Rows are the free vertices, from
+/// `first_free` on.
 struct HarmonicPattern {
   HarmonicPattern(const TetMesh& mesh, TetVertexId first_free);
 

@@ -22,7 +22,7 @@ struct Gap {
   double volume = 0.0;
 };
 
-/// A mesh with what finds its cells, group by group.
+/// A mesh with its cells by group, and a tree over those of each group.
 struct GroupedMesh {
   const TetMesh& mesh;
   const CellField<std::int32_t>& group;

@@ -24,7 +24,7 @@ class VolumeMover {
   [[nodiscard]] Field<TetVertexId, Vec3> velocity(
       const Scene& scene, const TetMesh& mesh, std::span<const VertexField<Vec3>> interface_motion,
       const Field<TetVertexId, Vec3>& fluid);
-  /// To be told when the mesh stands elsewhere, and when it is another one.
+  /// The first is to be called when vertices have moved, the second when the mesh was replaced.
   void forget_positions() { extension_.reset(); }
   void forget_mesh() {
     extension_.reset();

@@ -87,7 +87,7 @@ class SizeLaw {
   [[nodiscard]] Sized::Nearest ask(std::size_t surface, const Vec3& x) const;
   const Sized::Nearest& ask_member(std::size_t position, Around& around) const;
   [[nodiscard]] double least_law(Around& around) const;
-  /// Asks the members that a gap no wider than that may lie at.
+  /// Asks the members beside which a gap may lie that is no wider than `widest`.
   void ask_sides_of_gaps(double widest, Around& around) const;
   [[nodiscard]] double size_in_gap(double size, const Sized::Nearest& a,
                                    const Sized::Nearest& b) const;

@@ -7,9 +7,9 @@ namespace meniscus {
 /// Where the vertices of the new mesh lie among the old cells of the groups that they touch.
 [[nodiscard]] Field<TetVertexId, CellTree::Hit> locate_vertices(const MeshOverlay& overlay);
 
-/// The values there of a field on the old vertices: Σ w_k (u_k + ½ ∇u_k · (x − x_k)), kept between
-/// the least and the greatest u_k, with the weights w_k of linear interpolation and the mean
-/// gradients ∇u_k of the group's cells at each corner. Linear.
+/// The values of a field on the old vertices at these points: Σ w_k (u_k + ½ ∇u_k · (x − x_k)),
+/// kept between the least and the greatest u_k, with the weights w_k of linear interpolation and
+/// the mean gradients ∇u_k of the group's cells at each corner. Linear.
 [[nodiscard]] Field<TetVertexId, double> interpolated_at_vertices(
     const MeshOverlay& overlay, const Field<TetVertexId, CellTree::Hit>& hits,
     const Field<TetVertexId, double>& values);

@@ -61,7 +61,7 @@ using Symmetric = std::array<double, 6>;
 /// Σ_j r (r·u_j)(r·a_j)/r⁵: the double layer of u, times −4π/6 when the kernel is −6 rrr/r⁵.
 [[nodiscard]] Vec3 double_layer_sum(const SourcePoints& points, const SourceVectors& u,
                                     const Vec3& p);
-/// The same sums over a range for q = 1 and u = the unit vectors.
+/// Both sums over a range of the points, for q = 1 and for u = the unit vectors.
 struct ConstantLayers {
   Vec3 single = Vec3::Zero();
   Symmetric double_layer{};  ///< Σ rr (r·a_j)/r⁵

@@ -68,8 +68,8 @@ class RowBuilder {
     find_near_faces(surface,
                     own == m ? &surface.elements.n[VertexId{i - surface.range.begin}] : nullptr);
     if (near_.empty()) return;
-    // The rule's own integrals of the constants; what they are short of the exact ones is the error
-    // that subtraction removes.
+    // The rule's integrals of constants. They differ from the exact ones by the error that the
+    // subtraction removes.
     constant_ = constant_layer_sums(geometry_.points, surface.range, x_);
     for (const FaceId f : near_) add_face(m, f, i);
     if (own == m) {
