@@ -15,7 +15,7 @@ struct SampledDistance {
 
 struct DistanceOptions {
   double relative_error = 0.01;  ///< of the distance: where the search ends
-  double absolute_error = 1e-6;  ///< of the diagonal of the box around both surfaces: likewise
+  double absolute_error = 1e-6;  ///< of the diagonal of both surfaces' box: where it ends too
   int max_splits = 300'000;      ///< beyond, the error reached is reported, however large
 };
 

@@ -177,8 +177,8 @@ class Conservation {
                         shares, range_of(before));
   }
 
-  /// Both are compared at the centre of the new face: at the part itself the slope would count, and
-  /// with it how parts happen to lie.
+  /// Old and new values are compared at the centre of the new face: at the part itself the slope
+  /// would count, and with it how parts happen to lie.
   FieldExcess keep(FaceField<double>& values, const FaceField<double>& before,
                    const FaceReconstruction& reconstruction) const {
     FaceField<double> missing(values.size(), 0.0);

@@ -223,8 +223,8 @@ int next_id(const Scene& scene) {
   return id;
 }
 
-/// A small drop that the remesher alone does not bring to its vertices is given even triangles
-/// first.
+/// Gives a small drop even triangles before it is remeshed: the remesher alone does not bring it to
+/// its fewest vertices.
 void give_vertices(Interface& interface, const RemeshOptions& options, FieldExcess& excess) {
   const double area = surface_area(interface.mesh), volume = enclosed_volume(interface.mesh);
   const double edge = length_of_density(1.5 * static_cast<double>(options.min_vertices) / area);
@@ -234,7 +234,7 @@ void give_vertices(Interface& interface, const RemeshOptions& options, FieldExce
   interface.mesh = std::move(even->surface.mesh);
   interface.fields = std::move(even->surface.fields);
   widen(excess, even->excess);
-  // It is fit as it is.
+  // The surface is sound even if it cannot be remeshed.
   widen(excess, remesh(interface.mesh, options, interface.fields).field_excess);
 }
 

@@ -15,7 +15,7 @@ namespace meniscus {
 
 /// The closest place of a film: where two interfaces, or two parts of one, face each other.
 struct Gap {
-  std::size_t a = 0, b = 0;   ///< interfaces of the scene; the same: two parts of one
+  std::size_t a = 0, b = 0;   ///< interfaces of the scene; equal for two parts of one
   Side side = Side::outside;  ///< on which side of a the film lies
   double width = 0.0;         ///< [R0]
   Vec3 from = Vec3::Zero();   ///< on a

@@ -11,8 +11,8 @@ namespace meniscus {
 /// How the vertices between the surfaces follow them (§4.4 of hooper2001).
 enum class VolumeMotion { spines, lagrangian, harmonic };
 
-/// Velocity of every mesh vertex, time and again while a mesh moves: `interface_motion` on the
-/// interfaces, zero on the outer boundary, and between them
+/// The velocity of every mesh vertex, asked for repeatedly while a mesh moves: `interface_motion`
+/// on the interfaces, zero on the outer boundary, and between them
 ///  * spines: along the ray from the drop's centre (one star-shaped drop; elsewhere harmonic),
 ///  * lagrangian: the fluid's velocity `fluid`,
 ///  * harmonic: the solution of ∇·(|K|⁻¹∇w) = 0. Its matrix and multigrid are kept as long as the

@@ -58,7 +58,7 @@ TEST(BoxTree, NamesTheBoxesBeforeOneThatAreNear) {
   EXPECT_EQ(tree.earlier_within(1, 2.0), std::vector<std::size_t>{0});
 }
 
-// Of a thousand boxes apart, few hold the least distance.
+// Few of a thousand boxes that lie apart can hold the least distance.
 TEST(BoxTree, AsksFewBoxes) {
   std::vector<Box> boxes;
   for (int i = 0; i < 1000; ++i) {

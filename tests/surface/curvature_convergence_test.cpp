@@ -25,7 +25,7 @@ VertexField<VertexCurvature> osculating(const SurfaceMesh& mesh) {
   return osculating_curvature(mesh, SurfaceTopology(mesh));
 }
 
-/// Of the cubic patches of two rings that make the smooth surface.
+/// The curvatures of the cubic patches of two rings that make the smooth surface.
 VertexField<VertexCurvature> of_patches(const SurfaceMesh& mesh) {
   const SmoothSurface surface(mesh, SurfaceTopology(mesh));
   VertexField<VertexCurvature> result(mesh.num_vertices());
@@ -137,7 +137,7 @@ TEST(CurvatureConvergence, OfOneRingFits) {
     for (const double order :
          {paraboloid.order.k1, paraboloid.order.k2, circles.order.k1, circles.order.k2})
       EXPECT_GT(order, 0.7) << shape.name;
-    // Of curvatures up to 3.
+    // These errors are of curvatures up to 3.
     EXPECT_LT(std::max(circles.finest.k1, circles.finest.k2), 0.015) << shape.name;
   }
 }

@@ -8,7 +8,7 @@
 namespace meniscus {
 namespace {
 
-/// Of the surface as edited, which must be a closed manifold.
+/// The Euler characteristic of an edited surface, which must be a closed manifold.
 int checked_euler_characteristic(const EditMesh& mesh) {
   SurfaceMesh surface;
   const EditMesh::CompactMesh compact = mesh.compact_mesh();

@@ -94,8 +94,8 @@ TEST(PolynomialFit, IsRefusedWherePointsDoNotDetermineIt) {
   EXPECT_FALSE(is_determined<3>(ring));  // u (u² + v²) = u
 }
 
-// Of what quadratic functions of the tangent plane's coordinates are at the ring, the interpolation
-// makes the function.
+// From the values at the ring the interpolation gives back any quadratic function of the tangent
+// plane's coordinates.
 TEST(VertexInterpolation, ReproducesQuadraticFunctions) {
   const SurfaceMesh mesh = stretched_sphere(200, Vec3(1.3, 0.8, 1.0));
   const SurfaceTopology topology(mesh);

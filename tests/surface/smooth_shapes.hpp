@@ -31,7 +31,7 @@ struct SmoothShape {
 class LevelCurvature {
  public:
   explicit LevelCurvature(const SmoothShape& shape);
-  /// The same where the surface has gone under the linear map.
+  /// ⟨κ⟩² at the vertices when the surface has undergone the linear map.
   [[nodiscard]] VertexField<double> squared_rms(const Mat3& map) const;
 
  private:

@@ -12,12 +12,13 @@
 namespace meniscus {
 namespace {
 
-// That of the meshes: else a remeshing alone would change areas.
+// The density of the meshes below: with another, a remeshing alone would change areas.
 constexpr double kC0 = 9.0;
 
 using test::fault_after, test::scene_of, test::wavy_thread;
 
-/// Of what a surface encloses, the part with side · x > 0: ∮ max(side · x, 0) side · n_x dS.
+/// The part with side · x > 0 of the volume that a surface encloses: ∮ max(side · x, 0) side · n_x
+/// dS.
 double volume_beyond_origin(const SurfaceMesh& mesh, double side) {
   double volume = 0.0;
   for (const FaceId f : mesh.faces.ids()) {
@@ -167,7 +168,7 @@ TEST(Breakup, DoesNotDependOnTheNumberingOfVertices) {
   for (const unsigned seed : {4U, 5U}) {
     const Scene other = broken(test::shuffled(mesh, seed));
     ASSERT_EQ(other.interfaces.size(), scene.interfaces.size());
-    // The same cuts; of the caps that CGAL makes, the triangles depend on numbering a little. They
+    // The cuts are alike; the triangles of CGAL's caps depend on the numbering a little. The caps
     // enclose about π r³/3 each, and a drop has up to two.
     for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
       EXPECT_NEAR(other.interfaces[i].volume, scene.interfaces[i].volume,

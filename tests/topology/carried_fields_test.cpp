@@ -65,7 +65,8 @@ void expect_same(const Amounts& after, const Amounts& before) {
   EXPECT_NEAR(after.on_faces, before.on_faces, 1e-12 * before.size);
 }
 
-/// Of the wave: |f| ≤ 1. What is interpolated never leaves that, what is conserved by the excess.
+/// The range of the wave is |f| ≤ 1. Interpolated fields never leave it, conserved ones by the
+/// excess.
 void expect_in_range(const SurfaceFields& fields, const FieldExcess& excess) {
   const auto expect = [](const auto& field, double above, double below) {
     const auto [low, high] = std::ranges::minmax(field.values);

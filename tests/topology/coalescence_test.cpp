@@ -326,8 +326,8 @@ TEST(Coalescence, TakesOutAFilmThatItWouldTrap) {
 }
 
 TEST(Coalescence, LeavesAFilmThatCanBeResolvedWithinARing) {
-  // That of a sphere of radius 0.09, more than four limits: bridges are built along the ring, and
-  // the film drains between them.
+  // The film's volume is that of a sphere of radius 0.09, more than four limits: bridges are built
+  // along the ring, and the film drains between them.
   constexpr double kRing = 0.15;
   Scene scene = two_dimpled_spheres(kRing, 0.7 * kGap, 6.0 * kGap);
   const Scene before = scene;

@@ -29,7 +29,7 @@ constexpr double kC0 = 42.0 / (4.0 * std::numbers::pi);
 constexpr double kBox = 2.5;
 constexpr double kStep = 0.15;  // at 0.2 some drops crumple beyond mending
 constexpr int kTurn = 8;        // steps: strains of one or two
-// Of a drop of this radius a neck is made and what comes of it can still be told from its neck.
+// A drop of this radius is drawn to a neck, and its pieces can still be told from the neck.
 constexpr double kBreakable = 2.2 * kBreakupRadius;
 // Area over the sphere's beyond which a drop is only gathered: that of a cylinder nine diameters
 // long, or of a disc a sixth as thick as wide.

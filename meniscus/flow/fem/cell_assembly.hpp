@@ -52,7 +52,7 @@ class CellAssembly {
   void add_lower_left(const Matrices& matrices, CellId c);
   template <class Matrices>
   void add_pressure_blocks(const Matrices& matrices, CellId c);
-  /// Where B or what stands on its pattern joins pressure k and velocity j of a cell.
+  /// The entry that joins pressure k and velocity j of a cell, in B or a matrix of its pattern.
   [[nodiscard]] Eigen::Map<Vec3> coupling(std::vector<double>& values, CellId c, std::size_t k,
                                           std::size_t j) const;
   [[nodiscard]] static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }

@@ -47,7 +47,7 @@ struct CellMatrices {
   [[nodiscard]] double pressure_mass(std::size_t k) const {
     return masses.col(static_cast<Eigen::Index>(k)).sum();
   }
-  /// The same of the lower left block, which is B's in Newtonian liquids.
+  /// The entry of the lower left block, which is B's in Newtonian liquids.
   [[nodiscard]] Vec3 lower_left_of(std::size_t k, std::size_t j) const {
     return divergence_of(k, j);
   }

@@ -16,7 +16,7 @@ Scene ellipsoid_in_shear(int num_vertices, double lambda) {
   return scene;
 }
 
-/// The same inside a sphere of radius 20 that moves with the imposed flow: it changes the drop's
+/// A scene inside a sphere of radius 20 that moves with the imposed flow: it changes the drop's
 /// rates by about (5/2)(5λ + 2)/(2(λ + 1)) 20⁻³, less than 1.3e-3.
 Scene within_walls(Scene scene) {
   scene.is_unbounded = false;

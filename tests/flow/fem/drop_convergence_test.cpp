@@ -110,7 +110,7 @@ double largest_relaxation_error(double b, CapillaryForm form) {
   return largest;
 }
 
-// As in the unbounded liquid: 4 % at N0 = 400.
+// The error is that in the unbounded liquid, 4 % at N0 = 400.
 TEST(SmallDeformation, NodalRelaxationIsAsAccurateNearAWall) {
   EXPECT_LT(largest_relaxation_error(2.0, CapillaryForm::nodal), 0.04);
 }

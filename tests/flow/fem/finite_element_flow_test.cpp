@@ -66,7 +66,7 @@ VertexField<Vec3> drop_velocity(const Scene& scene, double rtol) {
 }
 
 // The forces on a boundary far away, which grow with its distance squared, must not loosen it.
-TEST(FiniteElementFlow, ToleranceDoesNotHangOnHowFarTheBoundaryIs) {
+TEST(FiniteElementFlow, ToleranceDoesNotDependOnHowFarTheBoundaryIs) {
   for (const double outer_radius : {10.0, 100.0}) {
     const Scene scene = shear_scene(outer_radius);
     const VertexField<Vec3> loose = drop_velocity(scene, 1e-6), tight = drop_velocity(scene, 1e-11);
@@ -154,7 +154,7 @@ TEST(FiniteElementFlow, TheLastSolutionFollowsToAnotherMesh) {
     EXPECT_EQ(resumed.iterations, carried.iterations);
     EXPECT_EQ(resumed.velocity[0], carried.velocity[0]);
     options.rtol = 1e-11;
-    // As far as the tolerance takes it in ToleranceDoesNotHangOnHowFarTheBoundaryIs.
+    // The bound is that of ToleranceDoesNotDependOnHowFarTheBoundaryIs.
     EXPECT_LT(largest_difference(carried.velocity[0], flow_in(scene, options).velocity[0]), 3e-4);
   }
 }
@@ -220,10 +220,10 @@ TEST(FiniteElementFlow, ADamagedCheckpointIsRefused) {
   EXPECT_THROW(restored.load(short_guess, scene), InvalidInput);
 }
 
-// Of the flow in the volume: the interfaces' own velocities have had their net flux taken out. A
+// The flow in the volume is tested: the interfaces' velocities have had their net flux taken out. A
 // pressure constant in one drop alone tests its continuity equation, ∫∇·v dV = 0, which needs a
-// pressure that jumps at both interfaces.
-// The mean over the nodes, of which most are near the drop, is another.
+// pressure that jumps at both interfaces. The mean over the nodes, of which most are near the drop,
+// is another.
 TEST(FiniteElementFlow, PressureIsRelativeToItsMeanOverTheMatrix) {
   for (const Elements elements : {Elements::p1_p1, Elements::p2_p1}) {
     Options options;

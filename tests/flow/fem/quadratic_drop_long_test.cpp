@@ -45,7 +45,7 @@ TEST(QuadraticDropLong, IsNearlyAtRestUnderTensionAlone) {
   EXPECT_LT(static_sphere(400, {CapillaryForm::weak, Elements::p2_p1}).largest_velocity, 3e-4);
 }
 
-/// Of an error that is a function of N0, in 1/N0.
+/// The order in 1/N0 of an error that is a function of N0.
 template <class Error>
 double order_in_nodes(const std::vector<int>& num_vertices, Error error) {
   std::vector<double> errors;

@@ -76,7 +76,7 @@ TEST_P(RanksBySolver, TogetherFindWhatOneFindsAlone) {
   EXPECT_EQ(together.report.solver, linear_solver);
   EXPECT_LT(together.report.residual, 2.1e-10 * together.report.reference);
   EXPECT_NEAR(together.report.reference, alone.report.reference, 1e-12 * alone.report.reference);
-  // As for two solvers on one process (stokes_solver_test.cpp).
+  // The bound of two solvers on one process (stokes_solver_test.cpp).
   EXPECT_LT(largest_velocity_difference(alone.state, together.state), 4e-6);
   for (std::size_t i = 0; i < alone.state.p.size(); ++i)
     EXPECT_NEAR(alone.state.p[i], together.state.p[i], 7e-6);

@@ -50,8 +50,7 @@ struct StaticSphere {
                                          const Method& method = CapillaryForm::weak);
 [[nodiscard]] double measured_relaxation_in_wall(int num_vertices, double lambda, double b,
                                                  const Method& method);
-/// The same in closed form (derived by computer algebra; its values at b → ∞ are the unbounded
-/// drop's).
+/// cE in closed form (derived by computer algebra; its values at b → ∞ are the unbounded drop's).
 [[nodiscard]] double exact_stretching(double lambda, double b);
 
 /// Velocity of a drop at the centre of a sphere of radius b at rest, under a body force in it whose

@@ -13,10 +13,10 @@ enum class DropShape {
             ///< radius 0.11 between bulbs of radius 0.56
 };
 
-/// Its surface along the x-axis, remeshed to the density ρ = C0⟨κ⟩² with C0 = N0/4π.
+/// The surface of a shape along the x-axis, remeshed to the density ρ = C0⟨κ⟩² with C0 = N0/4π.
 [[nodiscard]] SurfaceMesh graded_surface(DropShape shape, int N0);
 
-/// That drop in uniaxial extension at Ca = 0.17, in a sphere of radius 10.
+/// A drop of such a shape in uniaxial extension at Ca = 0.17, in a sphere of radius 10.
 [[nodiscard]] Scene stretched_drop(DropShape shape, int N0, double lambda);
 
 /// The flow problem of that instant, with the weak capillary force.
