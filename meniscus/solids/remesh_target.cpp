@@ -22,23 +22,23 @@ double equivalent_radius(double volume) {
   return std::cbrt(3.0 * std::abs(volume) / (4.0 * std::numbers::pi));
 }
 
-/// The surface in units of its equivalent radius, its middle at the origin.
-struct Frame {
+/// Scales a surface to an equivalent radius of 1, its middle at the origin.
+struct Scaling {
   Vec3 center;
   double radius;
-  explicit Frame(const SurfaceMesh& mesh)
+  explicit Scaling(const SurfaceMesh& mesh)
       : center(mean_vertex(mesh)), radius(equivalent_radius(enclosed_volume(mesh))) {
     MENISCUS_ASSERT(radius > 0.0, "a surface without volume");
   }
-  void enter(SurfaceMesh& mesh) const {
+  void apply(SurfaceMesh& mesh) const {
     for (Vec3& x : mesh.x) x = (x - center) / radius;
   }
-  void leave(SurfaceMesh& mesh) const {
+  void undo(SurfaceMesh& mesh) const {
     for (Vec3& x : mesh.x) x = center + radius * x;
   }
 };
 
-/// Pieces in units of the frame; those that lie inside out in another are turned and marked.
+/// The pieces of a surface; those that lie inside out in another are turned and marked.
 std::vector<Piece> pieces_of(const SurfaceMesh& mesh) {
   std::vector<Piece> pieces;
   for (SurfaceMesh& piece : connected_pieces(mesh)) {
@@ -50,8 +50,8 @@ std::vector<Piece> pieces_of(const SurfaceMesh& mesh) {
   return pieces;
 }
 
-/// The target in units of the frame.
-RemeshTarget target_in_frame(RemeshTarget target, double radius) {
+/// The target for a surface that was scaled by 1/radius.
+RemeshTarget scaled_target(RemeshTarget target, double radius) {
   if (target.by != By::nodes) target.value /= radius;
   target.edge_floor /= radius;
   return target;
@@ -78,9 +78,9 @@ TargetReport remesh_to(SurfaceMesh& mesh, const RemeshTarget& target) {
   target.validate();
   require_thickness(mesh, target);
   SurfaceMesh working = mesh;
-  const Frame frame(mesh);
-  frame.enter(working);
-  const RemeshTarget inner = target_in_frame(target, frame.radius);
+  const Scaling scaling(mesh);
+  scaling.apply(working);
+  const RemeshTarget inner = scaled_target(target, scaling.radius);
 
   std::vector<Piece> pieces = pieces_of(working);
   if (inner.by == By::edge_length)
@@ -105,9 +105,9 @@ TargetReport remesh_to(SurfaceMesh& mesh, const RemeshTarget& target) {
       report.fault = std::move(fault);
       return report;
     }
-  frame.leave(working);
+  scaling.undo(working);
   mesh = std::move(working);
-  if (target.by != By::nodes) report.reached *= frame.radius;
+  if (target.by != By::nodes) report.reached *= scaling.radius;
   return report;
 }
 

@@ -42,7 +42,7 @@ struct Found {
 [[nodiscard]] double next_setting(double setting, double measure, double last_setting,
                                   double last_measure, double aim);
 
-/// Remeshes pieces to a target, in the units of the frame.
+/// Remeshes scaled pieces to a target scaled alike.
 class TargetSearch {
  public:
   /// Ends at the `most_failures`-th pass that fails.
