@@ -248,7 +248,7 @@ SmoothShape refined(const SmoothShape& shape) {
   return result;
 }
 
-SmoothShape moved(const SmoothShape& shape, const Mat3& map, const Vec3& shift) {
+SmoothShape affine_image(const SmoothShape& shape, const Mat3& map, const Vec3& shift) {
   SmoothShape result = shape;
   const Mat3 back = map.inverse();
   result.level = [level = shape.level, back, shift](const Vec3& x) {

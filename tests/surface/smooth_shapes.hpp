@@ -24,7 +24,8 @@ struct SmoothShape {
 /// The shape with every face of its mesh parted into four, the new vertices on the level.
 [[nodiscard]] SmoothShape refined(const SmoothShape& shape);
 /// The shape under x → map·x + shift.
-[[nodiscard]] SmoothShape moved(const SmoothShape& shape, const Mat3& map, const Vec3& shift);
+[[nodiscard]] SmoothShape affine_image(const SmoothShape& shape, const Mat3& map,
+                                       const Vec3& shift);
 
 /// ⟨κ⟩² = (k1² + k2²)/2 at the vertices of the shape's mesh, from the gradient and the second
 /// derivatives of the level (central differences, relative error about 1e-6).

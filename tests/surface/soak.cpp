@@ -93,7 +93,7 @@ std::vector<Subject> random_subjects(std::mt19937& random, unsigned kind) {
     double near = 0.0, far = 20.0;
     const SurfaceMesh& fixed = subjects[0].shape.mesh;
     const auto at = [&](double distance) {
-      return moved(other, Mat3::Identity(), distance * Vec3::UnitX());
+      return affine_image(other, Mat3::Identity(), distance * Vec3::UnitX());
     };
     for (int i = 0; i < 30; ++i) {
       const double middle = 0.5 * (near + far);
