@@ -92,9 +92,9 @@ constexpr std::array<Column<Event>, 16> kEvents{{
      [](const Event& e) {
        return Cell(e.row.kind == EventKind::breakup ? "breakup" : "coalescence");
      }},
-    {"x", "R0", [](const Event& e) { return Cell(e.row.place.x()); }},
-    {"y", "R0", [](const Event& e) { return Cell(e.row.place.y()); }},
-    {"z", "R0", [](const Event& e) { return Cell(e.row.place.z()); }},
+    {"x", "R0", [](const Event& e) { return Cell(e.row.position.x()); }},
+    {"y", "R0", [](const Event& e) { return Cell(e.row.position.y()); }},
+    {"z", "R0", [](const Event& e) { return Cell(e.row.position.z()); }},
     {"parents", "", [](const Event& e) { return joined(e.row.parents); }},
     {"children", "", [](const Event& e) { return joined(e.row.children); }},
     {"volume_before", "R0³", [](const Event& e) { return Cell(e.row.volume_before); }},

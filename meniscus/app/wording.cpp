@@ -61,7 +61,7 @@ std::string text_of(const TopologyEvent& event, double t) {
           : std::tuple("coalescence", *event.gap, "a gap of");
   return fmt::format("{} at t = {:.6g}: drop {} -> {}, at {} {:.3g} near ({:.4g}, {:.4g}, {:.4g})",
                      kind, t, joined(event.parents), joined(event.children), what, size,
-                     event.place.x(), event.place.y(), event.place.z());
+                     event.position.x(), event.position.y(), event.position.z());
 }
 
 void log_growth(const FieldExcess& before, const FieldExcess& now, double t) {

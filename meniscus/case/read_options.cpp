@@ -61,7 +61,7 @@ EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elem
                     options.max_step);
   options.follows_drops = settings.choice("domain.frame", words::domain_frames);
   options.remesh_every = settings.whole("interface.remesh-every");
-  options.equilibrium = settings.number("interface.equilibrium");
+  options.spring_tolerance = settings.number("interface.equilibrium");
   options.edge_floor =
       settings.number_or("interface.edge-floor", 0.5 * settings.number("topology.breakup-radius"));
   options.topology = read_topology(settings, options.edge_floor);

@@ -39,7 +39,7 @@ TopologyEvent read_event(Reader<std::int64_t>& whole, Reader<double>& real) {
   const std::int64_t parents = whole.next(), children = whole.next();
   event.parents = read_ids(whole, parents);
   event.children = read_ids(whole, children);
-  for (int k = 0; k < 3; ++k) event.place[k] = real.next();
+  for (int k = 0; k < 3; ++k) event.position[k] = real.next();
   for (double* value : {&event.volume_before, &event.volume_after, &event.area_before,
                         &event.area_after, &event.energy_before, &event.energy_after})
     *value = real.next();
@@ -60,11 +60,11 @@ void save_events(const std::vector<TopologyEvent>& events, Archive& archive) {
                                static_cast<std::int64_t>(event.children.size())});
     whole.insert(whole.end(), event.parents.begin(), event.parents.end());
     whole.insert(whole.end(), event.children.begin(), event.children.end());
-    real.insert(
-        real.end(),
-        {event.place.x(), event.place.y(), event.place.z(), event.volume_before, event.volume_after,
-         event.area_before, event.area_after, event.energy_before, event.energy_after,
-         event.neck_radius.value_or(event.gap.value_or(0.0)), event.volume_moved});
+    real.insert(real.end(),
+                {event.position.x(), event.position.y(), event.position.z(), event.volume_before,
+                 event.volume_after, event.area_before, event.area_after, event.energy_before,
+                 event.energy_after, event.neck_radius.value_or(event.gap.value_or(0.0)),
+                 event.volume_moved});
   }
 }
 

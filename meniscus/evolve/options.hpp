@@ -25,9 +25,9 @@ struct EvolutionOptions {
   /// the start, as experiments hold a drop at a stagnation point (bentley1986); the domain and the
   /// imposed flow move along.
   bool follows_drops = false;
-  int remesh_every = 1;      ///< steps between remeshings
-  double equilibrium = 0.0;  ///< of the springs (RemeshOptions); 0: what the remesher chooses
-  double edge_floor = 0.0;   ///< [R0] no interface edge is asked to be shorter
+  int remesh_every = 1;           ///< steps between remeshings
+  double spring_tolerance = 0.0;  ///< of the springs (RemeshOptions); 0: what the remesher chooses
+  double edge_floor = 0.0;        ///< [R0] no interface edge is asked to be shorter
   double gap_layers = 0.0;   ///< layers of tetrahedra asked for where sheets are close; 0: none
   TopologyOptions topology;  ///< when necks are cut and gaps bridged
 };

@@ -15,7 +15,7 @@ RemeshOptions remesh_options(const Interface& interface, const EvolutionOptions&
   RemeshOptions options = sound_remeshing(interface.C0, run.edge_floor);
   options.restores_volume = run.surface == SurfaceShape::faceted;
   if (options.restores_volume) options.volume = interface.volume;
-  options.spring_tolerance = run.equilibrium;
+  options.spring_tolerance = run.spring_tolerance;
   options.gap_layers = run.gap_layers;
   options.neighbours = std::move(neighbours);
   return options;

@@ -119,13 +119,13 @@ std::optional<Fault> replace_with_little_area(Scene& scene, InterfaceReplacement
   Scene after = scene;
   if (auto fault = replace_interfaces(after, std::move(replacement), event)) return fault;
   if (event.area_after - event.area_before > most_added)
-    return Fault{FaultKind::added_area, "it would add area", event.place};
+    return Fault{FaultKind::added_area, "it would add area", event.position};
   scene = std::move(after);
   return {};
 }
 
 std::optional<Fault> cut(Scene& scene, const DueNeck& due, Surgery surgery, TopologyEvent& event) {
-  event.place = due.neck.center;
+  event.position = due.neck.center;
   if (due.side == Side::inside) {
     event.kind = EventKind::breakup;
     event.neck_radius = due.neck.radius;
@@ -178,7 +178,7 @@ std::optional<std::string> unlikeness(const Scene& scene, const Gap& gap) {
 std::optional<Fault> open_gap(Scene& scene, const Gap& gap, const TopologyOptions& options,
                               TopologyEvent& event) {
   event.kind = EventKind::coalescence;
-  event.place = gap.middle();
+  event.position = gap.middle();
   event.gap = gap.width;
   Surgery surgery = bridge_gap(scene, gap, {options.coalescence_gap, options.edge_floor});
   if (surgery.fault) return std::move(surgery.fault);

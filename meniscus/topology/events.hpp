@@ -15,7 +15,7 @@ enum class EventKind { breakup, coalescence };
 /// One change of topology, as events.csv has it (docs/notation.md).
 struct TopologyEvent {
   EventKind kind = EventKind::breakup;
-  Vec3 place = Vec3::Zero();  ///< middle of the neck that was cut or of the gap that was bridged
+  Vec3 position = Vec3::Zero();  ///< middle of the neck that was cut or of the gap that was bridged
   std::vector<int> parents, children;              ///< ids of drops
   double volume_before = 0.0, volume_after = 0.0;  ///< all parents, all children [R0³]
   double area_before = 0.0, area_after = 0.0;      ///< [R0²]

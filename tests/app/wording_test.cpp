@@ -31,7 +31,7 @@ TEST(Wording, AnnouncesEventsByTheirKind) {
   event.parents = {0};
   event.children = {1, 2};
   event.neck_radius = 0.01;
-  event.place = Vec3(1.0, 0.0, -0.5);
+  event.position = Vec3(1.0, 0.0, -0.5);
   EXPECT_EQ(text_of(event, 2.0),
             "breakup at t = 2: drop 0 -> 1, 2, at a neck of radius 0.01 near (1, 0, -0.5)");
   event.kind = EventKind::coalescence;

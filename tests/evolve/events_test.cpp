@@ -122,7 +122,7 @@ TEST(EvolutionEvents, ArePartOfTheCheckpointAfterThem) {
   const TopologyEvent &a = evolution.events()[0], &b = again.events()[0];
   EXPECT_EQ(a.parents, b.parents);
   EXPECT_EQ(a.children, b.children);
-  EXPECT_EQ(a.place, b.place);
+  EXPECT_EQ(a.position, b.position);
   EXPECT_EQ(a.gap, b.gap);
   EXPECT_EQ(a.neck_radius, b.neck_radius);
   EXPECT_EQ(a.energy_after, b.energy_after);

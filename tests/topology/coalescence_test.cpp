@@ -57,7 +57,7 @@ TEST(Coalescence, JoinsTwoSpheresThatApproach) {
   EXPECT_LT(*event.gap, kGap);
   EXPECT_GE(*event.gap, 0.5 * kGap);
   // Vertices are an edge apart, 0.17, and the spheres flat there over half of that: 0.17²/4.
-  EXPECT_LT(event.place.norm(), 0.17);
+  EXPECT_LT(event.position.norm(), 0.17);
   ASSERT_EQ(scene.interfaces.size(), 1U);
   EXPECT_EQ(euler_characteristic(scene.interfaces[0].mesh), 2);
   EXPECT_EQ(scene.interfaces[0].parent, 0);
@@ -278,7 +278,7 @@ TEST(Coalescence, DoesNotDependOnTheNumberingOfVertices) {
     events.push_back(report.events[0]);
   }
   for (std::size_t k = 1; k < events.size(); ++k) {
-    EXPECT_LT((events[k].place - events[0].place).norm(), 1e-12);
+    EXPECT_LT((events[k].position - events[0].position).norm(), 1e-12);
     EXPECT_NEAR(*events[k].gap, *events[0].gap, 1e-12);
   }
 }
@@ -336,7 +336,7 @@ TEST(Coalescence, LeavesAFilmThatCanBeResolvedWithinARing) {
   EXPECT_TRUE(report.warnings.empty());
   EXPECT_EQ(fault_after(before, scene, report), "");
   for (const TopologyEvent& event : report.events)
-    EXPECT_NEAR(std::hypot(event.place.y(), event.place.z()), kRing, 0.01);
+    EXPECT_NEAR(std::hypot(event.position.y(), event.position.z()), kRing, 0.01);
   ASSERT_EQ(scene.interfaces.size(), 1U);
   const auto num_bridges = static_cast<int>(report.events.size());
   EXPECT_EQ(euler_characteristic(scene.interfaces[0].mesh), 4 - 2 * num_bridges);
