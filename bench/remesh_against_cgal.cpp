@@ -35,7 +35,7 @@ double dumbbell_radius(const Vec3& direction, double neck) {
   return std::sqrt(cos_2 + std::sqrt(c2 * c2 - sin2_2));
 }
 
-RemeshOptions even(double edge) {
+RemeshOptions even_mesh_options(double edge) {
   return {.C0 = 1.0,
           .edge_floor = edge,
           .edge_ceiling = edge * (1.0 + 1e-9),
@@ -45,10 +45,10 @@ RemeshOptions even(double edge) {
 
 /// Even triangles, then every vertex moved at random within its tangent plane by up to a fifth of
 /// an edge: what neither of the two has relaxed.
-SurfaceMesh noisy(SurfaceMesh mesh, int num_vertices) {
+SurfaceMesh noisy_mesh(SurfaceMesh mesh, int num_vertices) {
   const double edge = length_of_density(num_vertices / surface_area(mesh));
   for (int pass = 0; pass < 2; ++pass)
-    if (const RemeshReport report = remesh(mesh, even(edge)); !report.ok())
+    if (const RemeshReport report = remesh(mesh, even_mesh_options(edge)); !report.ok())
       std::printf("input: %s\n", report.text().c_str());
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -73,7 +73,7 @@ SurfaceMesh shape(const char* name, int num_vertices) {
     default:
       break;
   }
-  return noisy(std::move(mesh), num_vertices);
+  return noisy_mesh(std::move(mesh), num_vertices);
 }
 
 struct Outcome {
@@ -86,7 +86,7 @@ using Remesher = std::function<Outcome(const SurfaceMesh&, double edge)>;
 Outcome by_us(const SurfaceMesh& input, double edge) {
   Outcome outcome{input, 0.0, 0.0};
   const double start = cpu_seconds();
-  const RemeshReport report = remesh(outcome.mesh, even(edge));
+  const RemeshReport report = remesh(outcome.mesh, even_mesh_options(edge));
   outcome.seconds = cpu_seconds() - start;
   outcome.volume_change = report.volume_change;
   if (!report.ok()) std::printf("ours: %s\n", report.text().c_str());
@@ -105,7 +105,8 @@ Outcome by_cgal(const SurfaceMesh& input, double edge, unsigned iterations) {
 }
 
 /// The median time of remeshing to a mean edge; the length asked for is corrected twice before.
-Outcome measured(const Remesher& remesher, const SurfaceMesh& input, double edge, int repeats) {
+Outcome median_outcome(const Remesher& remesher, const SurfaceMesh& input, double edge,
+                       int repeats) {
   double asked = edge;
   for (int pass = 0; pass < 2; ++pass) asked *= edge / mean_edge(remesher(input, asked).mesh);
   std::vector<double> seconds;
@@ -132,7 +133,7 @@ void compare(const char* name, int num_vertices) {
   const SurfaceMesh input = shape(name, num_vertices);
   const double edge = mean_edge(input);
   const int repeats = num_vertices > 20000 ? 1 : 5;
-  const Outcome ours = measured(by_us, input, edge, repeats);
+  const Outcome ours = median_outcome(by_us, input, edge, repeats);
   print_row(name, "Meniscus", ours, ours.seconds);
   for (const unsigned iterations : {1U, 2U, 3U, 5U, 10U}) {
     const auto remesher = [iterations](const SurfaceMesh& mesh, double l) {
@@ -140,7 +141,7 @@ void compare(const char* name, int num_vertices) {
     };
     char who[32];
     std::snprintf(who, sizeof who, "CGAL, %u iterations", iterations);
-    print_row(name, who, measured(remesher, input, edge, repeats), ours.seconds);
+    print_row(name, who, median_outcome(remesher, input, edge, repeats), ours.seconds);
   }
 }
 

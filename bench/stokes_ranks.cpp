@@ -39,7 +39,7 @@ double seconds(const std::function<void()>& action) {
 enum Phase { partition, partition_and_sparsity, first_solve, second_solve, num_phases };
 using Times = std::array<double, num_phases>;
 
-Times measured(const StokesProblem& problem, const Options& options, int& iterations) {
+Times phase_times(const StokesProblem& problem, const Options& options, int& iterations) {
   Times times{};
   times[partition] = seconds([&] { (void)make_partition(problem.space, world()); });
   std::optional<StokesSolver> solver;
@@ -81,7 +81,7 @@ int main(int count, char** arguments) {
   least.fill(std::numeric_limits<double>::infinity());
   int iterations = 0;
   for (int k = 0; k < static_cast<int>(number(4, 3)); ++k) {
-    const Times now = measured(problem, options, iterations);
+    const Times now = phase_times(problem, options, iterations);
     for (std::size_t i = 0; i < now.size(); ++i) least[i] = std::min(least[i], now[i]);
   }
   if (world().rank() != 0) return EXIT_SUCCESS;

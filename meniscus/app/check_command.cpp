@@ -47,7 +47,7 @@ std::vector<fs::path> chosen_cases(const CheckArguments& arguments) {
   return folders;
 }
 
-/// Whether the options leave a run in; a run made once is made again only when they ask for it.
+/// Whether the options select a run. A run marked once is repeated only on request.
 bool is_chosen(const CheckedRun& run, const CheckArguments& arguments) {
   if (!arguments.runs.empty())
     return std::ranges::find(arguments.runs, run.name) != arguments.runs.end();
@@ -55,7 +55,7 @@ bool is_chosen(const CheckedRun& run, const CheckArguments& arguments) {
   return !run.is_once || arguments.is_once || arguments.is_recorded;
 }
 
-/// Makes the run a check asks for, or takes it up where it was left. False: it could not end.
+/// Makes the run of a check, or resumes it where it stopped. Returns whether it reached its end.
 bool simulate(const fs::path& case_file, const CheckedRun& run, const fs::path& folder,
               bool is_quiet) {
   switch (state_of_run(folder, read_case(case_file, run.overrides))) {
@@ -80,7 +80,7 @@ bool simulate(const fs::path& case_file, const CheckedRun& run, const fs::path& 
   return run_command(arguments) == 0;
 }
 
-/// The tables of every run wanted, simulated or as they were recorded.
+/// The tables of every selected run, simulated or read from the record.
 std::map<std::string, RunTables> tables_of(const fs::path& folder, const std::string& name,
                                            const CheckFile& check,
                                            const CheckArguments& arguments) {
@@ -114,7 +114,7 @@ CheckLine line_of(const CheckRow& row) {
   CheckLine line{.case_name = row.case_name,
                  .run = row.run,
                  .quantity = row.quantity,
-                 .place = {},
+                 .at = {},
                  .reference = {},
                  .measured = {},
                  .deviation = row.note,
@@ -126,9 +126,9 @@ CheckLine line_of(const CheckRow& row) {
                                   : CheckLine::Verdict::failed;
   if (!row.worst) return line;
   if (row.compared > 1)
-    line.place = fmt::format("{:.4g} (worst of {})", row.worst->place, row.compared);
-  else if (std::isfinite(row.worst->place) && row.worst->place != 0.0)
-    line.place = fmt::format("{:.4g}", row.worst->place);
+    line.at = fmt::format("{:.4g} (worst of {})", row.worst->at, row.compared);
+  else if (std::isfinite(row.worst->at) && row.worst->at != 0.0)
+    line.at = fmt::format("{:.4g}", row.worst->at);
   line.reference = fmt::format("{:.5g}", row.worst->reference);
   line.measured = fmt::format("{:.5g}", row.worst->measured);
   line.deviation = amount(row.worst->deviation, row.is_absolute, true);
@@ -143,7 +143,7 @@ std::vector<CheckRow> check_case(const fs::path& folder, const CheckArguments& a
     reference = io::read_commented_table(folder / "reference.csv");
   std::vector<CheckRow> rows =
       compare(name, check, tables_of(folder, name, check, arguments), reference);
-  // What was not asked for is passed over; of the records those that there are not are named.
+  // Runs that were not selected give no rows. With --recorded a missing record stays in the table.
   if (!arguments.is_recorded || !arguments.runs.empty())
     std::erase_if(rows, [](const CheckRow& row) {
       return row.note == "not run" || row.note.starts_with("without");
@@ -161,7 +161,7 @@ int check_command(const CheckArguments& arguments) {
   for (const fs::path& folder : chosen_cases(arguments))
     for (const CheckRow& row : check_case(folder, arguments)) {
       lines.push_back(line_of(row));
-      // Without its run a record says nothing; a run made just now has no excuse.
+      // A missing record does not count as a failure. A run that was just made always counts.
       const bool is_counted = row.is_held() && (row.worst || !arguments.is_recorded);
       held += is_counted ? 1 : 0;
       failed += is_counted && !row.passes() ? 1 : 0;

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using io::RunFiles;
 
-/// Steps that a record keeps, besides the last.
+/// Number of steps that a record keeps, besides the last.
 constexpr std::size_t kRecordedSteps = 120;
 
 Json read_run_json(const fs::path& folder) {
@@ -39,7 +39,7 @@ std::string provenance(const fs::path& folder) {
                      run.value("wall_seconds", 0.0));
 }
 
-/// The step with the smallest gap, which falls between others that are kept; none without gaps.
+/// The step with the smallest gap: a regular stride would miss it. None without gaps.
 std::optional<std::string> narrowest_step(const io::Table& history) {
   const std::vector<double> gaps = history.column("min_gap");
   std::optional<std::size_t> narrowest;
@@ -49,7 +49,7 @@ std::optional<std::string> narrowest_step(const io::Table& history) {
   return history.rows[*narrowest][history.find("step").value()];
 }
 
-/// Every k-th step, the last and the narrowest.
+/// Every k-th step, the last step and the one with the smallest gap.
 std::set<std::string> kept_steps(const io::Table& history) {
   const std::size_t column = history.find("step").value(), count = history.rows.size();
   const std::size_t stride =
@@ -61,7 +61,7 @@ std::set<std::string> kept_steps(const io::Table& history) {
   return steps;
 }
 
-/// A number with seven significant digits, beyond any figure compared; other cells as they are.
+/// A number with seven significant digits, more than any comparison uses. Other cells unchanged.
 std::string short_number(const std::string& cell) {
   if (cell.find_first_of(".e") == std::string::npos) return cell;
   char* end = nullptr;
@@ -69,7 +69,7 @@ std::string short_number(const std::string& cell) {
   return end == cell.c_str() + cell.size() ? fmt::format("{:.7g}", value) : cell;
 }
 
-std::string thinned(const io::Table& table, const std::set<std::string>& steps) {
+std::string table_text(const io::Table& table, const std::set<std::string>& steps) {
   const std::size_t column = table.find("step").value();
   std::string text = fmt::format("{}\n", fmt::join(table.columns, ","));
   for (const std::vector<std::string>& row : table.rows) {
@@ -130,7 +130,7 @@ void write_record(const fs::path& results, const std::string& run, const fs::pat
   const std::string head = provenance(folder);
   fs::create_directories(results);
   const auto write = [&](const char* file, const io::Table& table, const auto& kept) {
-    io::write_file(recorded_file(results, run, file), head + thinned(table, kept));
+    io::write_file(recorded_file(results, run, file), head + table_text(table, kept));
   };
   write(RunFiles::drops, tables.drops, steps);
   write(RunFiles::history, tables.history, steps);

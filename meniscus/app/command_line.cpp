@@ -218,7 +218,7 @@ int run_command_line(int argc, char** argv, SetUp set_up) {
     return print_error(error.what(), 2);
   } catch (const RunFailure& error) {
     return print_error(error.what(), 1);
-  } catch (const std::bad_alloc&) {  // sizes are foreseen; what other programs take is not
+  } catch (const std::bad_alloc&) {  // memory that other programs take cannot be foreseen
     return print_error("not enough memory: fewer nodes or a coarser mesh take less", 1);
   } catch (const std::exception& error) {
     return print_error(error.what(), 1);

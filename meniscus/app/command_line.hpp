@@ -7,7 +7,8 @@ namespace meniscus {
 /// Exit status: 0 done; 1 the run could not go on to its end (a checkpoint is left); 2 the input
 /// was wrong (nothing is written).
 ///
-/// A program of its own may give what it puts on the state of a new run (`RunArguments::set_up`).
+/// A program that extends meniscus passes `set_up`, which prepares the state of each new run
+/// (`RunArguments::set_up`).
 [[nodiscard]] int run_command_line(int argc, char** argv, SetUp set_up = {});
 
 }  // namespace meniscus

@@ -10,10 +10,10 @@
 namespace meniscus {
 
 class Evolution;
-/// Changes the state of a new run before anything is written, as by putting fields on it.
+/// Changes the state of a new run before anything is written, for example adds fields to it.
 using SetUp = std::function<void(Evolution&)>;
 
-/// Whether and where the page of a run is served while it goes on.
+/// Whether and where the page of a run is served while it computes.
 struct WatchArguments {
   bool is_on = false;
   std::string address = "127.0.0.1";
@@ -27,9 +27,9 @@ struct RunArguments {
   bool is_overwrite = false;
   bool is_quiet = false;
   WatchArguments watch = {};
-  SetUp set_up = {};  ///< called when the first meshes are made
+  SetUp set_up = {};  ///< called after the first meshes are made
 };
-/// `meniscus run`. Returns the exit status; so do all below.
+/// `meniscus run`. All commands return the exit status.
 int run_command(const RunArguments& arguments);
 
 struct ResumeArguments {
@@ -53,7 +53,8 @@ int mesh_command(const MeshArguments& arguments);
 struct RemeshArguments {
   std::string surface;
   std::string output;  ///< empty: the surface's name with "-remeshed" before its ending
-  std::optional<double> nodes, edge_length, chordal_error;  ///< none: as many nodes as there are
+  std::optional<double> nodes, edge_length,
+      chordal_error;  ///< all empty: keeps the number of vertices
   double edge_floor = 0.0;
   double gradation = kGradation;
   bool is_json = false;
@@ -65,7 +66,7 @@ struct ReportArguments {
   std::string directory;
   bool is_svg = false, is_png = false;  ///< stills instead of the page
   bool is_movie = false;                ///< interface.mp4 instead of the page
-  std::vector<double> times;            ///< of the stills [1/G]; none: spread over the run
+  std::vector<double> times;            ///< of the stills [1/G]; none: evenly spaced over the run
 };
 int report_command(const ReportArguments& arguments);
 

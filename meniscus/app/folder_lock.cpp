@@ -17,8 +17,7 @@
 namespace meniscus {
 namespace {
 
-/// "process 123", the holder of a lock as /proc/locks lists it; "another process" where it does
-/// not.
+/// The holder of a lock: "process 123" as listed in /proc/locks, else "another process".
 std::string holder_of(int descriptor) {
   struct stat status {};
   if (fstat(descriptor, &status) != 0) return "another process";

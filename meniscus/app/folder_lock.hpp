@@ -4,12 +4,12 @@
 
 namespace meniscus {
 
-/// Keeps other programs from writing a folder. The lock is the system's (`flock`): no file stands
-/// for it, and it ends with its process, however that ends.
+/// Keeps other programs from writing to a folder. The lock is the system's (`flock`): it needs no
+/// file, and the system releases it when the process ends.
 class FolderLock {
  public:
-  /// Throws InvalidInput, with the process that holds it where the system tells, when the folder is
-  /// locked or cannot be opened. File systems that know no locks give none.
+  /// Throws InvalidInput when the folder is locked (naming the holder where known) or cannot be
+  /// opened. On a file system without locks nothing is locked.
   explicit FolderLock(const std::filesystem::path& folder);
   FolderLock(FolderLock&& other) noexcept;
   FolderLock& operator=(FolderLock&& other) noexcept;

@@ -16,7 +16,7 @@
 namespace meniscus {
 namespace {
 
-// The arrays of frames other than carried fields.
+// Names of the arrays that frames always may hold; carried fields must differ.
 constexpr std::array kSurfaceArrays{"curvature",    "normal_velocity", "velocity",
                                     "node_density", "pressure_jump",   "drop"};
 constexpr std::array kVolumeArrays{"velocity", "pressure", "region", "min_dihedral_deg"};
@@ -35,7 +35,7 @@ void append(std::vector<double>& values, const Vec3& v) {
   values.insert(values.end(), {v.x(), v.y(), v.z()});
 }
 
-/// p of the cell's corner at a vertex.
+/// The pressure at the corner of cell c that lies at vertex v.
 double corner_value(const TetMesh& mesh, std::span<const double> on_corners, CellId c,
                     TetVertexId v) {
   const CellVertices& cell = mesh.cells[c];
@@ -44,7 +44,7 @@ double corner_value(const TetMesh& mesh, std::span<const double> on_corners, Cel
   return on_corners[4 * static_cast<std::size_t>(c.value) + corner];
 }
 
-/// Fields as arrays, those of one name on all surfaces one after the other.
+/// One array per field name: the values of all surfaces, one surface after the other.
 template <class IdType>
 void append_fields(const std::vector<CarriedField<IdType>>& fields,
                    std::vector<io::NamedArray>& arrays) {
@@ -55,7 +55,7 @@ void append_fields(const std::vector<CarriedField<IdType>>& fields,
   }
 }
 
-/// p_out − p_in at the vertices of all interfaces; no values where the flow has no pressure.
+/// p_out − p_in at the vertices of all interfaces; empty where the flow has no pressure.
 std::vector<double> pressure_jump(const Evolution& evolution) {
   std::vector<double> jump;
   if (!evolution.state().mesh || !evolution.flow().bulk) return jump;
@@ -69,7 +69,7 @@ std::vector<double> pressure_jump(const Evolution& evolution) {
     for (const FaceId f : triangles.faces.ids()) {
       const auto [inside, outside] = surface.sides[f];
       for (const VertexId v : triangles.faces[f]) {
-        // On either side of an interface the pressure has one value at a vertex: any face will do.
+        // Each side of an interface has one pressure per vertex: any face there gives it.
         const TetVertexId at = surface.vertex(v);
         jump[first + static_cast<std::size_t>(v.value)] =
             corner_value(*mesh, p, outside, at) - corner_value(*mesh, p, inside, at);

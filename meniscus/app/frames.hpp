@@ -6,14 +6,14 @@
 
 namespace meniscus {
 
-/// Throws InvalidInput naming a field with the name of an array that frames hold anyway.
+/// Throws InvalidInput when a field has the name of an array that frames always hold.
 void check_field_names(const Evolution& evolution);
 
-/// All interfaces with curvature κ, normal velocity, velocity, vertex density, the jump of pressure
-/// p_out − p_in (where the solver has a pressure), drop id and the fields that interfaces carry.
+/// Writes all interfaces with curvature κ, normal velocity, velocity, vertex density, pressure jump
+/// p_out − p_in (where the solver has a pressure), drop id and carried fields.
 void write_surface_frame(const std::filesystem::path& path, const Evolution& evolution);
-/// The volume mesh with velocity, pressure (double valued on interfaces), region, cell quality and
-/// the fields that the mesh carries.
+/// Writes the volume mesh with velocity, pressure (double valued on interfaces), region, cell
+/// quality and carried fields.
 void write_volume_frame(const std::filesystem::path& path, const Evolution& evolution);
 
 }  // namespace meniscus

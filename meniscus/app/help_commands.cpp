@@ -11,7 +11,7 @@
 namespace meniscus {
 namespace {
 
-/// The first comment line of an example says what it shows.
+/// The first comment line of an example, which says what it shows.
 std::string_view headline(std::string_view text) {
   const std::string_view line = text.substr(0, text.find('\n'));
   const std::size_t start = line.find_first_not_of("# ");
@@ -38,7 +38,7 @@ int examples_command(const std::string& name, bool is_overwrite) {
   try {
     io::write_file(file, text);
   } catch (const RunFailure& failure) {
-    throw InvalidInput(failure.what());  // the folder was the user's choice, and nothing is lost
+    throw InvalidInput(failure.what());  // the user chose the folder, and nothing is lost
   }
   fmt::print("wrote {}; run it with: meniscus run {}\n", file.string(), file.string());
   return 0;

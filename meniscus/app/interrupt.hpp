@@ -2,9 +2,10 @@
 
 namespace meniscus {
 
-/// A full disk or a closed pipe shall be an error of a write, not a signal that ends the program.
+/// Ignores SIGPIPE and SIGXFSZ: a closed pipe or an exceeded file size is then an error of the
+/// write.
 void ignore_write_signals();
-/// From here on Ctrl-C, SIGTERM and SIGUSR1 ask the run to stop after its step.
+/// Makes Ctrl-C, SIGTERM and SIGUSR1 ask the run to stop after the current step.
 void watch_for_interrupts();
 [[nodiscard]] bool is_interrupted();
 

@@ -20,11 +20,12 @@ using namespace std::chrono_literals;
 
 constexpr const char* json_type = "application/json";
 constexpr const char* binary_type = "application/octet-stream";
-constexpr std::int64_t most_table_bytes = 1 << 22;  // at once; who is behind asks again
+constexpr std::int64_t most_table_bytes = 1
+                                          << 22;  // per answer; a page that lags behind asks again
 
-// A page asks every second; on a busy machine, or in a tab behind others, less often.
+// A page asks every second, less often on a busy machine or in a background tab.
 constexpr auto longest_pause = 5s;
-// Having heard of the end it fetches what is new, one thing after the other.
+// After the end is known, a page still fetches the last tables and frames one by one.
 constexpr auto settling_time = 1s;
 constexpr auto longest_farewell = 6s;
 
@@ -66,7 +67,7 @@ void LiveView::begin(const fs::path& folder) {
 }
 
 void LiveView::update(const RunDirectory& directory) {
-  // Only this thread adds to the lists: their sizes can be read without the lock.
+  // Only this thread adds to the lists, so it may read their sizes without the lock.
   const auto add_new = [&](std::vector<Part>& parts, const std::vector<io::PvdEntry>& entries,
                            LivePart (*pack)(const fs::path&, double)) {
     for (std::size_t k = parts.size(); k < entries.size(); ++k) {
@@ -79,7 +80,7 @@ void LiveView::update(const RunDirectory& directory) {
   try {
     add_new(frames_, directory.surface_frames(), live_surface);
     add_new(cuts_, directory.volume_frames(), live_cuts);
-  } catch (const InvalidInput& error) {  // a view that lacks a frame is no reason to end a run
+  } catch (const InvalidInput& error) {  // a frame missing from the view must not end the run
     log::warning("live view: {}", error.what());
   }
 }

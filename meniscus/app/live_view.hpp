@@ -12,21 +12,21 @@
 
 namespace meniscus {
 
-/// The page of a run while it goes on. What the server gives out is either in memory or one of the
-/// run's tables, under names that are fixed here (docs/report.md); nothing that is asked becomes a
-/// path.
+/// Serves the page of a run while it computes. The server answers from memory or from the run's
+/// tables, under a fixed list of names (docs/report.md); no request becomes a file path.
 class LiveView {
  public:
-  /// Begins to listen; who asks before `begin` is told to wait. Throws InvalidInput when it cannot.
+  /// Begins to listen; requests before `begin` are told to wait. Throws InvalidInput when the
+  /// address cannot be listened at.
   explicit LiveView(const WatchAddress& address);
 
   [[nodiscard]] std::string url() const;
 
-  /// The folder holds run.json now: makes the page.
+  /// Makes the page. The folder must hold run.json.
   void begin(const std::filesystem::path& folder);
   /// Packs the frames that have been written since the last call.
   void update(const RunDirectory& directory);
-  /// Tells how the run ended, and waits for those who look to see it: at most six seconds.
+  /// Publishes how the run ended, and waits at most six seconds for open pages to fetch it.
   void end(const std::string& status);
 
  private:
@@ -41,13 +41,13 @@ class LiveView {
   [[nodiscard]] std::string state() const;
   [[nodiscard]] WatchServer::Answer table(std::string_view path, std::int64_t from) const;
 
-  mutable std::mutex mutex_;  // of all that follows up to the server
+  mutable std::mutex mutex_;  // guards the members from here to `server_`
   std::filesystem::path folder_;
   std::shared_ptr<const std::string> page_;
   std::string status_ = "running";
   std::vector<Part> frames_, cuts_;
-  Clock::time_point asked_{};  ///< the last time that anybody asked
-  bool is_end_known_ = false;  ///< somebody has asked since the status was last set
+  Clock::time_point asked_{};  ///< time of the latest request
+  bool is_end_known_ = false;  ///< a page has asked since the status was set
   std::string address_;
   WatchServer server_;  // last: its thread ends before what it reads
 };

@@ -4,8 +4,8 @@
 
 namespace meniscus {
 
-/// Throws InvalidInput naming option -o unless a file of that name can be made: its folder is there
-/// and can be written to, and the name is not that of a folder.
+/// Throws InvalidInput naming option -o unless the file can be written: its folder exists and is
+/// writable, and the name is not that of a folder.
 void require_writable(const std::filesystem::path& file);
 
 }  // namespace meniscus

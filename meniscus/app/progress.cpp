@@ -35,7 +35,7 @@ std::string bar(double fraction) {
 
 }  // namespace
 
-// Open MPI gives its ranks a terminal of their own, wherever what they write goes.
+// Open MPI gives each rank a terminal of its own, even where output goes to a file.
 Progress::Progress(double start, double end, bool is_quiet)
     : start_(start),
       end_(end),

@@ -7,16 +7,16 @@
 
 namespace meniscus {
 
-/// The progress of a run on standard output: one line rewritten in place on a terminal; into a pipe
-/// or file or under mpirun, plain lines, at most one every few seconds; nothing when quiet, and on
-/// rank 0 alone.
+/// Shows the progress of a run on standard output, on rank 0 only, unless quiet. On a terminal it
+/// rewrites one line. In a pipe, a file or under mpirun it writes plain lines, at most one every
+/// few seconds.
 class Progress {
  public:
   Progress(double start, double end, bool is_quiet);
   void show(const HistoryRow& history, const std::vector<DropRow>& drops);
   /// Ends the line, so that what follows starts on its own.
   void close();
-  /// A line of its own, unless quiet. A closed pipe is no reason to end a run.
+  /// Writes a separate line, unless quiet. A closed pipe does not end the run.
   void say(const std::string& line) const;
 
  private:

@@ -13,12 +13,13 @@
 namespace meniscus {
 namespace {
 
-// Ranks that fail together do so at the same place, up to how unevenly they were given time.
+// Ranks that fail together fail at the same call, but not at the same moment.
 constexpr std::chrono::seconds kPatience{10};
 
 linear::Communicator world() { return linear::Communicator::world(); }
 
-/// What rank 0 threw, as a text that can be sent: empty for nothing, else 'i' or 'f', then why.
+/// The exception of rank 0 as text to broadcast: empty for none, else 'i' (InvalidInput) or 'f'
+/// (other) and the message.
 std::string outcome_of(const std::function<void()>& action) {
   try {
     action();
@@ -38,7 +39,7 @@ int exit_status(const std::exception& failure) {
 
 int num_ranks() { return world().size(); }
 bool is_first_rank() { return world().rank() == 0; }
-bool any_rank(bool own) { return linear::any(world(), own); }
+bool any_rank(bool local) { return linear::any(world(), local); }
 
 void on_first_rank(const std::function<void()>& action) {
   if (num_ranks() == 1) return action();

@@ -4,23 +4,23 @@
 
 namespace meniscus {
 
-// A run under mpirun: every rank goes through all of it, in step, and rank 0 alone writes and
-// speaks. On one rank these do nothing but call what they are given.
+// Helpers for runs under mpirun. Every rank executes the whole run in step; only rank 0 writes
+// files and prints. On one rank these functions just call their argument.
 
 [[nodiscard]] int num_ranks();
 [[nodiscard]] bool is_first_rank();
-/// Whether one rank or more says so: a signal may reach any. Collective.
-[[nodiscard]] bool any_rank(bool own);
-/// Rank 0 acts, after all have come here; what it throws is thrown on all. Collective.
+/// Whether `local` is true on one rank or more, as a signal may reach any rank. Collective.
+[[nodiscard]] bool any_rank(bool local);
+/// Calls `action` on rank 0 after all ranks have arrived. Its exception is thrown on all ranks.
+/// Collective.
 void on_first_rank(const std::function<void()>& action);
 
-/// For a rank that has caught an exception: returns if all have, as they do whenever what failed
-/// was computed by all or made known by `on_first_rank`. Else the others wait for it in vain: says
-/// why and ends all ranks.
+/// Called by a rank that has caught an exception. Returns if all ranks call it: all computed what
+/// failed, or `on_first_rank` threw on all. Otherwise the others would wait for ever: prints the
+/// reason and ends all ranks.
 void require_all_failed(const std::exception& failure);
-/// Runs a command, warnings being rank 0's to give, and ends all ranks with one status and one
-/// message whichever of them throws. Returns the exit status, on rank 0 throws what the command
-/// did.
+/// Runs a command on all ranks with warnings from rank 0 only. Whichever rank throws, all end with
+/// one status and one message. Returns the exit status; on rank 0 rethrows the command's exception.
 [[nodiscard]] int on_all_ranks(const std::function<int()>& command);
 
 }  // namespace meniscus

@@ -58,7 +58,7 @@ SurfaceMesh read_solid(const std::string& file) {
   return mesh;
 }
 
-/// As `remesh_to`; what it refuses is refused with the name of the file.
+/// Calls `remesh_to`; adds the name of the file to its InvalidInput.
 TargetReport remesh_file(const std::string& file, SurfaceMesh& mesh, const RemeshTarget& target) {
   try {
     return remesh_to(mesh, target);
@@ -79,7 +79,7 @@ const char* name(RemeshTarget::By by) {
   return "";
 }
 
-/// All that is printed of one remeshing.
+/// What the command prints about one remeshing.
 struct Outcome {
   RemeshTarget target;
   SurfaceQuality before, after;

@@ -30,14 +30,14 @@ Evolution make_evolution(const Case& c, Scene scene) {
   return evolution;
 }
 
-/// Either solver's work is shared out to all ranks.
+/// The case with either flow solver distributed over all ranks.
 Case shared_case(Case c) {
   c.flow_solver.processes = linear::Processes::all;
   c.boundary_integral.processes = linear::Processes::all;
   return c;
 }
 
-/// What a checkpoint must say for `resume` to build the evolution again.
+/// Adds to a checkpoint what `resume` needs to rebuild the evolution.
 std::function<void(Archive&)> case_description(const Case& c, const fs::path& folder) {
   return [text = case_toml(c),
           folder = fs::absolute(folder / ".").lexically_normal().string()](Archive& archive) {
@@ -46,8 +46,8 @@ std::function<void(Archive&)> case_description(const Case& c, const fs::path& fo
   };
 }
 
-Case described_case(const Archive& archive, const fs::path& checkpoint,
-                    std::span<const std::string> overrides) {
+Case case_of_checkpoint(const Archive& archive, const fs::path& checkpoint,
+                        std::span<const std::string> overrides) {
   const auto text = archive.texts.find("case/toml"), folder = archive.texts.find("case/folder");
   if (text == archive.texts.end() || folder == archive.texts.end())
     reject_input("{}: not the checkpoint of a run", checkpoint.string());
@@ -61,8 +61,8 @@ void finish(const Simulation& simulation, const RunRecord& record, const std::st
   });
 }
 
-/// The live view, if one is wanted: it listens before the run begins, so that nothing is written
-/// when it cannot.
+/// The live view, if requested. It listens before the run begins, so that a failure leaves nothing
+/// written.
 std::unique_ptr<LiveView> make_live_view(const WatchArguments& watch) {
   std::unique_ptr<LiveView> view;
   on_first_rank([&] {
@@ -79,7 +79,7 @@ void begin_live_view(LiveView* view, Simulation& simulation, const Progress& pro
   progress.say(fmt::format("watch the run at {}", view->url()));
 }
 
-/// Runs to the end, keeping run.json and the report true however it ends.
+/// Runs to the end and updates run.json and the report, whatever the outcome.
 int simulate(Simulation& simulation, const RunRecord& record, Progress& progress, LiveView* view) {
   watch_for_interrupts();
   std::string folder;
@@ -116,7 +116,7 @@ int simulate(Simulation& simulation, const RunRecord& record, Progress& progress
   return 0;
 }
 
-/// Rows and frames of a run, for another folder to go on with. All or nothing.
+/// Copies rows and frames of a run to another folder, completely or not at all.
 void copy_run(const fs::path& from, const fs::path& to) {
   (void)RunDirectory::create(to, false);
   try {
@@ -130,8 +130,8 @@ void copy_run(const fs::path& from, const fs::path& to) {
   }
 }
 
-/// What the case is compared with stays with the run, which the page takes it from. A run that
-/// replaces another does not keep that one's.
+/// Copies reference.csv of the case into the run's folder, where the page reads it. Removes the one
+/// of a replaced run.
 void copy_reference(const fs::path& case_folder, const fs::path& run_folder) {
   const fs::path source = case_folder / io::RunFiles::reference,
                  target = run_folder / io::RunFiles::reference;
@@ -143,7 +143,7 @@ void copy_reference(const fs::path& case_folder, const fs::path& run_folder) {
     fs::remove(target, ignored);
 }
 
-/// Drops, domain and units are in the checkpoint, as they have become.
+/// Refuses overrides of drops, domain and units: the checkpoint holds their evolved state.
 void require_changeable(std::span<const std::string> overrides) {
   for (const std::string& override : overrides)
     for (const char* of_the_start : {"drop", "domain", "scale"})
@@ -154,7 +154,7 @@ void require_changeable(std::span<const std::string> overrides) {
             override);
 }
 
-/// A checkpoint goes on only with the rows of the run it was taken in.
+/// Throws InvalidInput unless the checkpoint was taken in the given run.
 void require_same_run(const Archive& archive, const fs::path& checkpoint, const fs::path& run) {
   const fs::path own = newest_checkpoint(run);
   const auto case_of = [](const Archive& a) {
@@ -166,7 +166,7 @@ void require_same_run(const Archive& archive, const fs::path& checkpoint, const 
                  run.string());
 }
 
-/// The smallest step the case allows must not already be too long for its first shapes.
+/// Throws InvalidInput when the smallest step of the case is too long for its initial shapes.
 void require_first_step(const Evolution& evolution, const Case& c) {
   if (evolution.step_length() >= c.evolution.min_step || evolution.is_finished()) return;
   reject_input(
@@ -190,7 +190,7 @@ int run(const RunArguments& arguments) {
   if (arguments.set_up) arguments.set_up(evolution);
   check_field_names(evolution);
   const std::unique_ptr<LiveView> view = make_live_view(arguments.watch);
-  // Only now that the run can begin is anything written.
+  // Nothing is written before the run can begin.
   std::optional<RunDirectory> directory;
   on_first_rank([&] {
     directory = RunDirectory::create(folder, arguments.is_overwrite);
@@ -216,7 +216,7 @@ int resume(const ResumeArguments& arguments) {
   require_changeable(arguments.overrides);
   std::vector<std::string> overrides = arguments.overrides;
   if (arguments.until) overrides.push_back(fmt::format("time.end={}", *arguments.until));
-  const Case c = described_case(archive, checkpoint, overrides);
+  const Case c = case_of_checkpoint(archive, checkpoint, overrides);
   Evolution evolution = make_evolution(c, build_surroundings(c));
   evolution.load(archive);
   if (arguments.until && *arguments.until < evolution.t())

@@ -16,10 +16,10 @@ namespace {
 
 using Measure = CheckedQuantity::Measure;
 
-/// The volume of every drop of every run stays within this (relative).
+/// Largest relative volume drift that a check accepts, for every drop.
 constexpr double kLargestDrift = 1e-6;
-/// Places at which two runs are compared when none are given.
-constexpr int kComparedPlaces = 50;
+/// Number of intervals at whose ends two runs are compared, where the check names no abscissae.
+constexpr int kComparedPoints = 50;
 
 /// The values of a column of drops.csv, by step, for one drop.
 std::map<double, double> by_step(const io::Table& drops, const std::string& column, int drop) {
@@ -62,15 +62,14 @@ double extreme(const CheckedQuantity& quantity, const Series& series) {
   return series.y.back();
 }
 
-/// The value of a column for one event, counted in the order in which they were made; none where
-/// there were fewer events.
+/// The value of a column of events.csv in row `event`; none where there were fewer events.
 std::optional<double> event_value(const RunTables& run, const std::string& column, int event) {
   if (event < 0 || event >= static_cast<int>(run.events.rows.size())) return std::nullopt;
   return run.events.column(column).at(static_cast<std::size_t>(event));
 }
 
-/// The number a quantity has in one run: of an event, an extreme, or the value of its curve at its
-/// one place.
+/// The number of a quantity in one run: the value of an event, an extreme, or the curve's value at
+/// its only abscissa.
 std::optional<double> single_value(const CheckedQuantity& quantity, const RunTables& run) {
   if (quantity.event) return event_value(run, quantity.column, *quantity.event);
   const Series series = series_of(run, quantity);
@@ -78,7 +77,7 @@ std::optional<double> single_value(const CheckedQuantity& quantity, const RunTab
   return series.y.empty() ? std::nullopt : std::optional(extreme(quantity, series));
 }
 
-/// a of the least squares of a + b N0^−order.
+/// The limit a of the least-squares fit a + b N0^−order.
 double limit(const std::vector<double>& nodes, const std::vector<double>& values, double order) {
   double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
   MENISCUS_ASSERT(nodes.size() == values.size() && nodes.size() > 1, "{} values at {} N0",
@@ -156,7 +155,8 @@ class Comparison {
                      .note = {}});
   }
 
-  /// Σ of the shifts that kept that drift small; not of a record, which leaves out most steps.
+  /// Adds the row for the sum of the volume corrections. A record leaves out most steps and gives
+  /// no row.
   void add_corrections(const CheckedRun& run) {
     const auto found = runs_.find(run.name);
     if (found == runs_.end() || !has_all_steps(found->second.history)) return;
@@ -175,15 +175,15 @@ class Comparison {
   void add_extrapolation(const CheckedExtrapolation& entry) {
     CheckRow& row = add(entry.name, entry.quantity);
     std::string missing;
-    const std::optional<double> value = extrapolated(entry, missing);
+    const std::optional<double> value = extrapolation(entry, missing);
     if (!value)
       row.note = missing;
     else
       compare_single(row, entry.quantity, value);
   }
 
-  std::optional<double> extrapolated(const CheckedExtrapolation& entry,
-                                     std::string& missing) const {
+  std::optional<double> extrapolation(const CheckedExtrapolation& entry,
+                                      std::string& missing) const {
     std::vector<double> values;
     for (const std::string& name : entry.runs) {
       const auto found = runs_.find(name);
@@ -198,7 +198,7 @@ class Comparison {
     return limit(entry.nodes, values, entry.order);
   }
 
-  /// What a quantity that is one number is compared with.
+  /// The reference of a quantity that is a single number.
   std::optional<double> single_reference(const CheckedQuantity& quantity) const {
     if (quantity.reference) return quantity.reference;
     if (quantity.against.empty()) return value_at(reference_series(quantity), quantity.at.at(0));
@@ -207,7 +207,7 @@ class Comparison {
     const auto entry =
         std::ranges::find(check_.extrapolations, quantity.against, &CheckedExtrapolation::name);
     std::string missing;
-    return entry == check_.extrapolations.end() ? std::nullopt : extrapolated(*entry, missing);
+    return entry == check_.extrapolations.end() ? std::nullopt : extrapolation(*entry, missing);
   }
 
   void compare_single(CheckRow& row, const CheckedQuantity& quantity,
@@ -240,23 +240,23 @@ class Comparison {
       }
       reference = series_of(run->second, quantity);
     }
-    for (const double place : places(quantity, measured, reference)) {
-      const std::optional<double> a = value_at(measured, place), b = value_at(reference, place);
+    for (const double x : abscissae(quantity, measured, reference)) {
+      const std::optional<double> a = value_at(measured, x), b = value_at(reference, x);
       if (!a || !b) continue;
-      // Without a length of reference a ratio says nothing: spheres at rest have D = 0.
+      // A ratio to zero means nothing: spheres at rest have D = 0.
       if (!quantity.is_absolute && *b == 0.0) continue;
       ++row.compared;
-      const Deviation deviation{place, *b, *a, deviation_of(quantity, *a, *b)};
+      const Deviation deviation{x, *b, *a, deviation_of(quantity, *a, *b)};
       if (!row.worst || std::abs(deviation.deviation) > std::abs(row.worst->deviation))
         row.worst = deviation;
     }
     if (!row.worst) row.note = "not reached";
   }
 
-  /// Where a curve is compared: where it is asked for, at the reference's rows, or between two runs
-  /// at equal distances over the range they share.
-  static std::vector<double> places(const CheckedQuantity& quantity, const Series& measured,
-                                    const Series& reference) {
+  /// Where a curve is compared: at the abscissae of the check, else at the reference's rows, else
+  /// (between two runs) at equal distances over their common range.
+  static std::vector<double> abscissae(const CheckedQuantity& quantity, const Series& measured,
+                                       const Series& reference) {
     if (!quantity.at.empty()) return quantity.at;
     if (quantity.against.empty()) return reference.x;
     std::vector<double> result;
@@ -265,8 +265,8 @@ class Comparison {
                                   *std::ranges::min_element(reference.x)),
                  end = std::min(*std::ranges::max_element(measured.x),
                                 *std::ranges::max_element(reference.x));
-    for (int i = 0; i <= kComparedPlaces && end > begin; ++i)
-      result.push_back(begin + (end - begin) * i / kComparedPlaces);
+    for (int i = 0; i <= kComparedPoints && end > begin; ++i)
+      result.push_back(begin + (end - begin) * i / kComparedPoints);
     return result;
   }
 
@@ -277,14 +277,14 @@ class Comparison {
   std::vector<CheckRow> rows_;
 };
 
-/// Between rows i − 1 and i, the abscissa rising times `sign`: through the two rows on either side
-/// where it rises through all four, else along the line.
+/// Value at x between rows i − 1 and i, where sign · abscissa rises. Cubic through two rows on
+/// either side if the abscissa rises through all four, else linear.
 double between_rows(const Series& series, std::size_t i, double sign, double x) {
   const auto begin = static_cast<std::ptrdiff_t>(i) - 2, end = begin + 4;
   MENISCUS_ASSERT(i > 0 && i < series.x.size(), "row {} of {}", i, series.x.size());
   if (begin >= 0 && end <= std::ssize(series.x)) {
     std::vector<double> xs(series.x.begin() + begin, series.x.begin() + end);
-    for (double& place : xs) place *= sign;
+    for (double& value : xs) value *= sign;
     if (std::ranges::adjacent_find(xs, std::greater_equal()) == xs.end())
       return boost::math::barycentric_rational<double>(xs.data(), series.y.data() + begin, 4,
                                                        3)(sign * x);
@@ -309,9 +309,9 @@ Series series_of(const RunTables& run, const CheckedQuantity& quantity) {
   const std::map<double, double> x = by_step(run, quantity.over, quantity.drop);
   Series series;
   for (const auto& [step, value] : y) {
-    const auto place = x.find(step);
-    if (place == x.end() || !std::isfinite(value) || !std::isfinite(place->second)) continue;
-    series.x.push_back(place->second);
+    const auto found = x.find(step);
+    if (found == x.end() || !std::isfinite(value) || !std::isfinite(found->second)) continue;
+    series.x.push_back(found->second);
     series.y.push_back(value);
   }
   return series;

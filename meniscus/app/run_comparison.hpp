@@ -24,23 +24,23 @@ struct Series {
 /// `column` of a drop's rows (or of the history) against the column `over`; rows where either is
 /// empty are left out. Throws InvalidInput when neither table has the column.
 [[nodiscard]] Series series_of(const RunTables& run, const CheckedQuantity& quantity);
-/// Where the series first passes x, by the cubic through two rows on either side; along the line
-/// between the two at an end, or where the abscissa turns. None where it never passes x. Records
-/// keep some hundred rows: a line between two would miss up to 0.1 % of a quantity that bends.
+/// The value of the series where it first passes x; none where it never does. Cubic through two
+/// rows on either side, linear at an end or where the abscissa turns back. Records keep some
+/// hundred rows: linear interpolation would miss up to 0.1 % of a curved quantity.
 [[nodiscard]] std::optional<double> value_at(const Series& series, double x);
 
 /// A measured value beside its reference.
 struct Deviation {
-  double place = 0.0;  ///< of a curve: the value of `over`
+  double at = 0.0;  ///< value of `over`, for a curve
   double reference = 0.0, measured = 0.0;
-  double deviation = 0.0;  ///< measured/reference − 1, or the difference where that is asked for
+  double deviation = 0.0;  ///< measured/reference − 1, or the difference if the check is absolute
 };
 
 /// One row of the table of checks.
 struct CheckRow {
   std::string case_name, run, quantity;
   std::optional<Deviation> worst;  ///< none: nothing could be compared; `note` says why
-  int compared = 0;                ///< places of a curve
+  int compared = 0;                ///< number of points of a curve
   std::optional<double> tolerance;
   bool is_absolute = false;
   std::string note;

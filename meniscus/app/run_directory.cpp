@@ -27,7 +27,7 @@ std::vector<io::PvdEntry> frames_before(const fs::path& pvd, double t) {
   return entries;
 }
 
-/// The steps of the events in a table and the steps before them: their checkpoints stay.
+/// The steps of the events in a table and the steps before them. Their checkpoints are kept.
 std::set<std::int64_t> steps_around_events(const fs::path& events) {
   std::set<std::int64_t> steps;
   if (!fs::exists(events)) return steps;

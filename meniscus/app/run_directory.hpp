@@ -14,20 +14,19 @@
 
 namespace meniscus {
 
-/// What a run leaves (docs/notation.md): the tables, frames, checkpoints and run.json of one
-/// folder.
+/// The folder of a run (docs/notation.md): its tables, frames, checkpoints and run.json.
 class RunDirectory {
  public:
-  /// Makes a folder for a new run. Throws InvalidInput when the path cannot be a folder or holds a
-  /// run already; with `overwrite` the files of that run are removed first. As long as it lives no
-  /// other program can take the folder: here and in `take_up` that throws InvalidInput.
+  /// Makes a folder for a new run. Throws InvalidInput when the path cannot be a folder, holds a
+  /// run already, or is locked by another program. With `overwrite` the files of that run are
+  /// removed first. The folder stays locked as long as this object lives.
   static RunDirectory create(const std::filesystem::path& path, bool overwrite);
-  /// Takes up a run from the state at `first_step`, time t: rows and frames from there on are
-  /// dropped, to be made again.
+  /// Resumes a run from the state at `first_step`, time t. Rows and frames from there on are
+  /// removed, to be written again. Throws InvalidInput when another program has locked the folder.
   static RunDirectory take_up(const std::filesystem::path& path, std::int64_t first_step, double t);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// What surface.pvd and volume.pvd name.
+  /// The frames that surface.pvd and volume.pvd name.
   [[nodiscard]] const std::vector<io::PvdEntry>& surface_frames() const { return surface_frames_; }
   [[nodiscard]] const std::vector<io::PvdEntry>& volume_frames() const { return volume_frames_; }
 
@@ -36,8 +35,8 @@ class RunDirectory {
   void add_timing(std::int64_t step, double t, const PhaseSeconds& seconds);
   void add_surface_frame(const Evolution& evolution);
   void add_volume_frame(const Evolution& evolution);
-  /// Writes checkpoint-<step>.h5 and removes all but the last two and those around events: of the
-  /// steps in events.csv and the ones before.
+  /// Writes checkpoint-<step>.h5. Keeps the last two checkpoints and those around events (the steps
+  /// in events.csv and the steps before them); removes all others.
   void write_checkpoint(const Archive& archive, std::int64_t step);
   void write_text(const std::string& name, const std::string& text) const;
 
@@ -46,16 +45,17 @@ class RunDirectory {
 
   FolderLock lock_;
   std::filesystem::path path_;
-  std::set<std::int64_t> kept_steps_;  // of checkpoints around events
+  std::set<std::int64_t> kept_steps_;  // steps whose checkpoints are kept because of events
   io::TableWriter history_, drops_, events_, timing_;
   std::vector<io::PvdEntry> surface_frames_, volume_frames_;
 };
 
 /// Throws InvalidInput when `create` would refuse the path.
 void require_usable(const std::filesystem::path& path, bool overwrite);
-/// Removes the files of a run; the folder stays, and what else it holds.
+/// Removes the files of a run. The folder and its other files stay.
 void remove_run(const std::filesystem::path& path);
-/// Removes a run that has no checkpoint to go on from, so that another can begin in the folder.
+/// Removes a run without checkpoint, which could not be resumed, so that another can begin in the
+/// folder.
 void remove_unbegun_run(const std::filesystem::path& path);
 /// Whether a folder holds a run: its history or a checkpoint.
 [[nodiscard]] bool holds_run(const std::filesystem::path& path);

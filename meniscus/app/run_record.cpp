@@ -34,7 +34,7 @@ std::string host_name() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
-/// The numbers that decide physics and stand in no case, room by room.
+/// The constants that decide physics but are not in the case file, by room.
 Json constants() {
   Json rooms = Json::object();
   const auto add = [&](const char* room, std::span<const NamedConstant> list) {

@@ -9,13 +9,13 @@
 
 namespace meniscus {
 
-/// run.json: what ran, where, when and how it ended. All that depends on the clock or the host
-/// stands here and in timing.csv.
+/// Writes run.json: what ran, where, when, and how it ended. Only run.json and timing.csv depend on
+/// the clock or the host.
 class RunRecord {
  public:
   RunRecord(const Case& c, std::string case_file, std::string case_text);
 
-  /// Seconds and steps add to those of the run this one goes on with, read from its run.json.
+  /// Adds the seconds and steps of an earlier part of the run, read from its run.json.
   void go_on_from(const std::filesystem::path& run_json);
   void write(const Simulation& simulation, const std::string& status) const;
 

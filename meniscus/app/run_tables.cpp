@@ -21,13 +21,13 @@ Cell cell(const std::optional<T>& value) {
   return value ? Cell(*value) : Cell();
 }
 
-Cell joined(const std::vector<int>& ids) { return fmt::format("{}", fmt::join(ids, ";")); }
+Cell id_list(const std::vector<int>& ids) { return fmt::format("{}", fmt::join(ids, ";")); }
 
 template <int I, int J>
 Cell stress(const HistoryRow& h) {
   return h.stress ? Cell((*h.stress)(I, J)) : Cell();
 }
-/// Σ_II − Σ_JJ.
+/// The normal-stress difference Σ_II − Σ_JJ.
 template <int I, int J>
 Cell difference(const HistoryRow& h) {
   return h.stress ? Cell((*h.stress)(I, I) - (*h.stress)(J, J)) : Cell();
@@ -95,8 +95,8 @@ constexpr std::array<Column<Event>, 16> kEvents{{
     {"x", "R0", [](const Event& e) { return Cell(e.row.position.x()); }},
     {"y", "R0", [](const Event& e) { return Cell(e.row.position.y()); }},
     {"z", "R0", [](const Event& e) { return Cell(e.row.position.z()); }},
-    {"parents", "", [](const Event& e) { return joined(e.row.parents); }},
-    {"children", "", [](const Event& e) { return joined(e.row.children); }},
+    {"parents", "", [](const Event& e) { return id_list(e.row.parents); }},
+    {"children", "", [](const Event& e) { return id_list(e.row.children); }},
     {"volume_before", "R0³", [](const Event& e) { return Cell(e.row.volume_before); }},
     {"volume_after", "R0³", [](const Event& e) { return Cell(e.row.volume_after); }},
     {"area_before", "R0²", [](const Event& e) { return Cell(e.row.area_before); }},

@@ -18,7 +18,7 @@ struct Column {
   io::Cell (*value)(const Row&);
 };
 
-/// A row of a table, and the step that it belongs to.
+/// A row of a table with its step.
 template <class Row>
 struct RowAtStep {
   std::int64_t step;
@@ -35,7 +35,7 @@ struct RowAtStep {
 [[nodiscard]] std::span<const char* const> timed_phases();
 /// Seconds by phase.
 using PhaseSeconds = std::vector<std::pair<std::string, double>>;
-/// The columns of timing.csv: a phase without its blanks, after `step` and `t`.
+/// The columns of timing.csv: `step`, `t`, then the phases with underscores for blanks.
 [[nodiscard]] std::vector<std::string> timing_columns();
 [[nodiscard]] std::vector<io::Cell> timing_row(std::int64_t step, double t,
                                                const PhaseSeconds& seconds);

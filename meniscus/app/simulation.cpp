@@ -65,7 +65,7 @@ Outcome Simulation::run(Progress& progress) {
     for (const TopologyEvent& event : evolution_.events())
       log::info("{}", text_of(event, evolution_.t()));
     log_growth(excess, evolution_.state().field_excess, evolution_.t());
-    // Around an event: the state before the step in which it happened, and the one after.
+    // Checkpoints are written around an event: before its step and after it.
     is_after_event = !evolution_.events().empty();
     if (is_after_event) write_checkpoint(state);
   }
@@ -105,7 +105,7 @@ void Simulation::record(Progress& progress, bool is_last) {
     directory_->add_rows(history, drops);
     directory_->add_events(history.step, history.t, evolution_.events());
   }
-  if (observer_) timed(output_times_, "output", [&] { observer_(*directory_); });
+  if (observer_) time_phase(output_times_, "output", [&] { observer_(*directory_); });
   const auto now = seconds();
   auto spent = now;
   for (std::size_t i = 0; i < spent.size(); ++i) spent[i].second -= timed_[i].second;

@@ -14,27 +14,26 @@ namespace meniscus {
 /// interval.
 enum class Outcome { done, stopped };
 
-/// A run from the state its evolution stands at to its end: solve, record, advance. Everything that
-/// depends on the state alone reaches the same files whether or not the run was taken up in
-/// between.
+/// Runs an evolution from its present state to the end: solve, record, advance. Output that depends
+/// on the state alone is the same whether or not the run was resumed in between.
 class Simulation {
  public:
-  /// `describe` adds to a checkpoint what it takes to build the evolution again. Rank 0 has the
-  /// directory, and it alone.
+  /// `describe` adds to a checkpoint what is needed to rebuild the evolution. Only rank 0 passes a
+  /// directory.
   Simulation(Evolution evolution, std::optional<RunDirectory> directory,
              const OutputOptions& output, std::function<void(Archive&)> describe);
 
-  /// When the next frames are due, from the checkpoint the evolution was loaded from.
+  /// Reads the times of the next frames from the checkpoint of the evolution.
   void load_schedule(const Archive& archive);
-  /// Called after each row, when its files are whole.
+  /// Sets a function to call after each row, when its files are complete.
   void set_observer(std::function<void(const RunDirectory&)> observer) {
     observer_ = std::move(observer);
   }
-  /// Throws RunFailure, a checkpoint being left, when the run cannot go on. Collective.
+  /// Throws RunFailure when the run cannot go on; the last checkpoint stays. Collective.
   Outcome run(Progress& progress);
 
   [[nodiscard]] const Evolution& evolution() const { return evolution_; }
-  /// On rank 0.
+  /// The run's folder. Rank 0 only.
   [[nodiscard]] const RunDirectory& directory() const { return *directory_; }
   /// Seconds by phase since this process began to simulate.
   [[nodiscard]] PhaseSeconds seconds() const;
@@ -52,7 +51,7 @@ class Simulation {
   std::function<void(const RunDirectory&)> observer_;
   double next_surface_frame_ = 0.0, next_volume_frame_ = 0.0;
   PhaseTimes output_times_;
-  PhaseSeconds timed_;  // at the row before
+  PhaseSeconds timed_;  // seconds when the previous row was written
 };
 
 }  // namespace meniscus

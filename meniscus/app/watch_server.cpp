@@ -14,14 +14,13 @@
 namespace meniscus {
 namespace {
 
-// A page asks from one or two connections: these bear a lecture hall, and bound what misuse can
-// hold.
+// A page uses one or two connections: enough for a lecture hall, and a bound against misuse.
 constexpr unsigned int most_connections = 256;
 constexpr std::size_t connection_memory = 16384;  // [byte] for the request line and all headers
 constexpr unsigned int longest_silence = 15;      // [s] of a connection
 constexpr int niceness = 10;                      // the run comes first
 
-/// A whole number from 0; empty when the text is none.
+/// The text as a whole number from 0; none when it is not one.
 std::optional<std::int64_t> whole_number(std::string_view text) {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -37,8 +36,8 @@ WatchServer::Answer refusal(int status, std::string reason) {
   return {status, "text/plain; charset=utf-8", std::move(reason) + "\n", nullptr};
 }
 
-/// Nothing that is served has a name that needs escapes: they are left as they are, and found
-/// nowhere.
+/// Leaves escapes in a request as they are: no served name has any, so such a request finds
+/// nothing.
 std::size_t keep_escapes(void* /*unused*/, MHD_Connection* /*unused*/, char* text) {
   return std::strlen(text);
 }
@@ -50,7 +49,7 @@ MHD_Response* response_of(const WatchServer::Answer& answer) {
     return MHD_create_response_from_buffer(
         answer.text.size(), const_cast<char*>(answer.text.data()), MHD_RESPMEM_MUST_COPY);
   }
-  // The library keeps it as long as the slowest reader needs it.
+  // The library owns the body until the slowest reader has it.
   auto held = std::make_unique<std::shared_ptr<const std::string>>(answer.shared);
   MHD_Response* response = MHD_create_response_from_buffer_with_free_callback_cls(
       answer.shared->size(), const_cast<char*>(answer.shared->data()), release_shared, held.get());
@@ -86,7 +85,8 @@ struct WatchServer::Impl {
                             std::size_t* upload_size, void** state);
 };
 
-/// A page of another site whose name was made to lead here must not read the run.
+/// Whether the request names this host: another site whose name was redirected here must not read
+/// the run (DNS rebinding).
 bool WatchServer::Impl::is_host_ours(MHD_Connection* connection) const {
   const char* host = header(connection, "Host");
   if (!is_loopback || host == nullptr) return true;

@@ -15,23 +15,22 @@ struct WatchAddress {
   int port = 8642;                    ///< 0: any that is free
 };
 
-/// A small HTTP server on a thread of its own. It answers GET and HEAD for whatever its handler
-/// knows and refuses all else, a request with a body included. One thread serves all who ask, so
-/// that those who are slow hold up nobody; the number of connections, their memory and their
-/// silence are limited.
+/// A small HTTP server on a thread of its own. It answers GET and HEAD for the paths that its
+/// handler knows, and refuses everything else, also requests with a body. One thread serves all
+/// connections without blocking on slow ones. Their number, memory and idle time are limited.
 class WatchServer {
  public:
   struct Answer {
     int status = 404;
     const char* type = "text/plain; charset=utf-8";
-    std::string text = {};                                ///< the body, or
-    std::shared_ptr<const std::string> shared = nullptr;  ///< one that many share
+    std::string text = {};                                ///< the body, unless `shared` is set
+    std::shared_ptr<const std::string> shared = nullptr;  ///< a body shared by many answers
   };
-  /// Called on the server's thread with the path, never to be taken for the name of a file, and the
-  /// whole number given as `from` or `number`, if any.
+  /// Called on the server's thread with the path of the request (never a file name) and the whole
+  /// number given as `from` or `number`, if any.
   using Handler = std::function<Answer(std::string_view path, std::optional<std::int64_t> number)>;
 
-  /// Throws InvalidInput when the address is none or cannot be listened at.
+  /// Throws InvalidInput when the address is invalid or cannot be listened at.
   WatchServer(const WatchAddress& address, Handler handler);
   WatchServer(const WatchServer&) = delete;
   WatchServer& operator=(const WatchServer&) = delete;

@@ -14,9 +14,9 @@
 namespace meniscus {
 namespace {
 
-std::string joined(std::span<const int> ids) { return fmt::format("{}", fmt::join(ids, ", ")); }
+std::string id_list(std::span<const int> ids) { return fmt::format("{}", fmt::join(ids, ", ")); }
 
-/// The text of each kind of notice, given at time t.
+/// Makes the text of each kind of notice at time t.
 struct Wording {
   double t;
 
@@ -60,7 +60,7 @@ std::string text_of(const TopologyEvent& event, double t) {
           ? std::tuple("breakup", *event.neck_radius, "a neck of radius")
           : std::tuple("coalescence", *event.gap, "a gap of");
   return fmt::format("{} at t = {:.6g}: drop {} -> {}, at {} {:.3g} near ({:.4g}, {:.4g}, {:.4g})",
-                     kind, t, joined(event.parents), joined(event.children), what, size,
+                     kind, t, id_list(event.parents), id_list(event.children), what, size,
                      event.position.x(), event.position.y(), event.position.z());
 }
 

@@ -8,14 +8,14 @@ namespace meniscus {
 
 /// A notice as a line of run.json's list of warnings.
 [[nodiscard]] std::string text_of(const Notice& notice);
-/// A change of topology at time t, for the log.
+/// A topology event at time t as a line of the log.
 [[nodiscard]] std::string text_of(const TopologyEvent& event, double t);
 
-/// Logs the excess of carried fields over their range when it has come to another power of two.
-/// What is below the least size is round-off of values of order one.
+/// Logs the excess of carried fields over their range whenever it reaches another power of two.
+/// Excesses below the round-off of values of order one are not logged.
 void log_growth(const FieldExcess& before, const FieldExcess& now, double t);
 
-/// Writes a notice to the log, where no other part of the program has.
+/// Writes a notice to the log, unless another part of the program has logged it.
 void log_notice(const Notice& notice);
 
 }  // namespace meniscus

@@ -14,10 +14,11 @@
 namespace meniscus {
 namespace {
 
-/// Refuses a drop that reaches beyond a boundary of simple shape, by the size that is too small.
-/// What a coarse triangulation cuts off inside that size is left to find_conflict.
+/// Throws InvalidInput, naming the size that is too small, when a drop reaches beyond a box, sphere
+/// or cylinder. A coarse triangulation lies inside that shape; find_conflict checks against its
+/// faces.
 void require_within_domain(const Case& c, const SurfaceMesh& drop, int index) {
-  Vec3 reach = Vec3::Zero();  // largest |x|, |y|, |z|
+  Vec3 reach = Vec3::Zero();  // [R0] largest |x|, |y|, |z|
   double from_origin = 0.0, from_axis = 0.0;
   for (const Vec3& x : drop.x) {
     reach = reach.cwiseMax(x.cwiseAbs());
@@ -26,7 +27,8 @@ void require_within_domain(const Case& c, const SurfaceMesh& drop, int index) {
   }
   const auto require = [&](const std::string& path, double size, double needed) {
     if (needed < size) return;
-    if (!c.settings.is_given(path))  // a default stands on no line, but the drop does
+    if (!c.settings.is_given(
+            path))  // a default has no line in the file, so the message names the drop's
       reject_input("{}: drop {} reaches {:.6g} from the origin, and {} is {} by default (unit: R0)",
                    c.settings.source(fmt::format("drop[{}]", index)), index, needed, path, size);
     c.settings.reject(path, "must exceed the reach of drop {}, {:.6g} (unit: R0)", index, needed);
@@ -65,8 +67,8 @@ Interface make_interface(const Case& c, int index) {
   return result;
 }
 
-/// Outside each interface is the smallest drop that encloses it, else the matrix. Overlaps are
-/// found afterwards.
+/// Sets the region outside each interface: the smallest drop that encloses it, else the matrix.
+/// Overlaps are found later, by find_conflict.
 void nest(std::vector<Interface>& interfaces) {
   for (Interface& inner : interfaces) {
     const Interface* around = nullptr;
@@ -93,8 +95,8 @@ void add_drops(const Case& c, Scene& scene) {
                     interface.inside.value, interface.outside.value);
 }
 
-/// The drop to blame for a conflict: the later of the first two that touch, in the order in which
-/// find_conflict looks, else the first one that is not within the boundary.
+/// The drop that a message about a conflict names: the later of the first two drops that touch, in
+/// the order of find_conflict, else the first drop that is not inside the boundary.
 std::size_t drop_in_conflict(const Scene& scene) {
   const auto& interfaces = scene.interfaces;
   for (std::size_t i = 0; i < interfaces.size(); ++i)
@@ -120,7 +122,7 @@ void require_no_conflict(const Case& c, const Scene& scene) {
                conflict->text);
 }
 
-/// ∮|v·n| dS of the imposed velocities, the yardstick of their net flux [G R0³].
+/// ∮|v·n| dS of the imposed velocities, the scale for their net flux [G R0³].
 double gross_flux(const OuterBoundary& boundary, double t) {
   double gross = 0.0;
   for (const FaceId f : boundary.mesh.faces.ids()) {
@@ -135,8 +137,8 @@ double gross_flux(const OuterBoundary& boundary, double t) {
   return gross;
 }
 
-/// Imposed velocities must carry in what they carry out. Profiles interpolated on flat faces miss
-/// that by O(h²), which the solver projects out; a wrong profile misses it by far more.
+/// Throws InvalidInput when the imposed velocities have a net flux. Interpolation on flat faces
+/// gives one of O(h²), which the solver projects out; a wrong profile gives far more.
 void require_no_net_inflow(const Case& c, const Scene& scene) {
   // A parabola on a disc of 63 faces misses 2.6 % of its flux, on one of 27 faces 5.2 %.
   constexpr double kInterpolation = 0.05;

@@ -25,7 +25,7 @@ std::string read_text(const std::filesystem::path& file) {
   return text.str();
 }
 
-/// [scale], and the capillary number that it or [flow] gives.
+/// Reads [scale] and returns the capillary number, which [scale] or [flow] gives.
 double read_scale(Settings& settings) {
   if (!settings.has_table("scale")) return settings.number("flow.capillary-number");
   Scale scale{.length = settings.number("scale.length"),
@@ -55,7 +55,7 @@ bool is_without_rate(const Case& c) {
          });
 }
 
-/// Without a rate times are in mu_out R0/sigma, in which Ca is 1.
+/// Throws InvalidInput unless Ca is 1 in a case without rate, where time is in mu_out R0/sigma.
 void require_capillary_time(const Case& c) {
   const bool is_one = c.Ca == 1.0 || std::isinf(c.Ca);
   if (!c.settings.scale() && !is_one && is_without_rate(c))
@@ -64,7 +64,8 @@ void require_capillary_time(const Case& c) {
                       "in mu_out R0/sigma");
 }
 
-/// The keys that the file by itself makes use of; none if it is no whole case by itself.
+/// The keys that are used when the file is read without overrides; none if it is no valid case
+/// alone.
 std::map<std::string, schema::Value> used_by_file(std::string_view text, const std::string& name,
                                                   const std::filesystem::path& folder) {
   try {
@@ -96,8 +97,8 @@ Case parse_case(std::string_view text, const std::string& name, const std::files
     c.flow_solver = read_finite_elements(c.settings);
   c.evolution = read_evolution(c.settings, c.method, c.flow_solver.elements);
   c.output = read_output(c.settings, c.method);
-  // One override may choose another solver or boundary: what the file says of the first one is no
-  // mistake then.
+  // An override may choose another solver or boundary. Keys of the file for the old one are then no
+  // mistake.
   if (overrides.empty())
     c.settings.require_all_used({});
   else

@@ -76,7 +76,7 @@ struct OutputOptions {
 
 enum class FlowMethod { finite_element, boundary_integral };
 
-/// A case file, read, checked and dimensionless.
+/// A case after reading and checking; all values are dimensionless.
 struct Case {
   Settings settings;  ///< every key with its value and source
   std::string title;
@@ -88,38 +88,37 @@ struct Case {
   DomainCase domain;
   EvolutionOptions evolution;
   FlowMethod method = FlowMethod::finite_element;
-  fem::Options flow_solver;  ///< of the finite elements
+  fem::Options flow_solver;  ///< options of the finite-element solver
   bem::Options boundary_integral;
   OutputOptions output;
 };
 
-/// Reads a case file; each override is "key=value" and wins over the file. A key of the file that
-/// loses its effect by an override is passed over. Every fault throws InvalidInput with one line:
-/// file:line (or the override), key, value, what is allowed.
+/// Reads a case file. Each override is "key=value" and replaces the file's value. A key of the file
+/// that loses its effect by an override is ignored. Throws InvalidInput with one line: file:line
+/// (or the override), key, value, and what is allowed.
 [[nodiscard]] Case read_case(const std::filesystem::path& file,
                              std::span<const std::string> overrides = {});
-/// Reads a case from text; `name` stands for the file in messages, relative file names start from
-/// `folder`.
+/// Reads a case from text. Messages call it `name`; relative file names start from `folder`.
 [[nodiscard]] Case parse_case(std::string_view text, const std::string& name,
                               const std::filesystem::path& folder = {},
                               std::span<const std::string> overrides = {});
 
-/// The case with all defaults that matter to it, as a case file in its own units and as JSON
-/// (nested as the file is; inf is the string "inf"). `parse_case` of the first gives the same case
-/// to the last bit.
+/// The case with all defaults that apply, in its own units, as a case file and as JSON (nested like
+/// the file; inf is the string "inf"). `parse_case` of the case file gives the same case bit for
+/// bit.
 [[nodiscard]] std::string case_toml(const Case& c);
 [[nodiscard]] std::string case_json(const Case& c);
 
-/// The scene a case begins with. Throws InvalidInput naming line, drop and place when a surface is
-/// unfit, drops touch each other or the boundary or lie outside it, or more liquid is imposed to
-/// flow in than out while no patch is open.
+/// The initial scene of a case. Throws InvalidInput, naming line, drop and position, when a surface
+/// is unfit, when drops touch each other or the boundary or lie outside it, or when the imposed
+/// velocities have a net flux and no patch is open.
 [[nodiscard]] Scene build_scene(const Case& c);
-/// All of that scene but its interfaces: what a run taken up from a checkpoint needs, though the
-/// files its drops began with be gone.
+/// The initial scene without interfaces. A resumed run needs no more, so that the drops' surface
+/// files may be gone.
 [[nodiscard]] Scene build_surroundings(const Case& c);
-/// The solver a case asks for.
+/// The flow solver of a case.
 [[nodiscard]] std::unique_ptr<FlowSolver> make_flow_solver(const Case& c);
-/// The tetrahedra that the case's solver needs, not made yet; none for boundary integrals.
+/// The moving mesh of the case's solver, without tetrahedra as yet; none for boundary integrals.
 [[nodiscard]] std::optional<MovingMesh> make_moving_mesh(const Case& c);
 
 }  // namespace meniscus

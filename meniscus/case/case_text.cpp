@@ -16,7 +16,8 @@ using schema::Value;
 struct UsedTable {
   std::string path;
   bool is_array = false;
-  std::vector<std::pair<std::string, const Value*>> values;  // by the key's own name
+  std::vector<std::pair<std::string, const Value*>>
+      values;  // by the name of the key within the table
 };
 
 UsedTable used_table(const Case& c, const schema::Table& table, const std::string& path) {

@@ -14,7 +14,7 @@
 namespace meniscus {
 namespace {
 
-/// One table of the file, with the means to complain about it.
+/// Reads one table of the file and reports its faults.
 class Reader {
  public:
   Reader(const toml::table& table, std::string file) : table_(table), file_(std::move(file)) {}
@@ -165,7 +165,7 @@ CheckedExtrapolation read_extrapolation(const Reader& reader) {
   return result;
 }
 
-/// Every name that a quantity or extrapolation speaks of is one of the file's.
+/// Throws InvalidInput when a quantity or extrapolation names a run that the file does not have.
 void require_known_names(const CheckFile& check, const std::string& file) {
   const auto is_run = [&](const std::string& name) {
     return std::ranges::find(check.runs, name, &CheckedRun::name) != check.runs.end();

@@ -13,11 +13,11 @@
 namespace meniscus::schema {
 namespace {
 
-std::string written(const toml::node& node) {
+std::string toml_text(const toml::node& node) {
   if (const toml::array* array = node.as_array()) {
     std::string text = "[";
     for (const toml::node& element : *array)
-      text += (text.size() > 1 ? ", " : "") + written(element);
+      text += (text.size() > 1 ? ", " : "") + toml_text(element);
     return text + "]";
   }
   if (node.is_table()) return "a table";
@@ -28,10 +28,10 @@ std::string written(const toml::node& node) {
   return stream.str();
 }
 
-/// What the user wrote, on one line and not too long.
+/// What the user wrote, shortened to fit into a message.
 std::string excerpt(const toml::node& node) {
-  const std::string text = written(node);
-  constexpr std::size_t kLongest = 60;  // a message is one line
+  const std::string text = toml_text(node);
+  constexpr std::size_t kLongest = 60;  // so that a message stays on one line
   return text.size() <= kLongest ? text : text.substr(0, kLongest) + "…";
 }
 
@@ -164,12 +164,12 @@ toml::table parse_override_value(const std::string& value) {
   try {
     toml::table table = toml::parse("value = " + value);
     if (table.size() == 1) return table;
-  } catch (const toml::parse_error&) {  // taken as a word below
+  } catch (const toml::parse_error&) {  // not TOML: taken as a word below
   }
   return toml::table{{"value", value}};
 }
 
-/// "drop[1].radius" begins table 1 of the array if it is the next one.
+/// Adds the array table that a path such as "drop[1].radius" begins. It must be the next one.
 void require_tables(Document& document, const std::string& path, const std::string& source) {
   for (std::size_t close = path.find(']'); close != std::string::npos;
        close = path.find(']', close + 1)) {
@@ -185,15 +185,15 @@ void require_tables(Document& document, const std::string& path, const std::stri
   }
 }
 
-/// The array of tables that a path without its index goes through, "drop" for "drop.nodes"; empty
-/// for any other path. No array lies in another.
+/// The array of tables in a path without index, "drop" for "drop.nodes"; empty for other paths.
+/// Arrays are not nested.
 std::string unindexed_array(std::string_view path) {
   if (path.find('[') != std::string_view::npos) return {};
   const std::string parent(parent_path(path));
   return find_table(parent + "[]") != nullptr ? parent : std::string();
 }
 
-/// The path with the index that may be left out: "drop[0].nodes" for "drop.nodes".
+/// The path with the optional index filled in: "drop[0].nodes" for "drop.nodes".
 std::string indexed_path(const Document& document, const std::string& path,
                          const std::string& source) {
   const std::string array = unindexed_array(path), key(leaf(path));
@@ -205,7 +205,7 @@ std::string indexed_path(const Document& document, const std::string& path,
   return fmt::format("{}[0].{}", array, key);
 }
 
-/// Throws InvalidInput with a key that can be set instead of one that is not in the schema.
+/// Throws InvalidInput for a key that is not in the schema, and suggests one that is.
 [[noreturn]] void reject_unknown_override(const Document& document, const std::string& path,
                                           const std::string& source) {
   const auto is_table = [](const std::string& name) {

@@ -18,24 +18,24 @@ struct Given {
   bool is_override = false;
 };
 
-/// A case file read and checked key by key against the schema: every key is known, of the right
-/// type and in its range. What keys mean together is checked by `read_case`.
+/// A case file whose keys were checked against the schema: each is known, of the right type and in
+/// its range. `read_case` checks conditions between keys.
 struct Document {
-  std::string name;                           ///< of the file, as in messages
-  std::filesystem::path folder;               ///< that relative file names start from
-  std::map<std::string, Given> values;        ///< by path with indices: "drop[0].radius"
+  std::string name;                           ///< name of the file in messages
+  std::filesystem::path folder;               ///< folder where relative file names start
+  std::map<std::string, Given> values;        ///< values by path with indices: "drop[0].radius"
   std::map<std::string, std::string> tables;  ///< source of every table: "drop[0]" → "case.toml:5"
 
-  std::set<std::string> added_tables;  ///< those that only overrides speak of: "drop[1]"
+  std::set<std::string> added_tables;  ///< tables that only overrides name: "drop[1]"
 
   /// Number of tables in an array: count("drop"), count("flow.schedule").
   [[nodiscard]] int count(const std::string& array) const;
 };
 
-/// Throws InvalidInput with file and line at the first fault. An override is "key=value" with the
-/// value in TOML, quotes around words being optional; it replaces what the file says, or begins the
-/// next table of an array ("drop[1].radius=1" when there is one drop). The index of an array with
-/// one table may be left out: "drop.nodes=80".
+/// Parses and checks a case file. Throws InvalidInput with file and line at the first fault. An
+/// override is "key=value" with a TOML value; quotes around words are optional. It replaces the
+/// file's value, or begins the next table of an array ("drop[1].radius=1" when there is one drop).
+/// The index of an array with one table may be omitted: "drop.nodes=80".
 [[nodiscard]] Document parse_document(std::string_view text, const std::string& name,
                                       const std::filesystem::path& folder,
                                       std::span<const std::string> overrides);

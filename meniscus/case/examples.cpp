@@ -9,7 +9,7 @@
 namespace meniscus {
 namespace {
 
-// Written by cmake/Examples.cmake: {"name", R"toml(text)toml"}, …
+// cmake/Examples.cmake writes these entries: {"name", R"toml(text)toml"}, …
 constexpr ExampleCase kExamples[] = {
 #include "meniscus/case/examples_generated.inc"
 };

@@ -5,13 +5,13 @@
 
 namespace meniscus {
 
-/// A case file of examples/, carried in the program.
+/// A case file of examples/, embedded in the program.
 struct ExampleCase {
   std::string_view name;  ///< "shear-subcritical": the file's name without .toml
   std::string_view text;
 };
 [[nodiscard]] std::span<const ExampleCase> examples();
-/// Throws InvalidInput listing the names when there is no such example.
+/// The text of an example. Throws InvalidInput listing the names when there is no such example.
 [[nodiscard]] std::string_view example_text(std::string_view name);
 
 }  // namespace meniscus

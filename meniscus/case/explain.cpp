@@ -22,7 +22,7 @@ constexpr std::string_view kOverrides =
     "`--set 'title=Two drops'`, `--set 'title=\"7\"'`, `--set 'drop[0].center=[0, 0, 1]'`. Tables "
     "are set key by key.";
 
-std::string allowed(const Key& key) {
+std::string allowed_values(const Key& key) {
   if (key.type == Type::word) return schema::quoted_list(key.words);
   const std::string range = schema::range_text(key.range);
   const bool is_vector = key.type == Type::vector;
@@ -49,7 +49,7 @@ std::string header(const Table& table) {
 std::string explanation(const Key& key) {
   std::string text =
       fmt::format("{}\n  {}\n  value:   {}\n  default: {}\n", schema::without_indices(key.path),
-                  key.sentence, allowed(key), default_text(key));
+                  key.sentence, allowed_values(key), default_text(key));
   if (const std::string unit = unit_text(key); !unit.empty())
     text += fmt::format("  unit:    {}\n", unit);
   if (!key.applies.empty()) text += fmt::format("  applies: {}\n", key.applies);
@@ -59,7 +59,7 @@ std::string explanation(const Key& key) {
 std::string table_row(const Key& key) {
   std::string sentence(key.sentence);
   if (!key.applies.empty()) sentence += fmt::format(" Applies {}.", key.applies);
-  return fmt::format("| `{}` | {} | {} | {} | {} |\n", schema::leaf(key.path), allowed(key),
+  return fmt::format("| `{}` | {} | {} | {} | {} |\n", schema::leaf(key.path), allowed_values(key),
                      unit_text(key), default_text(key), sentence);
 }
 

@@ -5,11 +5,11 @@
 
 namespace meniscus {
 
-/// What a key or table of the case file means: sentence, type, unit, range or words, default.
-/// Takes "drop.nodes", "drop[0].nodes", a bare "nodes" (all keys of that name) or a table "drop".
-/// Throws InvalidInput with the nearest key for any other.
+/// Explains a key or table of the case file: sentence, type, unit, range or words, default. Takes
+/// "drop.nodes", "drop[0].nodes", a bare "nodes" (all keys of that name) or a table "drop". Throws
+/// InvalidInput with the nearest key for anything else.
 [[nodiscard]] std::string explain(std::string_view key);
-/// One line for each key of the case file, by tables.
+/// Lists all keys of the case file by table, one line each.
 [[nodiscard]] std::string explain();
 /// The reference page docs/case-file.md.
 [[nodiscard]] std::string reference_page();

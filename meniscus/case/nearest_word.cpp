@@ -20,7 +20,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> words) {
-  // A third: beyond it short words match almost anything.
+  // Accepts distances up to a third of the length: beyond it short words match almost anything.
   std::size_t best = std::max<std::size_t>(1, word.size() / 3) + 1;
   std::string_view nearest;
   for (const std::string_view candidate : words)

@@ -15,12 +15,12 @@ namespace {
 using Shape = DomainCase::Shape;
 using Condition = PatchCase::Condition;
 
-// In the order of the tags that mesh/shapes.hpp gives to faces.
+// Patch names in the order of the face tags of mesh/shapes.hpp.
 constexpr std::array<std::string_view, 6> kBoxPatches{"x-", "x+", "y-", "y+", "z-", "z+"};
 constexpr std::array<std::string_view, 3> kCylinderPatches{"side", "x-", "x+"};
 constexpr std::string_view kBothEnds = "ends", kWholeSphere = "all";
-constexpr int kFirstZTag = 4;  // z- and z+ of the box
-constexpr int kSideTag = 0;    // of the cylinder
+constexpr int kFirstZTag = 4;  // tags of the box from here on: z- and z+
+constexpr int kSideTag = 0;    // tag of the cylinder's side
 
 std::vector<std::string_view> names_by_tag(Shape shape) {
   switch (shape) {
@@ -81,10 +81,11 @@ ImposedVelocity flow_velocity(const ImposedFlow& flow) {
   return {[flow](const Vec3& x, double t) { return flow.velocity(x, t); }, true};
 }
 
-/// n·v = 0 on the flat faces of a curved patch would hold its vertices fast.
+/// Whether a patch is flat. On a curved patch n·v = 0 on every face would fix the liquid at its
+/// vertices.
 bool is_flat(const SurfaceMesh& mesh, const std::vector<FaceId>& faces) {
   const Vec3 n = face_area_vector(mesh, faces.front()).normalized();
-  // 1e-6: what single-precision coordinates of a file do to a plane.
+  // 1e-6: roundoff of single-precision coordinates in a file.
   return std::ranges::all_of(faces, [&](FaceId f) {
     const Vec3 area = face_area_vector(mesh, f);
     return (area - area.dot(n) * n).norm() < 1e-6 * area.norm() && area.dot(n) > 0.0;
@@ -110,7 +111,7 @@ BoundaryCondition default_condition(const Case& c, int tag) {
   return flow_velocity(c.flow);
 }
 
-/// The wall that the faces of a curved patch stand for, through their vertices.
+/// The smooth wall that the faces of a curved patch approximate, as the projection onto it.
 std::function<Vec3(const Vec3&)> smooth_wall(const DomainCase& domain, int tag) {
   if (domain.shape == Shape::sphere)
     return [radius = domain.radius](const Vec3& x) { return Vec3(radius * x.normalized()); };
@@ -129,7 +130,7 @@ const PatchCase* find_patch(const DomainCase& domain, int tag) {
   return found == domain.patches.end() ? nullptr : &*found;
 }
 
-/// Every tag of a surface file has its patch, and every patch its tag.
+/// Throws InvalidInput unless the tags of a surface file and the patches match one to one.
 void require_matching_tags(const Case& c, const std::set<int>& tags) {
   for (const PatchCase& patch : c.domain.patches)
     if (!tags.contains(patch.tags.front()))

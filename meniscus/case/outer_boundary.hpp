@@ -7,7 +7,7 @@
 
 namespace meniscus {
 
-/// The names by which the patches of a shape are addressed; empty for a surface from a file.
+/// The names of a shape's patches; empty for a surface from a file.
 [[nodiscard]] std::vector<std::string_view> patch_names(DomainCase::Shape shape);
 /// The face tags (mesh/shapes.hpp) a patch name stands for; empty when it is not one of the shape.
 [[nodiscard]] std::vector<int> shape_tags(DomainCase::Shape shape, std::string_view name);

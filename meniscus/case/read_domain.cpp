@@ -46,7 +46,7 @@ void read_velocity(Settings& settings, PatchCase& patch) {
   if (settings.is_given(radius)) patch.profile_radius = settings.number(radius);
 }
 
-/// Name or tag of the patch, which no patch before may have.
+/// Reads the name or tag of a patch. Throws InvalidInput when an earlier patch has it.
 void read_identity(Settings& settings, const DomainCase& domain, PatchCase& patch) {
   const std::string name = patch.path + ".name", tag = patch.path + ".tag";
   if (domain.shape == Shape::file) {

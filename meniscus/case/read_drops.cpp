@@ -7,8 +7,8 @@ namespace {
 
 Vec3 read_axes(Settings& settings, const std::string& path) {
   const Vec3 axes = settings.vector(path);
-  // The vertices go as N0 times this ratio; threads in experiments are up to some 300 times longer
-  // than wide.
+  // The number of vertices grows as N0 times the ratio of axes. Threads in experiments are up to
+  // some 300 times longer than wide.
   constexpr double kLargestRatio = 1000.0;
   if (axes.maxCoeff() > kLargestRatio * axes.minCoeff())
     settings.reject(path, "must not differ by more than a factor {}", kLargestRatio);

@@ -9,7 +9,7 @@ namespace {
 
 Mat3 traceless_gradient(Settings& settings, const std::string& path) {
   const Mat3 gradient = settings.matrix(path);
-  // 1e-12: what sums of decimal fractions leave; anything more is a slip that would pump liquid.
+  // 1e-12: roundoff of decimal fractions. A larger trace is a mistake that would create liquid.
   if (std::abs(gradient.trace()) > 1e-12 * gradient.cwiseAbs().maxCoeff())
     settings.reject(path, "has the trace {:.6g}; the trace of a gradient must be 0 (no net inflow)",
                     gradient.trace());
@@ -56,7 +56,7 @@ ImposedFlow::Entry read_entry(Settings& settings, const std::string& table,
 
 ImposedFlow read_flow(Settings& settings) {
   ImposedFlow flow = read_initial_flow(settings);
-  double free_from = 0.0;  // when the ramp before has ended
+  double free_from = 0.0;  // end of the previous ramp
   for (int i = 0; i < settings.count("flow.schedule"); ++i) {
     const std::string table = fmt::format("flow.schedule[{}]", i);
     const ImposedFlow::Entry entry = read_entry(settings, table, flow.initial_gradient());

@@ -8,7 +8,7 @@
 namespace meniscus {
 namespace {
 
-/// Words that follow no option name are ones that PETSc would pass over in silence.
+/// Throws InvalidInput for words that follow no option name: PETSc would ignore them in silence.
 std::string read_petsc_options(Settings& settings) {
   constexpr const char* kPath = "solver.petsc-options";
   std::string options = settings.text(kPath);
@@ -35,7 +35,7 @@ TopologyOptions read_topology(Settings& settings, double edge_floor) {
   return options;
 }
 
-/// The surface whose integrals the flow solver takes.
+/// The surface over which the flow solver integrates.
 SurfaceShape surface_shape(FlowMethod method, fem::Elements elements) {
   if (method == FlowMethod::boundary_integral) return SurfaceShape::patched;
   return elements == fem::Elements::p2_p1 ? SurfaceShape::splined : SurfaceShape::faceted;

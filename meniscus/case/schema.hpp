@@ -45,7 +45,7 @@ struct Table {
 
 [[nodiscard]] std::span<const Table> tables();  ///< in the order of the reference page
 [[nodiscard]] std::span<const Key> keys();      ///< in the order of the tables
-/// By generic path; null when there is none.
+/// The key or table of a generic path; null when there is none.
 [[nodiscard]] const Key* find_key(std::string_view path);
 [[nodiscard]] const Table* find_table(std::string_view path);
 
@@ -57,28 +57,28 @@ struct Table {
 [[nodiscard]] std::string_view parent_path(std::string_view path);
 [[nodiscard]] std::string_view leaf(std::string_view path);
 
-/// "R0", "1/G", …; empty without dimension. `si_unit`: "m", "s", …
+/// The unit of a dimension as "R0", "1/G", …; empty without dimension. `si_unit` gives "m", "s", …
 [[nodiscard]] std::string_view unit(Dimension dimension);
 [[nodiscard]] std::string_view si_unit(Dimension dimension);
-/// "> 0 or inf", "at least 12", "between 0 and 1, both excluded"; empty when all is allowed.
+/// The range in words, such as "> 0 or inf", "at least 12" or "between 0 and 1, both excluded";
+/// empty when every number is allowed.
 [[nodiscard]] std::string range_text(const Range& range);
 [[nodiscard]] bool is_within(const Range& range, double value);
-/// "a", "b", "c" in quotes.
+/// The words in quotes, separated by commas.
 [[nodiscard]] std::string quoted_list(std::span<const std::string_view> words);
 
-/// "must be > 0", "must be finite and at least 0": why a value is not in the key's range; empty
-/// when it is.
+/// Why a value is not in the key's range, such as "must be > 0" or "must be finite and at least 0";
+/// empty when it is.
 [[nodiscard]] std::string range_complaint(const Key& key, const Value& value);
-/// Throws InvalidInput unless the value is in the key's range or words. The range of a key with a
-/// dimension holds once [scale] is known (`Settings`); here its value has to be finite. `source`
-/// ("case.toml:7" or
-/// "--set …") and `name` (the key as the user wrote it) begin the message.
+/// Throws InvalidInput unless the value is in the key's range or words. For a key with a dimension
+/// it only requires a finite value: `Settings` checks the range once [scale] is known. The message
+/// begins with `source` ("case.toml:7" or "--set …") and `name` (the key as the user wrote it).
 void check_value(const Key& key, const Value& value, std::string_view source,
                  std::string_view name);
-/// Throws InvalidInput: unknown key, with the nearest valid one.
+/// Throws InvalidInput about an unknown key, with the nearest valid one.
 [[noreturn]] void reject_unknown_key(std::string_view path, std::string_view source);
-/// The key or table of the schema nearest to what was written, as one would write it in a case
-/// file; empty when nothing is near.
+/// The key or table of the schema nearest to a path, as written in a case file; empty when nothing
+/// is near.
 [[nodiscard]] std::string nearest_name(std::string_view path);
 
 }  // namespace meniscus::schema

@@ -1,4 +1,4 @@
-// The case file, key by key. Everything said about a key anywhere comes from here.
+// The table of all keys of the case file, from which every text about a key is made.
 #include "meniscus/case/schema.hpp"
 #include "meniscus/case/words.hpp"
 #include "meniscus/surface/constants.hpp"
@@ -12,14 +12,14 @@ using enum Type;
 constexpr Range kPositive{.min = 0.0, .open_min = true};
 constexpr Range kNotNegative{.min = 0.0};
 constexpr Range kFinite{};
-// A drop a million times smaller or larger than R0, or as far away, is a slip of the pen, and more
-// than meshing in double precision can bridge.
+// A drop a million times smaller or larger than R0, or as far away, is a mistake, and beyond
+// meshing in double precision.
 constexpr Range kLength{.min = 1e-6, .max = 1e6};
 constexpr Range kPlace{.min = -1e6, .max = 1e6};
-// 200 000 and 20 000: the meshes measured in docs/volume-mesh.md
-// have up to 10 nodes for each vertex of a drop, and 20 for each of 2007 on the boundary, growing
-// as its power 3/2. Either bound then means one to two million nodes, which at an estimated 10 kB
-// (tetrahedra, matrix, multigrid) fill a machine of 24 GiB.
+// 200 000 and 20 000: the meshes of docs/volume-mesh.md have up to 10 nodes per vertex of a drop,
+// and 20 per vertex of a boundary of 2007 vertices, growing as their power 3/2. Each bound means
+// one to two million nodes. At an estimated 10 kB per node (tetrahedra, matrix, multigrid) they
+// fill a machine of 24 GiB.
 constexpr Range kDropNodes{.min = kFewestVertices, .max = 200000};
 constexpr Range kBoundaryNodes{.min = 50, .max = 20000};
 constexpr Range kCount{.min = 1, .max = 1e9};

@@ -44,8 +44,8 @@ const Value& Settings::own_value(const std::string& path) {
   const auto given = document_.values.find(path);
   if (given != document_.values.end()) return used_[path] = given->second.value;
   if (!key->value) reject_input("{}: {} is missing", source(path), name(path));
-  // Times the unit, to be divided by it again: what run.json shows then reads back to the same
-  // bits.
+  // The default times the unit, although it is divided again later: run.json then reads back to the
+  // same bits.
   return used_[path] = schema::scaled(*key->value, unit_of(path));
 }
 
@@ -88,7 +88,7 @@ std::filesystem::path Settings::file(const std::string& path) {
   const std::filesystem::path given = text(path);
   const bool from_here = document_.values.at(path).is_override;
   const std::filesystem::path full = from_here ? given : document_.folder / given;
-  // Absolute in run.json, so that it can be read back from anywhere.
+  // run.json has the absolute path, so that it can be read back from any folder.
   used_[path] = std::filesystem::absolute(full).lexically_normal().string();
   return full;
 }

@@ -23,9 +23,9 @@ struct Scale {
   [[nodiscard]] double unit(schema::Dimension dimension) const;
 };
 
-/// The values of a case: what was given, else the schema's default. Numbers come out dimensionless.
-/// It remembers which keys were asked for, so that a key without effect can be refused, and where
-/// each came from, so that later checks can name the line.
+/// The values of a case: as given, else the schema's defaults. Numbers are returned dimensionless.
+/// Records which keys were read, so that a key without effect can be refused, and the source of
+/// each, so that later checks can name the line.
 class Settings {
  public:
   Settings() = default;
@@ -39,25 +39,25 @@ class Settings {
   }
   [[nodiscard]] int count(const std::string& array) const { return document_.count(array); }
 
-  /// Each throws InvalidInput when a required key is missing.
+  /// The value of a key by type. Each function throws InvalidInput when a required key is missing.
   [[nodiscard]] double number(const std::string& path);
   [[nodiscard]] int whole(const std::string& path);
   [[nodiscard]] bool flag(const std::string& path);
   [[nodiscard]] std::string text(const std::string& path);
   [[nodiscard]] Vec3 vector(const std::string& path);
   [[nodiscard]] Mat3 matrix(const std::string& path);
-  /// A word, or none when a `velocity` is three numbers.
+  /// The word of a `velocity` key; none when its value is three numbers.
   [[nodiscard]] std::optional<std::string> word_or_vector(const std::string& path);
-  /// Relative names start from the case file's folder; those of --set from the current one. That
-  /// there is such a file is checked when it is read.
+  /// A file name. Relative names start from the case file's folder, those of --set from the current
+  /// folder. Whether the file exists is checked when it is read.
   [[nodiscard]] std::filesystem::path file(const std::string& path);
-  /// A dimensionless default that follows from other keys.
+  /// A number whose dimensionless default `fallback` follows from other keys.
   [[nodiscard]] double number_or(const std::string& path, double fallback);
-  /// The meaning of a key's word, of a list of words (case/words.hpp).
+  /// The meaning of a key's word, from a list of words (case/words.hpp).
   template <class Words>
   [[nodiscard]] auto choice(const std::string& path, const Words& words);
 
-  /// From here on the word is what a key that is not given means, here and in the checkpoints.
+  /// Makes `word` the default of a key that was not given, here and in checkpoints.
   void prefer(const std::string& path, const std::string& word) {
     if (!is_given(path)) used_[path] = word;
   }
@@ -65,13 +65,14 @@ class Settings {
   void set_scale(const Scale& scale) { scale_ = scale; }
   [[nodiscard]] const std::optional<Scale>& scale() const { return scale_; }
 
-  /// "case.toml:7", of the key, else of the nearest table around it, else "case.toml".
+  /// The source of a key such as "case.toml:7", else of the nearest table around it, else
+  /// "case.toml".
   [[nodiscard]] std::string source(const std::string& path) const;
   /// Whether an array's table, "drop[1]", was begun by --set.
   [[nodiscard]] bool is_added(const std::string& table) const {
     return document_.added_tables.contains(table);
   }
-  /// The key as it should appear after its source.
+  /// The key as messages write it after its source.
   [[nodiscard]] std::string name(const std::string& path) const;
   /// Throws InvalidInput: "case.toml:7: drop.radius = 2.0 <complaint>".
   template <class... Args>
@@ -79,19 +80,18 @@ class Settings {
                            Args&&... args) const {
     reject_value(path, fmt::format(format, std::forward<Args>(args)...));
   }
-  /// Throws InvalidInput naming the first given key that nothing has asked for. Keys of the file
-  /// that are used when it is read without overrides are passed over: they lost their effect to
-  /// an override.
+  /// Throws InvalidInput naming the first given key that was never read. Keys of the file that are
+  /// used without overrides are exempt: an override removed their effect.
   void require_all_used(const std::map<std::string, schema::Value>& used_without_overrides) const;
 
-  /// Every key asked for with its value, given or default, in the case's own units; by path.
+  /// Every key that was read, with its value (given or default) in the case's own units, by path.
   [[nodiscard]] const std::map<std::string, schema::Value>& used() const { return used_; }
 
  private:
   [[noreturn]] void reject_value(const std::string& path, const std::string& complaint) const;
-  /// Given or default, in the case's own units.
+  /// The value (given or default) in the case's own units.
   const schema::Value& own_value(const std::string& path);
-  /// Throws InvalidInput when it is not in the key's range.
+  /// The dimensionless value. Throws InvalidInput when it is not in the key's range.
   schema::Value dimensionless_value(const std::string& path);
   [[nodiscard]] double unit_of(const std::string& path) const;
 

@@ -37,7 +37,7 @@ std::filesystem::path newest_checkpoint(const Case& c, const std::string& path,
   return all.back().second;
 }
 
-/// Index of the interface of the wanted drop in an archive.
+/// Index in the archive of the interface of a drop.
 int interface_of_drop(const Case& c, const std::string& path, const Archive& archive,
                       std::optional<int> wanted) {
   std::vector<std::int64_t> drops;
@@ -82,17 +82,17 @@ void shift(SurfaceMesh& mesh, const Vec3& by) {
   for (Vec3& x : mesh.x) x += by;
 }
 
-/// What a surface encloses: its faces, or the smooth surface through its vertices where faces are
-/// curved. A rough one (a cube, a scan) stands for no smooth one.
+/// The volume that a given surface encloses, with flat or curved faces. A rough surface (a cube, a
+/// scan) approximates no smooth one and always has flat faces.
 double given_volume(const SurfaceMesh& mesh, SurfaceShape faces) {
   const bool is_smooth = !is_rough(mesh, SurfaceTopology(mesh));
   return ReconstructedSurface(mesh, is_smooth ? faces : SurfaceShape::faceted).volume();
 }
 
-/// Gives a surface the vertex density of its drop and the volume it had. Where faces are curved the
-/// vertices stay on the surface: to give flat faces their volume first moves each by a part of its
-/// edge, and taking that back evenly thins the necks. A surface that the remesher leaves as it was
-/// is still sound, and said to be coarse or fine in the log.
+/// Remeshes a surface to the vertex density of its drop and keeps its volume. With curved faces the
+/// remesher does not restore the volume of flat faces: that would move vertices off the surface,
+/// and undoing it by an even shift would thin the necks. If the remesher fails, the surface stays
+/// as given and the log says so.
 void resolve(SurfaceMesh& mesh, const DropCase& drop, SurfaceShape faces, int index) {
   MENISCUS_ASSERT(drop.nodes >= kFewestVertices, "drop {} of {} nodes", index, drop.nodes);
   const double volume = given_volume(mesh, faces);
@@ -104,14 +104,13 @@ void resolve(SurfaceMesh& mesh, const DropCase& drop, SurfaceShape faces, int in
   if (faces != SurfaceShape::faceted) restore_volume(mesh, volume, faces);
 }
 
-/// An ellipsoid starts from this many times N0 points, so that neither its volume nor its tips
-/// suffer from the sphere's density before the remesher gives it its own.
+/// An ellipsoid starts from this many times N0 points. The sphere's density would be too coarse for
+/// its volume and tips; the remesher then sets the right density.
 constexpr int kEllipsoidOversampling = 4;
 
-/// The volume a drop of this shape has. A triangulation with flat faces is given just this volume,
-/// its vertices lying slightly outside the shape: a mesh inscribed in the sphere would lack 5.4/N0
-/// of it, and behave as a drop of smaller R0, which costs more accuracy than all else at the
-/// paper's N0.
+/// The volume of an ellipsoid. Flat faces are made to enclose exactly this volume, so that vertices
+/// lie slightly outside the shape. A mesh inscribed in the sphere would lack 5.4/N0 of it and
+/// behave as a drop of smaller R0, the largest error of all at the paper's N0.
 double ellipsoid_volume(const Vec3& axes) { return 4.0 / 3.0 * std::numbers::pi * axes.prod(); }
 
 }  // namespace

@@ -8,9 +8,9 @@
 
 namespace meniscus {
 
-/// Reads the surface file that a key names, its coordinates made dimensionless by [scale]. Throws
-/// InvalidInput naming the line when it cannot be read or the surface is not closed, turned inside
-/// out, or meets itself.
+/// Reads the surface file that a key names and makes its coordinates dimensionless by [scale].
+/// Throws InvalidInput naming the line when the file cannot be read or the surface is not closed,
+/// is inside out, or meets itself.
 [[nodiscard]] TaggedSurface read_case_surface(const Case& c, const std::string& path,
                                               const std::filesystem::path& file);
 
@@ -20,7 +20,7 @@ namespace meniscus {
 [[nodiscard]] SurfaceMesh read_run_surface(const Case& c, const std::string& path,
                                            const RunShape& shape);
 
-/// The surface of drop i where the case puts it, resolved by its N0.
+/// The initial surface of a drop at its position, at the resolution of its N0.
 [[nodiscard]] SurfaceMesh initial_surface(const Case& c, int drop);
 
 }  // namespace meniscus

@@ -10,10 +10,10 @@
 
 namespace meniscus::schema {
 
-/// What the value of a case-file key may be.
+/// The types of case-file keys.
 enum class Type { number, whole, flag, word, text, path, vector, matrix, velocity };
 
-/// The value of a key as given, in the case's own units. `velocity` is a word or a vector.
+/// The value of a key as given, in the case's own units. A `velocity` is a word or a vector.
 using Value = std::variant<bool, std::int64_t, double, std::string, Vec3, Mat3>;
 
 /// "a number", "three numbers [x, y, z]", …: ends the sentence "… must be".

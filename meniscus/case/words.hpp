@@ -8,14 +8,14 @@
 
 namespace meniscus::words {
 
-/// A word of a case file and what it stands for.
+/// A word of a case file and its meaning.
 template <class Meaning>
 struct Word {
   std::string_view word;
   Meaning meaning;
 };
 
-// The words of each key that takes one. The schema lists them, `Settings::choice` reads them.
+// The words of every key that takes a word. The schema lists them; `Settings::choice` reads them.
 
 struct NamedFlow {
   FlowFamily family;
@@ -33,7 +33,7 @@ inline constexpr std::array viscosity_laws{Word<LawKind>{"newtonian", LawKind::n
                                            Word<LawKind>{"carreau-yasuda", LawKind::carreau_yasuda},
                                            Word<LawKind>{"power-law", LawKind::power_law}};
 
-/// A surface from a file is a key of its own.
+/// The shapes of the domain but for a surface file, which has its own key.
 inline constexpr std::array domain_shapes{
     Word<DomainCase::Shape>{"box", DomainCase::Shape::box},
     Word<DomainCase::Shape>{"sphere", DomainCase::Shape::sphere},
@@ -83,7 +83,7 @@ inline constexpr std::array time_schemes{Word<TimeScheme>{"rk2", TimeScheme::rk2
 inline constexpr std::array step_edges{Word<StepEdges>{"interface", StepEdges::interface},
                                        Word<StepEdges>{"mesh", StepEdges::mesh}};
 
-/// The words alone, as the schema has them.
+/// The words without meanings, for the schema.
 template <class Meaning, std::size_t N>
 std::vector<std::string_view> list(const std::array<Word<Meaning>, N>& words) {
   std::vector<std::string_view> result;
@@ -91,7 +91,7 @@ std::vector<std::string_view> list(const std::array<Word<Meaning>, N>& words) {
   return result;
 }
 
-/// The word that stands for a meaning.
+/// The word for a meaning.
 template <class Meaning, std::size_t N>
 std::string_view word_for(const std::array<Word<Meaning>, N>& words, Meaning meaning) {
   for (const Word<Meaning>& entry : words)

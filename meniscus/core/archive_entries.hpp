@@ -18,7 +18,7 @@ template <class Map>
   return found->second;
 }
 
-/// That array, which must have `size` values.
+/// The array of that name, which must have `size` values.
 template <class Map>
 [[nodiscard]] const typename Map::mapped_type& entry_of_size(const Map& arrays,
                                                              const std::string& name,
@@ -29,7 +29,7 @@ template <class Map>
   return values;
 }
 
-/// That array, which must have a multiple of `width` values.
+/// The array of that name, whose size must be a multiple of `width`.
 template <class Map>
 [[nodiscard]] const typename Map::mapped_type& entry_of_rows(const Map& arrays,
                                                              const std::string& name,
@@ -41,7 +41,7 @@ template <class Map>
   return values;
 }
 
-/// x, y, z of every vector, one after the other.
+/// The components x, y, z of every vector, one vector after the other.
 template <class IdType>
 [[nodiscard]] std::vector<double> flat(const Field<IdType, Vec3>& field) {
   std::vector<double> values;

@@ -29,8 +29,7 @@ namespace {
 
 std::string reason(int error_number) { return std::generic_category().message(error_number); }
 
-/// The two ends of a pipe that neither waits to be read nor to be written; what is too much is
-/// lost.
+/// A pipe whose reads and writes never block. Bytes beyond its capacity are lost.
 class Pipe {
  public:
   Pipe() : error_(pipe2(ends_.data(), O_CLOEXEC | O_NONBLOCK) == 0 ? 0 : errno) {}
@@ -42,9 +41,9 @@ class Pipe {
   }
   [[nodiscard]] int error() const { return error_; }
   [[nodiscard]] int writing() const { return ends_[1]; }
-  /// The first line that lies in it.
+  /// The first line that was written to the pipe.
   [[nodiscard]] std::string first_line() const {
-    std::array<char, 512> bytes;  // of a line that is to be shown
+    std::array<char, 512> bytes;  // longest line that a message shows
     const ssize_t count = read(ends_[0], bytes.data(), bytes.size());
     const std::string text(bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
     return text.substr(0, text.find('\n'));
@@ -68,7 +67,7 @@ class Stack {
   ~Stack() {
     if (begin_ == MAP_FAILED) return;
 #if defined(__SANITIZE_ADDRESS__)
-    __asan_unpoison_memory_region(begin_, kSize);  // calls that were cut short left marks
+    __asan_unpoison_memory_region(begin_, kSize);  // interrupted calls left their marks
 #endif
     munmap(begin_, kSize);
   }
@@ -84,12 +83,12 @@ struct Job {
   const std::function<void()>& work;
   unsigned seconds;
   int errors;    // takes standard error
-  pid_t parent;  // as the child is to find it
+  pid_t parent;  // process id that the child expects of its parent
   std::string failure = {};
   bool is_answered = false;
 };
 
-/// Handlers of this process (those of MPI, of the user's interrupts) are none of the child's.
+/// Removes the signal handlers inherited from this process, such as those of MPI.
 void restore_signals() {
   for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTERM, SIGXCPU})
     std::signal(signal, SIG_DFL);
@@ -110,7 +109,7 @@ void redirect_output(int errors) {
 int do_job(void* argument) {
   Job& job = *static_cast<Job*>(argument);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != job.parent) _exit(1);  // ended before the line above
+  if (getppid() != job.parent) _exit(1);  // the parent ended before prctl took effect
   restore_signals();
   limit_processor_time(job.seconds);
   redirect_output(job.errors);

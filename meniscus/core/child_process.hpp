@@ -5,9 +5,9 @@
 
 namespace meniscus {
 
-/// How a piece of work in a child process ended.
+/// The outcome of work in a child process.
 struct [[nodiscard]] ChildResult {
-  std::string failure;  ///< why it was not done, in one line; empty when it was
+  std::string failure;  ///< why the work was not done, in one line; empty when it was
   int signal = 0;       ///< the signal that ended the child, if one did
 };
 

@@ -11,8 +11,8 @@ namespace meniscus {
 /// exponent, and of the mantissa as if that were linear: off by 3.6 % at most, which four steps of
 /// ε → 2ε² make 1e-19.
 [[nodiscard]] inline double cube_root(double x) {
-  // Of the upper halves: 4/3 of the exponent's bias (1023 << 20), less what makes the largest
-  // errors above and below alike.
+  // In the upper 32 bits: 4/3 of the exponent's bias (1023 << 20), reduced so that the largest
+  // errors above and below are equal.
   constexpr std::uint64_t kStart = 0x553ed800;
   const std::uint64_t third = ((std::bit_cast<std::uint64_t>(x) >> 32) * 0x5555) >> 16;
   double y = std::bit_cast<double>((kStart - third) << 32);

@@ -7,8 +7,8 @@
 
 namespace meniscus {
 
-/// The user's mistake: a case, a file, an option. The text is one line that names the place, the
-/// given value and what is allowed. Programs end with status 2.
+/// The user's mistake in a case, a file or an option. The text is one line that names the source,
+/// the given value and what is allowed. Programs end with status 2.
 class InvalidInput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

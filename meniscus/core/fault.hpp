@@ -24,7 +24,7 @@ enum class FaultKind {
   wrong_volume,       ///< the cells of a region do not fill it, or a step changed a drop's volume
   mesher,             ///< the mesher gave up
   too_large,          ///< a mesh would have more elements than can be made
-  no_surgery,         ///< no cut or bridge is possible at a place
+  no_surgery,         ///< no cut or bridge is possible at a position
   added_area,         ///< a cut or a bridge would add area
   unlike_liquids,     ///< drops would merge that must not; no shorter step helps
   no_flow,            ///< the flow problem has no solution
@@ -37,7 +37,7 @@ enum class FaultKind {
 /// well.
 struct Fault {
   FaultKind kind;
-  std::string text;                   ///< one line for the user, with the place where known
+  std::string text;                   ///< one line for the user, with the position where known
   std::optional<Vec3> position = {};  ///< [R0]
 };
 
@@ -45,7 +45,7 @@ struct Fault {
 [[nodiscard]] std::string text_of(const std::optional<Fault>& fault);
 /// A point as messages write it.
 [[nodiscard]] std::string text_of(const Vec3& x);
-/// How something that may fail ended. Reports that hold more derive from it.
+/// The outcome of an operation that may fail. Reports that hold more derive from it.
 struct [[nodiscard]] Report {
   std::optional<Fault> fault = {};  ///< why it failed
 

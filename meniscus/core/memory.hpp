@@ -4,9 +4,9 @@
 
 namespace meniscus {
 
-/// Has the C library keep what is freed for what is asked for next, large arrays included, instead
-/// of giving them back to the system, which clears their pages anew: of a million nodes, a second
-/// solve so takes three quarters of the time of the first (docs/benchmark-stokes.md).
+/// Makes the C library keep freed memory, large arrays included, for later allocations. The system
+/// need not clear its pages again: with a million nodes a second solve then takes three quarters of
+/// the time of the first (docs/benchmark-stokes.md).
 inline void keep_freed_memory() {
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, -1);

@@ -2,8 +2,8 @@
 
 namespace meniscus {
 
-/// A number that decides what a run gives and that no case sets: run.json lists them all, by these
-/// names (docs/notation.md).
+/// A constant that affects results but cannot be set in a case. run.json lists all of them by name
+/// (docs/notation.md).
 struct NamedConstant {
   const char* name;
   double value;

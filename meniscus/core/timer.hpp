@@ -43,7 +43,7 @@ class PhaseTimer {
   Clock::time_point start_;
 };
 
-/// Adds to one phase what of the time from its construction to its destruction went to none.
+/// Adds to one phase the time between its construction and destruction that no other phase counted.
 class RemainderTimer {
  public:
   RemainderTimer(PhaseTimes& times, std::string phase)
@@ -63,9 +63,9 @@ class RemainderTimer {
   Clock::time_point start_;
 };
 
-/// What a function returns; its time goes to one phase.
+/// Calls a function, adds its time to one phase, and returns its result.
 template <class Function>
-auto timed(PhaseTimes& times, std::string phase, Function&& function) {
+auto time_phase(PhaseTimes& times, std::string phase, Function&& function) {
   const PhaseTimer timer(times, std::move(phase));
   return function();
 }

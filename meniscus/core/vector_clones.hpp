@@ -1,7 +1,7 @@
 #pragma once
 
-/// Before a function: one body, compiled for plain x86-64 and for vectors of four and eight
-/// doubles; the processor chooses when the program starts.
+/// Put before a function: compiles its body for plain x86-64 and for vectors of four and eight
+/// doubles. The program chooses at its start what the processor can do.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define MENISCUS_VECTOR_CLONES \

@@ -10,11 +10,11 @@ namespace meniscus {
 /// again at half its length. Remeshing by itself shifts vertices by less than a tenth of this
 /// (tests/surface/remesh_test.cpp).
 inline constexpr double kMostShiftOverEdge = 0.01;
-/// Shortening is given up when it leaves more of the shift than this: what a step's length has to
-/// do with goes down by a factor of 2 or more.
+/// Shortening a step is given up when more than this fraction of the shift remains: a shift caused
+/// by the step's length falls by a factor of 2 or more.
 inline constexpr double kShiftLeft = 0.9;
-/// A step that takes the volume of a drop out of these bounds, relative to what it was, is refused:
-/// a flow that was solved keeps volumes to a thousandth or so.
+/// A step is refused if it changes a drop's volume by a factor outside these bounds. A converged
+/// flow keeps volumes to about a thousandth.
 inline constexpr double kLeastVolumeKept = 0.5, kMostVolumeKept = 2.0;
 
 inline constexpr std::array kEvolveConstants{

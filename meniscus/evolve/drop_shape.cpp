@@ -29,8 +29,8 @@ struct FittedSurface {
   }
 };
 
-/// Extremum of f(u) = f0 + 2 g·u + uᵀM u along each eigenvector of M on which it has the sign
-/// sought (sign > 0: a maximum), no farther than `reach` from u = 0.
+/// Extremum of f(u) = f0 + 2 g·u + uᵀM u, a maximum for sign > 0, else a minimum. Moves from u = 0
+/// along each eigenvector of M of the right curvature, by at most `reach`.
 double extremum(double f0, const Eigen::Vector2d& g, const Eigen::Matrix2d& M, double sign,
                 double reach) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(M);
@@ -69,7 +69,7 @@ ExtremeVertex extreme_distance(const FittedSurface& surface, const Vec3& c, cons
   return {std::sqrt(std::max(0.0, squared)), r.normalized()};
 }
 
-/// max e·x of the smooth surface along the unit vector e.
+/// The maximum of e·x over the smooth surface, e a unit vector.
 double support(const FittedSurface& surface, const Vec3& e) {
   const auto ids = surface.mesh.x.ids();
   const VertexId best =

@@ -8,9 +8,9 @@
 
 namespace meniscus {
 
-/// The measures of one drop as drops.csv has them (definitions: docs/notation.md). Lengths are
-/// those of the smooth interface through the vertices, volume, area and D_inertia those of the
-/// faces, flat or not, and the centroid that of the flat ones.
+/// The measures of one drop in drops.csv (definitions: docs/notation.md). Lengths refer to the
+/// smooth interface through the vertices; volume, area and D_inertia to the flat or curved faces;
+/// the centroid to the flat faces.
 struct DropShape {
   double volume = 0.0, area = 0.0;
   Vec3 centroid = Vec3::Zero();
@@ -19,7 +19,7 @@ struct DropShape {
   std::optional<double> angle_deg;  ///< of L from the flow direction; planar flows only
   double extent_x = 0.0;            ///< half of the extent in x
   double H_max = 0.0;               ///< largest half-sum of the principal curvatures
-  double D_inertia = 0.0;           ///< of the ellipsoid with the same second moments
+  double D_inertia = 0.0;           ///< deformation of the ellipsoid with the same second moments
 };
 /// Planar flows lie in the x-y plane with x the flow direction, axial ones have x as their axis.
 [[nodiscard]] DropShape drop_shape(const SurfaceMesh& mesh, FlowFamily family,

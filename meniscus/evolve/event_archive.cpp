@@ -5,13 +5,13 @@
 namespace meniscus {
 namespace {
 
-// Whole numbers of an event: its kind, the numbers of parents and children, and their ids. Its real
-// ones: place, volumes, areas, energies, the width of neck or gap, the volume moved.
+// Integers of an event: its kind, the numbers of parents and children, and their ids. Reals of an
+// event: position, volumes, areas, energies, width of the neck or gap, volume moved.
 constexpr const char* kWhole = "evolution/events/ids";
 constexpr const char* kReal = "evolution/events/measures";
 constexpr std::size_t kMeasures = 11;
 
-/// Reads an array from its start to its end.
+/// Reads an array entry by entry. Throws InvalidInput past its end.
 template <class T>
 class Reader {
  public:

@@ -7,7 +7,8 @@
 
 namespace meniscus {
 
-/// The events of the step before a checkpoint, whose rows are written with those of its step.
+/// Saves the events of the step that led to a checkpoint. Their rows are written with the rows of
+/// its step.
 void save_events(const std::vector<TopologyEvent>& events, Archive& archive);
 [[nodiscard]] std::vector<TopologyEvent> load_events(const Archive& archive);
 

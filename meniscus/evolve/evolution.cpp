@@ -19,7 +19,7 @@
 namespace meniscus {
 namespace {
 
-/// Velocity that carries the interfaces of `start` to those of `end` in dt.
+/// The mean velocity that moves the interfaces of `start` to those of `end` within dt.
 InterfaceMotion mean_motion(const Scene& start, const Scene& end, double dt) {
   InterfaceMotion motion;
   for (std::size_t i = 0; i < start.interfaces.size(); ++i) {
@@ -32,8 +32,8 @@ InterfaceMotion mean_motion(const Scene& start, const Scene& end, double dt) {
   return motion;
 }
 
-/// A flow that is not solved may throw vertices about; remeshing or mending what that leaves would
-/// hide it.
+/// A fault if the motion changed a drop's volume beyond bounds: the flow was not solved. Remeshing
+/// or mending would hide it.
 std::optional<Fault> find_wild_motion(const Scene& start, const Scene& end) {
   for (std::size_t i = 0; i < end.interfaces.size(); ++i) {
     const Interface& interface = end.interfaces[i];
@@ -114,17 +114,17 @@ void Evolution::accept_step(double dt) {
   ++state_.step;
 }
 
-/// Table 1 of hooper2001, the flow at t_k being known: move to the half time, solve there, move the
-/// whole step with that velocity, remesh. Explicit Euler leaves the half time out.
+/// Table 1 of hooper2001 after the solve at t_k: move to the half time, solve there, move the whole
+/// step with that velocity, remesh. Explicit Euler omits the half time.
 Report Evolution::try_step(const Scene& start, double dt) {
   if (options_.scheme == TimeScheme::euler) return finish_step(start, motion_, flow_, dt);
 
-  timed(times_, "move interfaces", [&] { move_interfaces(state_.scene, motion_, 0.5 * dt); });
+  time_phase(times_, "move interfaces", [&] { move_interfaces(state_.scene, motion_, 0.5 * dt); });
   if (Report moved = move_mesh(start, motion_, flow_, 0.5 * dt); !moved.ok()) return moved;
   const FlowSolution middle =
       solve_flow({.t = state_.t + 0.5 * dt, .dt = dt, .stage = Stage::middle});
   if (!middle.ok()) return middle;
-  const InterfaceMotion motion = timed(times_, "move interfaces", [&] {
+  const InterfaceMotion motion = time_phase(times_, "move interfaces", [&] {
     return normal_motion(state_.scene, middle.velocity, options_.motion_normal);
   });
   return finish_step(start, motion, middle, dt);
@@ -166,15 +166,15 @@ Report Evolution::move_whole_step(const Scene& start, const InterfaceMotion& mot
   return {};
 }
 
-/// Fields in the bulk ride to the end of the step before the mesh is made anew. Where cells would
-/// be inverted on the way they are carried from where the mesh stands.
+/// Moves fields in the bulk with the mesh to the end of the step, before a new mesh replaces it.
+/// Where cells would invert on the way, fields are transferred from the mesh as it stands.
 void Evolution::carry_fields_of_mesh(const Scene& start, const FlowSolution& flow, double dt) {
   if (!state_.mesh || state_.mesh->fields().empty()) return;
   const Report moved = move_mesh(start, mean_motion(start, state_.scene, dt), flow, dt);
   if (!moved.ok()) log::debug("fields are carried over a longer way: {}", moved.text());
 }
 
-/// The mesh takes the interfaces as they have become.
+/// Makes the mesh follow the interfaces after they were remeshed or changed topology.
 Report Evolution::follow_interfaces(const RegionSources& sources) {
   state_.connectivity = ++last_connectivity_;
   if (!state_.mesh) return {};
@@ -206,14 +206,14 @@ bool Evolution::remesh_interfaces(std::span<const std::size_t> interfaces) {
   return are_remeshed;
 }
 
-/// A step that makes drops touch, or one itself, is refused.
+/// A fault if drops touch each other or a drop touches itself. The step is then refused.
 Report Evolution::refuse_contact(bool are_remeshed) {
   const PhaseTimer timer(times_, "topology");
   return {find_contact(state_.scene, options_.topology, are_remeshed)};
 }
 
 Report Evolution::change_topology(const Scene& moved, const InterfaceMotion& motion) {
-  TopologyReport changed = timed(times_, "topology", [&] {
+  TopologyReport changed = time_phase(times_, "topology", [&] {
     return meniscus::change_topology(state_, options_.topology, moved, motion);
   });
   for (std::string& warning : changed.warnings) give_notice(FailedSurgery{std::move(warning)});
@@ -228,8 +228,7 @@ void Evolution::restore_volumes() {
     restore_volume(state_, i, options_.surface);
 }
 
-/// A step that needs a large shift of vertices to keep its volumes is refused while shorter ones
-/// need less.
+/// A fault if restoring volumes shifted vertices too far, as long as a shorter step needs less.
 Report Evolution::judge_volume_shift(double dt) {
   const double shift = state_.shift_over_edge;
   const ShiftVerdict verdict = shift_judge_.judge(state_, 0.5 * dt >= options_.min_step);

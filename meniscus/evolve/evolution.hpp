@@ -16,10 +16,10 @@
 
 namespace meniscus {
 
-/// A state that evolves in time: its interfaces move with the velocity a flow solver gives, and are
-/// kept fit for the next step. Between calls it stands at t_k with interfaces remeshed and the
-/// mesh made; the order of calls is prepare (or load), then solve, advance, solve, advance… A fault
-/// that a call reports has already been answered with less ambition.
+/// The time evolution of a state: a flow solver gives the velocity of the interfaces, and remeshing
+/// keeps them fit. Between calls the state is at t_k with interfaces remeshed and the mesh made.
+/// The order of calls is prepare (or load), then solve, advance, solve, advance… A call that
+/// returns a fault has already tried its fallbacks.
 class Evolution {
  public:
   /// `mesh` is given where the flow solver needs one.
@@ -28,10 +28,10 @@ class Evolution {
 
   /// Remeshes the initial interfaces and makes the mesh: step 0.
   Report prepare();
-  /// The flow at t_k (first line of the paper's Table 1).
+  /// Solves the flow at t_k (first line of the paper's Table 1).
   Report solve();
-  /// From t_k to t_{k+1}: the rest of Table 1. A step that fails is undone and tried at half the
-  /// length, down to `min_step`.
+  /// Advances from t_k to t_{k+1} (the rest of Table 1). A failed step is undone and retried at
+  /// half its length, down to `min_step`.
   Report advance();
 
   [[nodiscard]] const State& state() const { return state_; }
@@ -39,31 +39,31 @@ class Evolution {
   [[nodiscard]] std::int64_t step() const { return state_.step; }
   [[nodiscard]] const Scene& scene() const { return state_.scene; }
   [[nodiscard]] bool is_finished() const { return state_.t >= options_.end; }
-  /// The flow at t_k and the velocity ẋ = n n·v that the interfaces' vertices leave with.
+  /// The flow at t_k, and the velocity ẋ = n n·v of the interfaces' vertices at t_k.
   [[nodiscard]] const FlowSolution& flow() const { return flow_; }
   [[nodiscard]] const InterfaceMotion& motion() const { return motion_; }
-  /// The changes of topology in the step that led to t_k.
+  /// The topology events of the step that led to t_k.
   [[nodiscard]] const std::vector<TopologyEvent>& events() const { return state_.events; }
-  /// What its user should know of the steps so far.
+  /// All notices to the user so far.
   [[nodiscard]] const std::vector<Notice>& notices() const { return notices_; }
-  /// Told of each notice at once.
+  /// Sets a function that receives each notice at once.
   void set_listener(NoticeListener listener) { listener_ = std::move(listener); }
-  /// Seconds spent in a phase by the evolution, its mesh and its solver.
+  /// Seconds that the evolution, its mesh and its solver spent in a phase.
   [[nodiscard]] double seconds_in(const std::string& phase) const;
 
-  /// The length that the next step is tried with first, for the shapes as they are.
+  /// The length with which the next step is tried first.
   [[nodiscard]] double step_length() const;
 
-  /// The rows of the last solve.
+  /// The rows of history.csv and drops.csv after the last solve.
   [[nodiscard]] HistoryRow history_row() const;
   [[nodiscard]] std::vector<DropRow> drop_rows() const;
 
-  /// Puts fields on every interface, or on the mesh, in place of those there. They ride along from
-  /// then on (docs/fields.md). Throw InvalidInput naming what does not fit.
+  /// Sets the carried fields of every interface, or of the mesh, and replaces earlier ones
+  /// (docs/fields.md). Throws InvalidInput naming what does not fit.
   void set_interface_fields(std::vector<SurfaceFields> fields);
   void set_bulk_fields(VolumeFields fields);
 
-  /// The state before the solve at t_k, bit for bit.
+  /// Saves the state before the solve at t_k, bit for bit.
   void save(Archive& archive) const;
   void load(const Archive& archive);
 
@@ -96,11 +96,12 @@ class Evolution {
   EvolutionOptions options_;
   std::unique_ptr<FlowSolver> solver_;
   State state_;
-  std::int64_t last_connectivity_ = 0;  // never used again, also when a step is undone
-  FlowSolution flow_;                   // at t_k
-  InterfaceMotion motion_;              // n n·v at t_k
-  mutable PhaseTimes times_;            // the clock is no part of the state
-  ShiftJudge shift_judge_;              // of the attempts at the step from t_k
+  std::int64_t last_connectivity_ =
+      0;                      // largest number given so far; undone steps do not free theirs
+  FlowSolution flow_;         // at t_k
+  InterfaceMotion motion_;    // n n·v at t_k
+  mutable PhaseTimes times_;  // times are not part of the state
+  ShiftJudge shift_judge_;    // judges the attempts at the step from t_k
   std::vector<Notice> notices_;
   NoticeListener listener_;
 };

@@ -20,7 +20,7 @@ using InterfaceMotion = std::vector<VertexField<Vec3>>;
 /// x ← x + dt ẋ on every interface.
 void move_interfaces(Scene& scene, const InterfaceMotion& motion, double dt);
 
-/// The centroid of all that is not matrix: of what the interfaces next to region 0 enclose [R0].
+/// The centroid of all liquid that is not matrix [R0].
 [[nodiscard]] Vec3 centroid_of_drops(const Scene& scene);
 
 /// x ← x + shift on every interface.

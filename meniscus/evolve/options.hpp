@@ -10,7 +10,7 @@ enum class TimeScheme { rk2, euler };  ///< eqs 22 and 21 of hooper2001
 /// the faceted volume's rate of change at round-off), of the paraboloid fit (the paper's), or of
 /// the smooth surface (O(h³), where that of an area vector on an irregular mesh is O(h)).
 enum class MotionNormal { area_vector, fit, smooth };
-enum class StepEdges { interface, mesh };  ///< where l_min of the step rule is looked for
+enum class StepEdges { interface, mesh };  ///< where the step rule takes l_min from
 
 struct EvolutionOptions {
   TimeScheme scheme = TimeScheme::rk2;
@@ -19,16 +19,17 @@ struct EvolutionOptions {
   double end = 1.0;          ///< the run stops at the first step with t ≥ end
   double step_factor = 0.5;  ///< Δt = step_factor · min(1, Ca) · l_min (eq. 27)
   StepEdges step_edges = StepEdges::interface;
-  double max_step = 0.1;   ///< upper bound on Δt
+  double max_step = 0.1;   ///< upper bound of Δt
   double min_step = 1e-6;  ///< a step that fails at this size ends the run
-  /// The frame moves with the drops: after every step their centroid is put back where it was at
-  /// the start, as experiments hold a drop at a stagnation point (bentley1986); the domain and the
-  /// imposed flow move along.
+  /// The frame of reference moves with the drops: after every step they are shifted so that their
+  /// centroid is where it was at the start, relative to the domain and the imposed flow.
+  /// Experiments hold a drop at a stagnation point in this way (bentley1986).
   bool follows_drops = false;
-  int remesh_every = 1;           ///< steps between remeshings
-  double spring_tolerance = 0.0;  ///< of the springs (RemeshOptions); 0: what the remesher chooses
-  double edge_floor = 0.0;        ///< [R0] no interface edge is asked to be shorter
-  double gap_layers = 0.0;   ///< layers of tetrahedra asked for where sheets are close; 0: none
+  int remesh_every = 1;  ///< steps between remeshings
+  double spring_tolerance =
+      0.0;                  ///< tolerance of the springs (RemeshOptions); 0: the remesher's default
+  double edge_floor = 0.0;  ///< [R0] smallest target length of interface edges
+  double gap_layers = 0.0;  ///< layers of tetrahedra between close sheets; 0: not controlled
   TopologyOptions topology;  ///< when necks are cut and gaps bridged
 };
 

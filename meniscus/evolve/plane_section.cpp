@@ -10,7 +10,7 @@
 namespace meniscus {
 namespace {
 
-/// Cubic Bézier curve of an edge whose end tangents are the chord less its part along the normals.
+/// Cubic Bézier curve of an edge. Its end tangents are the chord projected onto the tangent planes.
 class CurvedEdge {
  public:
   CurvedEdge(const Vec3& a, const Vec3& b, const Vec3& normal_a, const Vec3& normal_b)
@@ -28,8 +28,8 @@ class CurvedEdge {
   Vec3 p0_, p1_, p2_, p3_;
 };
 
-/// Where the curve meets height 0; its ends lie on either side. Bisection to round-off, steered by
-/// the secant.
+/// The point where the curve meets height 0, by bisection and secant to round-off. Its ends must
+/// lie on opposite sides.
 Vec3 crossing(const CurvedEdge& edge, const auto& height) {
   double low = 0.0, high = 1.0;
   double at_low = height(edge.point(low));
@@ -89,7 +89,7 @@ std::vector<std::vector<Vec3>> plane_section(const SurfaceMesh& mesh,
                                              const Vec3& origin, const Vec3& axis) {
   const auto height = [&](const Vec3& x) { return axis.dot(x - origin); };
   const auto is_above = [&](VertexId v) { return height(mesh.x[v]) > 0.0; };
-  // Each cut face joins the crossings of two of its edges.
+  // A crossing of the plane with an edge; each cut face joins the crossings of two of its edges.
   struct Crossing {
     Vec3 point;
     FaceId left, right;

@@ -15,7 +15,7 @@ namespace meniscus {
                                                            const VertexField<VertexCurvature>& fit,
                                                            const Vec3& origin, const Vec3& axis);
 
-/// Largest or smallest distance from `origin` to a set of closed curves, with the place it is
+/// Largest or smallest distance from `origin` to a set of closed curves, with the point where it is
 /// reached: the extremum of the parabola through the extreme point and its two neighbours.
 struct ExtremeDistance {
   double distance = 0.0;

@@ -10,7 +10,7 @@
 
 namespace meniscus {
 
-/// The state at the start of step `step`, as history.csv has it (docs/notation.md).
+/// A row of history.csv: the state at t_step (docs/notation.md).
 struct HistoryRow {
   std::int64_t step = 0;
   double t = 0.0, dt = 0.0;  ///< dt: the step that led here; 0 at step 0
@@ -18,7 +18,7 @@ struct HistoryRow {
   std::int64_t surface_nodes = 0;
   std::optional<std::int64_t> nodes, tetrahedra;
   std::optional<double> min_gap, min_dihedral_deg;
-  int linear_iterations = 0;                    ///< all solves since the row before
+  int linear_iterations = 0;                    ///< iterations of all solves since the previous row
   std::optional<double> power_in, dissipation;  ///< empty in an unbounded liquid
   double surface_rate = 0.0;
   std::optional<Mat3> stress;  ///< empty where the matrix is not Newtonian

@@ -47,7 +47,7 @@ InterfaceRemesh remesh_interface(State& state, std::size_t i, const EvolutionOpt
                   state.scene.interfaces.size());
   Interface& interface = state.scene.interfaces[i];
   const RemeshOptions how = remesh_options(interface, options, surfaces.others(i));
-  // Only flows through changes of topology draw creases that nothing will smooth again.
+  // Topology events can leave creases that the flow does not smooth.
   const MendReport mended =
       options.topology.is_off()
           ? MendReport{.remesh = remesh(interface.mesh, how, interface.fields)}

@@ -14,7 +14,7 @@
 namespace meniscus {
 namespace {
 
-// Names in a checkpoint; interfaces/<i>/x and faces are also what a `from-run` drop reads.
+// Name of an entry in a checkpoint. A `from-run` drop reads interfaces/<i>/x and faces.
 std::string interface_path(std::size_t i, const char* name) {
   return fmt::format("interfaces/{}/{}", i, name);
 }
@@ -57,7 +57,7 @@ Interface load_interface(const Archive& archive, std::size_t i) {
   return interface;
 }
 
-// The liquids of the regions change with the interfaces.
+// Saves the liquids of the regions, which change with the interfaces.
 void save_liquids(const Scene& scene, Archive& archive) {
   std::vector<double>& values = archive.reals["evolution/liquids"];
   MENISCUS_ASSERT(scene.liquids.size() > static_cast<std::int32_t>(scene.interfaces.size()),
@@ -67,8 +67,8 @@ void save_liquids(const Scene& scene, Archive& archive) {
                                  liquid.body_force.z()});
 }
 
-// Kind and numbers of each law; of Newtonian liquids nothing, so that their checkpoints are what
-// they were before there were laws.
+// Saves kind and parameters of each viscosity law. Newtonian liquids write nothing, so that old
+// checkpoints without laws stay valid.
 void save_laws(const Scene& scene, Archive& archive) {
   if (std::ranges::all_of(scene.liquids, is_newtonian, &Liquid::law)) return;
   std::vector<double>& values = archive.reals["evolution/liquid-laws"];

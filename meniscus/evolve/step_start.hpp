@@ -4,18 +4,18 @@
 
 namespace meniscus {
 
-/// Where a step begins: what undoing it, or an attempt at it, goes back to.
+/// The state at the start of a step, to which undoing an attempt returns.
 class StepStart {
  public:
-  /// Copies the state but for its mesh, which remembers for itself where it stands.
+  /// Copies the state without its mesh, which keeps its own start positions.
   explicit StepStart(State& state);
 
   [[nodiscard]] const Scene& scene() const { return state_.scene; }
-  /// Puts the state back. The iterations spent since stay counted.
+  /// Restores the state. The count of iterations is kept.
   void restore(State& state) const;
 
  private:
-  State state_;  // without its mesh
+  State state_;  // copy of the state without its mesh
 };
 
 }  // namespace meniscus

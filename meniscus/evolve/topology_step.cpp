@@ -20,7 +20,7 @@ SurfaceMotion surface_motion(const Scene& scene, const InterfaceMotion& motion) 
   return result;
 }
 
-/// Shifts stay with their drops; new ones have none yet.
+/// The volume shifts after events: old drops keep theirs, new drops have zero.
 std::vector<double> carried_shifts(const Scene& before, std::span<const double> shifts,
                                    const Scene& after) {
   MENISCUS_ASSERT(shifts.size() == before.interfaces.size(), "{} shifts of {} interfaces",
@@ -62,7 +62,7 @@ std::optional<Fault> find_contact(const Scene& scene, const TopologyOptions& opt
                                   bool are_remeshed) {
   std::optional<Fault> contact = find_touching_drops(scene);
   if (!contact && !are_remeshed) contact = find_folded_drop(scene);
-  // With coalescence a shorter step lets drops come close first, without it they stay apart.
+  // With coalescence a shorter step brings drops close first; without it they must stay apart.
   if (contact && !options.coalescence)
     contact->text += "; topology.coalescence = \"off\" keeps them apart";
   return contact;

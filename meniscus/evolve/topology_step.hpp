@@ -10,17 +10,17 @@
 
 namespace meniscus {
 
-/// Cuts and bridges what is due in the interfaces of a state as remeshed; `moved`, the scene before
-/// that, with `motion` says how they came there. The state takes the events. The `new_interfaces`
-/// are then still to be remeshed.
+/// Carries out the cuts and bridges that are due in the remeshed interfaces of a state. `moved` is
+/// the scene before remeshing and `motion` the velocity that led there. The events are stored in
+/// the state. The caller must remesh the `new_interfaces`.
 TopologyReport change_topology(State& state, const TopologyOptions& options, const Scene& moved,
                                const InterfaceMotion& motion);
 
-/// The interfaces of a scene that an earlier scene does not have: what events have made.
+/// The indices of interfaces that an earlier scene does not have, which events made.
 [[nodiscard]] std::vector<std::size_t> new_interfaces(const Scene& before, const Scene& after);
 
-/// Why the interfaces may not stand as they do: two touch, or one touches itself; none when none
-/// does. A surface that could be remeshed is known not to touch itself.
+/// A fault if two interfaces touch or one touches itself. A surface that was remeshed is known not
+/// to touch itself.
 [[nodiscard]] std::optional<Fault> find_contact(const Scene& scene, const TopologyOptions& options,
                                                 bool are_remeshed);
 

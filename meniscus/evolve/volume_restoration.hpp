@@ -8,21 +8,21 @@
 
 namespace meniscus {
 
-/// Carries the fields of interface i along with its vertices, which stood at `before`.
+/// Transfers the fields of interface i with its vertices, which moved from `before`.
 void carry_fields(State& state, std::size_t i, const SurfaceMesh& before);
 
-/// Gives interface i the volume that it is to have by shifting all its vertices by one length,
-/// whose size `state` records. Fields follow.
+/// Restores the volume of interface i by shifting all vertices by one length, which `state`
+/// records. Fields are transferred.
 void restore_volume(State& state, std::size_t i, SurfaceShape surface);
 
-/// What becomes of an attempt at a step by the shift that restored its volumes.
+/// The verdict on an attempt at a step, by the shift that restored its volumes.
 enum class ShiftVerdict {
   accept,
-  shorten,          ///< a shorter step is to be tried
-  accept_for_good,  ///< it is too large, and no step's length will change that
+  shorten,          ///< the step must be retried shorter
+  accept_for_good,  ///< the shift is too large, but shorter steps do not reduce it
 };
 
-/// Judges one attempt at a step after another.
+/// Judges the attempts at one step in turn.
 class ShiftJudge {
  public:
   /// `state` stands at the end of the attempt; `can_shorten` says whether half its length may be
@@ -30,7 +30,7 @@ class ShiftJudge {
   ShiftVerdict judge(const State& state, bool can_shorten);
 
  private:
-  double before_ = std::numeric_limits<double>::infinity();  // of the attempt before
+  double before_ = std::numeric_limits<double>::infinity();  // shift of the previous attempt
 };
 
 }  // namespace meniscus

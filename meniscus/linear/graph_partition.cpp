@@ -16,7 +16,7 @@ using Partitioning = Owned<MatPartitioning, MatPartitioningDestroy>;
 using IndexSet = Owned<IS, ISDestroy>;
 
 /// A copy that PETSc frees.
-PetscInt* given_away(std::span<const std::int32_t> values) {
+PetscInt* petsc_copy(std::span<const std::int32_t> values) {
   PetscInt* copy = nullptr;
   petsc_check(PetscMalloc1(std::max<std::size_t>(values.size(), 1), &copy), "PetscMalloc1");
   std::ranges::copy(values, copy);
@@ -26,8 +26,8 @@ PetscInt* given_away(std::span<const std::int32_t> values) {
 Matrix adjacency(const WeightedGraph& graph) {
   Matrix matrix;
   petsc_check(MatCreateMPIAdj(PETSC_COMM_SELF, graph.num_vertices(), graph.num_vertices(),
-                              given_away(graph.row_start), given_away(graph.neighbours),
-                              given_away(graph.edge_weights), matrix.out()),
+                              petsc_copy(graph.row_start), petsc_copy(graph.neighbours),
+                              petsc_copy(graph.edge_weights), matrix.out()),
               "MatCreateMPIAdj");
   return matrix;
 }
@@ -60,7 +60,7 @@ std::vector<std::int32_t> partition(const WeightedGraph& graph, int num_parts,
       MatPartitioningSetType(handle, is_scotch ? MATPARTITIONINGPTSCOTCH : MATPARTITIONINGAVERAGE),
       "MatPartitioningSetType");
   if (is_scotch) {
-    petsc_check(MatPartitioningSetVertexWeights(handle, given_away(graph.vertex_weights)),
+    petsc_check(MatPartitioningSetVertexWeights(handle, petsc_copy(graph.vertex_weights)),
                 "MatPartitioningSetVertexWeights");
     petsc_check(MatPartitioningSetUseEdgeWeights(handle, PETSC_TRUE),
                 "MatPartitioningSetUseEdgeWeights");

@@ -108,7 +108,7 @@ PetscErrorCode destroy_rows(void* rows) {
 constexpr const char* kRows = "meniscus_rows";
 
 /// Gives a matrix the arrays that it was made on, to keep as long as it lives.
-void keep_with(Mat matrix, std::unique_ptr<SplitRows> rows) {
+void attach_rows(Mat matrix, std::unique_ptr<SplitRows> rows) {
   Container container;
   petsc_check(PetscContainerCreate(PETSC_COMM_SELF, container.out()), "PetscContainerCreate");
   petsc_check(PetscContainerSetUserDestroy(container.get(), destroy_rows),
@@ -143,7 +143,7 @@ Matrix shared_matrix(MPI_Comm comm, const CsrView& csr) {
                                              rows->others.start.data(), rows->others.columns.get(),
                                              rows->others.values.get(), matrix.out()),
               "MatCreateMPIAIJWithSplitArrays");
-  keep_with(matrix.get(), std::move(rows));
+  attach_rows(matrix.get(), std::move(rows));
   return matrix;
 }
 
@@ -154,7 +154,7 @@ Matrix nest_of(MPI_Comm comm, std::array<Mat, 4> blocks) {
   return nest;
 }
 
-Matrix scaled(MPI_Comm comm, const CsrView& csr, double scale) {
+Matrix scaled_copy(MPI_Comm comm, const CsrView& csr, double scale) {
   Matrix copy = copied_matrix(comm, csr);
   petsc_check(MatScale(copy.get(), scale), "MatScale");
   return copy;
@@ -223,7 +223,7 @@ NestedOperator nested_operator(MPI_Comm comm, const SaddleSystem& system) {
   NestedOperator result;
   result.A = borrowed_matrix(comm, system.A);
   result.B = borrowed_matrix(comm, system.B);
-  result.minus_C = scaled(comm, system.C, -1.0);
+  result.minus_C = scaled_copy(comm, system.C, -1.0);
   if (!system.lower_left.empty())
     result.lower_left = borrowed_matrix(comm, system.lower_left_block());
   Matrix gradient;
@@ -251,13 +251,13 @@ MergedMatrix merged_matrix(MPI_Comm comm, const SaddleSystem& system, double con
                            double pin) {
   MergedMatrix result;
   if (!is_shared(comm)) {
-    result.arrays = merged(system, continuity_sign, pin);
+    result.arrays = merged_system(system, continuity_sign, pin);
     result.handle = borrowed_matrix(comm, result.arrays.view());
     return result;
   }
   const Matrix A = borrowed_matrix(comm, system.A), B = borrowed_matrix(comm, system.B),
-               lower_left = scaled(comm, system.lower_left_block(), continuity_sign),
-               corner = scaled(comm, system.C, -continuity_sign);
+               lower_left = scaled_copy(comm, system.lower_left_block(), continuity_sign),
+               corner = scaled_copy(comm, system.C, -continuity_sign);
   Matrix gradient;
   petsc_check(MatTranspose(B.get(), MAT_INITIAL_MATRIX, gradient.out()), "MatTranspose");
   const Matrix nest = nest_of(comm, {A.get(), gradient.get(), lower_left.get(), corner.get()});

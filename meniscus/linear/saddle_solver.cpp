@@ -46,8 +46,10 @@ double mean_of(Communicator communicator, std::span<const double> values) {
 }
 
 /// Right-hand side of a consistent system: the pressures' part sums to zero where it must.
-std::vector<double> consistent(Communicator communicator, const SaddleSystem& system,
-                               std::span<const double> given, double continuity_sign) {
+std::vector<double> consistent_right_hand_side(Communicator communicator,
+                                               const SaddleSystem& system,
+                                               std::span<const double> given,
+                                               double continuity_sign) {
   std::vector<double> values(given.begin(), given.end());
   const auto pressures = std::span(values).subspan(std::size_t(system.num_velocities()));
   const double mean = system.constant_pressure_is_null ? mean_of(communicator, pressures) : 0.0;
@@ -217,7 +219,7 @@ class SaddleSolver::Implementation {
                std::span<double> solution, double rtol, LinearReport& report) {
     const double sign = options_.method == SaddleMethod::paper_gmres ? -1.0 : 1.0;
     const std::vector<double> consistent_side =
-        consistent(communicator_, system, right_hand_side, sign);
+        consistent_right_hand_side(communicator_, system, right_hand_side, sign);
     const Vector b = borrowed_vector(comm(), consistent_side),
                  x = borrowed_vector(comm(), solution);
     const KrylovSolver outer = make_outer_solver(rtol);

@@ -10,7 +10,7 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-CsrMatrix transposed(const CsrView& matrix) {
+CsrMatrix transpose(const CsrView& matrix) {
   CsrMatrix result;
   result.num_columns = matrix.num_rows;
   result.row_start.assign(at(matrix.num_columns) + 1, 0);
@@ -46,9 +46,9 @@ void end_row(CsrMatrix& matrix) {
 
 }  // namespace
 
-CsrMatrix merged(const SaddleSystem& system, double continuity_sign, double pin) {
+CsrMatrix merged_system(const SaddleSystem& system, double continuity_sign, double pin) {
   const std::int32_t num_velocities = system.num_velocities();
-  const CsrMatrix gradient = transposed(system.B);
+  const CsrMatrix gradient = transpose(system.B);
   const CsrView lower_left = system.lower_left_block();
   CsrMatrix result;
   result.num_columns = system.size();

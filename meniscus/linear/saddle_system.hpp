@@ -82,6 +82,7 @@ struct CsrMatrix {
             values};
   }
 };
-[[nodiscard]] CsrMatrix merged(const SaddleSystem& system, double continuity_sign, double pin);
+[[nodiscard]] CsrMatrix merged_system(const SaddleSystem& system, double continuity_sign,
+                                      double pin);
 
 }  // namespace meniscus::linear

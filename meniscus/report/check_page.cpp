@@ -17,17 +17,17 @@ constexpr std::array<const char*, kColumns> kHeadings = {
     "case", "run", "quantity", "at", "reference", "measured", "deviation", "tolerance", "verdict"};
 
 std::array<std::string, kColumns> cells(const CheckLine& line) {
-  return {line.case_name, line.run,       line.quantity,  line.place,        line.reference,
+  return {line.case_name, line.run,       line.quantity,  line.at,           line.reference,
           line.measured,  line.deviation, line.tolerance, word(line.verdict)};
 }
 
-/// Characters, not bytes: continuation bytes of UTF-8 take no column.
+/// Width of a text in columns: continuation bytes of UTF-8 take none.
 std::size_t width_of(std::string_view text) {
   return static_cast<std::size_t>(std::ranges::count_if(
       text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
-std::string padded(const std::string& text, std::size_t width) {
+std::string padded_text(const std::string& text, std::size_t width) {
   return text + std::string(width - std::min(width, width_of(text)), ' ');
 }
 
@@ -56,7 +56,7 @@ std::string check_text(const std::vector<CheckLine>& lines) {
   }
   std::string text;
   const auto add = [&](const auto& row) {
-    for (std::size_t k = 0; k + 1 < kColumns; ++k) text += padded(row[k], widths[k]) + "  ";
+    for (std::size_t k = 0; k + 1 < kColumns; ++k) text += padded_text(row[k], widths[k]) + "  ";
     text += row[kColumns - 1];
     text += '\n';
   };
@@ -67,13 +67,13 @@ std::string check_text(const std::vector<CheckLine>& lines) {
 
 void write_check_page(const std::vector<CheckLine>& lines, const std::string& provenance,
                       const std::filesystem::path& file) {
-  std::string text =
-      "<h1>Validation</h1>\n<p>" + escaped(provenance) + "</p>\n<div class=\"card\"><table>\n<tr>";
+  std::string text = "<h1>Validation</h1>\n<p>" + markup_text(provenance) +
+                     "</p>\n<div class=\"card\"><table>\n<tr>";
   for (const char* heading : kHeadings) text += fmt::format("<th>{}</th>", heading);
   text += "</tr>\n";
   for (const CheckLine& line : lines) {
     text += "<tr>";
-    for (const std::string& cell : cells(line)) text += "<td>" + escaped(cell) + "</td>";
+    for (const std::string& cell : cells(line)) text += "<td>" + markup_text(cell) + "</td>";
     text += "</tr>\n";
   }
   text += "</table></div>\n";

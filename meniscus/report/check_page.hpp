@@ -8,14 +8,14 @@ namespace meniscus::report {
 
 /// A line of the table of checks, as text.
 struct CheckLine {
-  std::string case_name, run, quantity, place, reference, measured, deviation, tolerance;
+  std::string case_name, run, quantity, at, reference, measured, deviation, tolerance;
   enum class Verdict { passed, failed, reported, missing } verdict = Verdict::reported;
 };
 
 [[nodiscard]] const char* word(CheckLine::Verdict verdict);
-/// The table in columns, for a terminal.
+/// The table of checks in aligned columns, for a terminal.
 [[nodiscard]] std::string check_text(const std::vector<CheckLine>& lines);
-/// Writes the table as a page of its own. Throws RunFailure when it cannot be written.
+/// Writes the table of checks as an HTML page. Throws RunFailure when the file cannot be written.
 void write_check_page(const std::vector<CheckLine>& lines, const std::string& provenance,
                       const std::filesystem::path& file);
 

@@ -60,7 +60,7 @@ ValueRange color_range(std::span<const double> values) {
     return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
   };
   ValueRange range{at(0.01), at(0.99)};
-  // A sphere has one curvature: its roundoff is not worth a rainbow.
+  // A sphere has one curvature: its roundoff must not fill the colour scale.
   const double least = std::max(0.02 * std::max(std::abs(range.low), std::abs(range.high)), 1e-12);
   if (range.high - range.low < least) {
     const double middle = 0.5 * (range.low + range.high);

@@ -13,23 +13,23 @@ struct Color {
 /// Viridis at s in [0, 1] (values beyond are clamped): lightness rises evenly with s, readable
 /// without colour vision.
 [[nodiscard]] Color viridis(double s);
-/// Brightened or darkened by a factor; brightened towards white by a share in [0, 1].
+/// `shade` multiplies brightness by a factor; `tint` mixes in a share of white in [0, 1].
 [[nodiscard]] Color shade(const Color& color, double factor);
 [[nodiscard]] Color tint(const Color& color, double share);
 [[nodiscard]] std::string hex(const Color& color);  ///< "#rrggbb"
 
-/// The values that a part of viridis spans.
+/// A range of values and the part of viridis that shows it.
 struct ValueRange {
   double low = 0.0, high = 1.0;
-  double first = 0.0, last = 1.0;  ///< the part: all of it, or without the ends
+  double first = 0.0, last = 1.0;  ///< the part of viridis in [0, 1]
   [[nodiscard]] double fraction(double value) const { return (value - low) / (high - low); }
   [[nodiscard]] Color color(double value) const {
     return viridis(first + (last - first) * fraction(value));
   }
 };
 
-/// From the 1st to the 99th of each hundred of the finite values, so that a few wild ones do not
-/// spend the colours; widened to at least a fiftieth of the values.
+/// The range from the 1st to the 99th percentile of the finite values, so that a few outliers do
+/// not take the colours. Its width is at least a fiftieth of the values.
 [[nodiscard]] ValueRange color_range(std::span<const double> values);
 
 }  // namespace meniscus::report

@@ -14,7 +14,7 @@ namespace {
 constexpr std::array compared_columns = {"D",         "L",     "B",    "W",
                                          "angle_deg", "H_max", "area", "volume"};
 
-/// One measure of all drops, as if it were a plot.
+/// The specification of a plot with one column of drops.csv.
 PlotSpec measure(const char* column) {
   return {.group = {}, .title = {}, .unit = {}, .table = "drops", .quantities = {{column, column}}};
 }
@@ -27,13 +27,13 @@ std::optional<HistoryCurve> curve_of_drop(const std::vector<HistoryCurve>& curve
 Difference difference(const HistoryCurve& first, const HistoryCurve& run, double end) {
   Difference result;
   result.drop = run.drop;
-  result.at_end = interpolated(run.t, run.values, end);
-  result.first_at_end = interpolated(first.t, first.values, end);
-  // Both are linear between their rows: the largest difference is at a row of one of them.
+  result.at_end = value_at(run.t, run.values, end);
+  result.first_at_end = value_at(first.t, first.values, end);
+  // Both curves are piecewise linear, so the largest difference is at a row of one of them.
   for (const std::vector<double>* times : {&first.t, &run.t}) {
     for (const double t : *times) {
       const double here =
-          std::abs(interpolated(run.t, run.values, t) - interpolated(first.t, first.values, t));
+          std::abs(value_at(run.t, run.values, t) - value_at(first.t, first.values, t));
       if (!(t <= end) || !std::isfinite(here) || result.largest >= here) continue;
       result.largest = here;
       result.t_of_largest = t;
@@ -68,7 +68,7 @@ std::vector<Difference> differences(const RunData& first, const RunData& run, do
   return list;
 }
 
-double interpolated(std::span<const double> x, std::span<const double> y, double t) {
+double value_at(std::span<const double> x, std::span<const double> y, double t) {
   MENISCUS_ASSERT(x.size() == y.size(), "{} times of {} values", x.size(), y.size());
   const auto after = std::ranges::lower_bound(x, t);
   if (after == x.end()) return std::numeric_limits<double>::quiet_NaN();

@@ -9,12 +9,12 @@
 
 namespace meniscus::report {
 
-/// How a quantity of one run departs from the same of another, both linear between their rows.
+/// The difference of one quantity between two runs, both linear between their rows.
 struct Difference {
   std::string quantity;  ///< column of drops.csv
   int drop = 0;
-  double at_end = std::numeric_limits<double>::quiet_NaN();  ///< of the run, at the common end
-  double first_at_end = at_end;                              ///< of the first run
+  double at_end = std::numeric_limits<double>::quiet_NaN();  ///< value of the run at the common end
+  double first_at_end = at_end;                              ///< value of the first run there
   double largest = at_end;  ///< max |difference| over the rows of both within the common time
   double t_of_largest = at_end;
 };
@@ -22,11 +22,12 @@ struct Difference {
 /// The time up to which all runs have rows [1/G]; NaN if one has none.
 [[nodiscard]] double common_end(std::span<const RunData> runs);
 
-/// The run against the first one, for every drop and every measure of shape that both have.
+/// The differences between a run and the first run, for every drop and shape measure that both
+/// have.
 [[nodiscard]] std::vector<Difference> differences(const RunData& first, const RunData& run,
                                                   double end);
 
 /// Value at t of a curve that is linear between its points; NaN beyond its ends.
-[[nodiscard]] double interpolated(std::span<const double> x, std::span<const double> y, double t);
+[[nodiscard]] double value_at(std::span<const double> x, std::span<const double> y, double t);
 
 }  // namespace meniscus::report

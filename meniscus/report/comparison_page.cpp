@@ -27,11 +27,10 @@ namespace fs = std::filesystem;
 
 constexpr double frame_width = 280.0;  // [px]
 constexpr int num_times = 4;
-constexpr std::size_t most_runs =
-    8;                             // as many views as a browser bears, and more than anybody reads
-constexpr int most_faces = 36000;  // of all pictures, 65 bytes each
+constexpr std::size_t most_runs = 8;  // a browser can hold no more 3-D views
+constexpr int most_faces = 36000;     // in all pictures together, 65 bytes each
 
-/// The folders' own names, with as much of their paths before as tells them apart.
+/// The names of the folders, each with enough of its path to be unique.
 std::vector<std::string> names_of(std::span<const fs::path> folders) {
   std::vector<fs::path> paths;
   for (const fs::path& folder : folders)
@@ -54,15 +53,15 @@ std::string facts_row(const char* label, std::span<const RunData> runs,
   for (const RunData& run : runs) {
     const std::string text = value(run);
     is_empty &= text.empty();
-    cells += fmt::format("<td>{}</td>", escaped(text));
+    cells += fmt::format("<td>{}</td>", markup_text(text));
   }
   return is_empty ? "" : fmt::format("<tr><th>{}</th>{}</tr>\n", label, cells);
 }
 
-/// What each run is, one beside the other; of the keys of the case, those that differ.
+/// A table of the runs side by side, with the case keys in which they differ.
 std::string runs_html(std::span<const RunData> runs, std::span<const std::string> names) {
   std::string head, rows;
-  for (const std::string& name : names) head += fmt::format("<th>{}</th>", escaped(name));
+  for (const std::string& name : names) head += fmt::format("<th>{}</th>", markup_text(name));
   rows += facts_row("Title", runs, [](const RunData& run) { return run.facts.title; });
   rows += facts_row("Status", runs, [](const RunData& run) { return run.facts.status; });
   rows += facts_row("Version", runs, [](const RunData& run) {
@@ -71,7 +70,7 @@ std::string runs_html(std::span<const RunData> runs, std::span<const std::string
   rows += facts_row("Steps", runs, [](const RunData& run) { return run.facts.steps; });
   rows += facts_row("Time reached", runs, [](const RunData& run) { return run.facts.t; });
   rows += facts_row("Wall time", runs, [](const RunData& run) {
-    return run.facts.wall_seconds > 0.0 ? readable_duration(run.facts.wall_seconds) : "";
+    return run.facts.wall_seconds > 0.0 ? duration_text(run.facts.wall_seconds) : "";
   });
   std::map<std::string, bool> seen;
   for (const RunData& run : runs) {
@@ -80,7 +79,7 @@ std::string runs_html(std::span<const RunData> runs, std::span<const std::string
       const auto value = [&key = key](const RunData& r) { return r.facts.case_value(key); };
       const bool is_same = std::ranges::all_of(
           runs, [&](const RunData& r) { return value(r) == value(runs.front()); });
-      if (!is_same) rows += facts_row(escaped(key).c_str(), runs, value);
+      if (!is_same) rows += facts_row(markup_text(key).c_str(), runs, value);
     }
   }
   return fmt::format(
@@ -89,18 +88,18 @@ std::string runs_html(std::span<const RunData> runs, std::span<const std::string
       head, rows);
 }
 
-/// The run against the first one.
+/// The table of differences between a run and the first run.
 std::string differences_html(const RunData& first, const RunData& run,
                              const std::string& first_name, const std::string& name, double end) {
   std::string rows;
   for (const Difference& d : differences(first, run, end)) {
-    const std::string label = fmt::format("{} of drop {}", escaped(d.quantity), d.drop);
+    const std::string label = fmt::format("{} of drop {}", markup_text(d.quantity), d.drop);
     rows += fmt::format(
         "<tr><th>{}</th><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
         "<td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
-        label, readable(d.first_at_end, 6), readable(d.at_end, 6),
-        readable(d.at_end - d.first_at_end, 3), readable(d.largest, 3),
-        readable(d.t_of_largest, 4));
+        label, number_text(d.first_at_end, 6), number_text(d.at_end, 6),
+        number_text(d.at_end - d.first_at_end, 3), number_text(d.largest, 3),
+        number_text(d.t_of_largest, 4));
   }
   if (rows.empty()) return {};
   return fmt::format(
@@ -108,10 +107,10 @@ std::string differences_html(const RunData& first, const RunData& run,
       "<thead><tr><th></th><th class=\"n\">{0}, t = {2}</th><th class=\"n\">{1}, t = {2}</th>"
       "<th class=\"n\">difference there</th><th class=\"n\">largest |difference|</th>"
       "<th class=\"n\">at t</th></tr></thead><tbody>{3}</tbody></table></div>\n",
-      escaped(first_name), escaped(name), readable(end, 4), rows);
+      markup_text(first_name), markup_text(name), number_text(end, 4), rows);
 }
 
-/// Shapes at equal times, a row of pictures for each run.
+/// The shapes at equal times, one row of pictures per run.
 std::string shapes_html(std::span<RunData> runs, std::span<const std::string> names, double end) {
   std::vector<double> times;
   for (int k = 0; k < num_times; ++k) times.push_back(end * k / (num_times - 1));
@@ -129,10 +128,10 @@ std::string shapes_html(std::span<RunData> runs, std::span<const std::string> na
   const ValueRange range = curvature_range(all);
   std::string text = "<h2>Shapes at equal times</h2>\n";
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    text +=
-        fmt::format("<div class=\"card\"><h3>{}</h3><div class=\"frames\">\n", escaped(names[r]));
+    text += fmt::format("<div class=\"card\"><h3>{}</h3><div class=\"frames\">\n",
+                        markup_text(names[r]));
     for (const SurfaceFrame& frame : frames[r]) {
-      const std::string time = readable(frame.t, 3);
+      const std::string time = number_text(frame.t, 3);
       text += fmt::format("<figure>{}<figcaption><i>t</i> = {}</figcaption></figure>\n",
                           inline_svg(draw_surface(frame, view, range), view.width, view.height,
                                      names[r] + " at t = " + time),
@@ -163,7 +162,7 @@ std::string faults_html(std::span<const RunData> runs, std::span<const std::stri
   std::string text;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     for (const std::string& fault : runs[r].faults)
-      text += fmt::format("<p>{}: {}</p>", escaped(names[r]), escaped(fault));
+      text += fmt::format("<p>{}: {}</p>", markup_text(names[r]), markup_text(fault));
   }
   return text.empty() ? "" : "<div class=\"notice\">" + text + "</div>\n";
 }
@@ -188,7 +187,7 @@ void write_comparison(std::span<const fs::path> run_directories, const fs::path&
     budget.most_cuts = 0;
     std::vector<PageRun> pages;
     for (std::size_t r = 0; r < runs.size(); ++r) {
-      pages.push_back(packed_run(runs[r], budget));
+      pages.push_back(page_run(runs[r], budget));
       pages.back().name = names[r];
     }
     parts.data = data_elements("comparison", runs, pages, budget);
@@ -202,7 +201,7 @@ void write_comparison(std::span<const fs::path> run_directories, const fs::path&
     tables += differences_html(runs.front(), runs[r], names.front(), names[r], end);
   parts.content =
       fmt::format("<header><h1>{} runs compared</h1>\n<p class=\"lead\">{}</p>\n{}</header>\n",
-                  runs.size(), escaped(parts.title), faults_html(runs, names)) +
+                  runs.size(), markup_text(parts.title), faults_html(runs, names)) +
       "<div id=\"app\"></div>\n" + stills + "<h2>Differences</h2>\n" + tables;
   io::write_file(out, whole_page(parts));
 }

@@ -8,14 +8,14 @@
 namespace meniscus::report {
 namespace {
 
-// A plot is about 500 px wide: two points for each pixel show all there is to see.
+// A plot is about 500 px wide, so two points per pixel show everything.
 constexpr std::size_t most_points = 1000;
 
 bool is_gap(const PicturePoint& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); }
 
-/// Keeps the lowest and the highest point of each bucket of neighbours, in their order, and both
-/// ends of the curve.
-std::vector<PicturePoint> thinned(std::span<const PicturePoint> points) {
+/// The lowest and the highest point of each bucket of neighbours, in order, and both ends of the
+/// curve.
+std::vector<PicturePoint> min_max_envelope(std::span<const PicturePoint> points) {
   if (points.size() <= most_points) return {points.begin(), points.end()};
   std::vector<PicturePoint> kept = {points.front()};
   const std::size_t num_buckets = most_points / 2;
@@ -36,7 +36,7 @@ void add_piece(CurvePath& path, std::span<const PicturePoint> piece) {
   if (piece.empty()) return;
   if (piece.size() == 1) return path.dots.push_back(piece.front());
   char command = 'M';
-  for (const PicturePoint& p : thinned(piece)) {
+  for (const PicturePoint& p : min_max_envelope(piece)) {
     path.line += fmt::format("{}{:.1f} {:.1f}", command, p.x, p.y);
     command = 'L';
   }

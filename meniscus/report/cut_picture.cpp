@@ -11,8 +11,8 @@
 namespace meniscus::report {
 namespace {
 
-constexpr double subpixel = 0.1;  // points are written as whole numbers of this fraction of a px
-// Pale, so that the edges of the cells show: the matrix, then the drops in turn.
+constexpr double subpixel = 0.1;  // [px] points are written as whole multiples of this length
+// Colours of the matrix, then of the drops in turn. They are pale so that cell edges show.
 constexpr std::array<const char*, 7> liquid_colors = {"#eef1f5", "#8fc1e3", "#f3b58a", "#8fd6bb",
                                                       "#dfb3cd", "#ecd08a", "#b9c4d0"};
 
@@ -39,7 +39,7 @@ std::string draw_cut(const MeshCut& cut, CutColors colors, double width) {
     return fmt::format("{} {}", std::lround(scale * (x[0] - cut.low[0]) / subpixel),
                        std::lround(scale * (cut.high[1] - x[1]) / subpixel));
   };
-  // What reaches over the window is cut off by a nested svg element.
+  // A nested svg element clips what reaches beyond the window.
   std::string text =
       fmt::format(R"(<svg width="{0:g}" height="{1:g}" viewBox="0 0 {2:g} {3:g}">)"
                   R"(<g class="cut" stroke="{4}" stroke-width="{5}">)",

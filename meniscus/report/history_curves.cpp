@@ -14,7 +14,7 @@ bool has_numbers(const std::vector<double>& values) {
   return std::ranges::any_of(values, [](double v) { return std::isfinite(v); });
 }
 
-/// Columns of a table as they are.
+/// One curve per column of a table without drops.
 std::vector<HistoryCurve> plain_curves(const PlotSpec& plot,
                                        const std::optional<io::Table>& table) {
   std::vector<HistoryCurve> curves;
@@ -26,7 +26,7 @@ std::vector<HistoryCurve> plain_curves(const PlotSpec& plot,
   return curves;
 }
 
-/// Curves of drops.csv, taken apart by the id of the drop.
+/// The curves of drops.csv, one per drop and column.
 std::vector<HistoryCurve> drop_curves(const PlotSpec& plot, const RunData& run) {
   const std::vector<double> ids = column_of(run.drops, "drop");
   std::map<int, std::vector<std::size_t>> drop_to_rows;

@@ -12,7 +12,7 @@
 namespace meniscus::report {
 namespace {
 
-constexpr std::size_t most_drops_in_legend = 6;  // as many as there are colours
+constexpr std::size_t most_drops_in_legend = 6;  // the number of colours
 
 std::vector<Mark> event_marks(const RunData& run) {
   std::vector<Mark> marks;
@@ -32,8 +32,8 @@ Plot empty_plot(const PlotSpec& spec) {
   return plot;
 }
 
-/// With one drop, or none, the quantities have the colours; with several the drops have them and
-/// the quantities their dashes.
+/// Adds curves to a plot. With one drop or none, colours tell quantities apart. With several drops,
+/// colours tell drops and dashes quantities apart.
 void add_curves(Plot& plot, const PlotSpec& spec, const std::vector<HistoryCurve>& curves) {
   for ([[maybe_unused]] const HistoryCurve& curve : curves)
     MENISCUS_ASSERT(curve.t.size() == curve.values.size(), "{} times of {} values", curve.t.size(),
@@ -60,7 +60,7 @@ void add_curves(Plot& plot, const PlotSpec& spec, const std::vector<HistoryCurve
   }
 }
 
-/// What the case is compared with, drawn in the colour of letters.
+/// Adds the reference of the case, in the colour of the text.
 void add_reference(Plot& plot, const PlotSpec& spec, const RunData& run) {
   bool is_first = true;
   for (const HistoryCurve& reference : reference_curves(spec, run)) {
@@ -96,7 +96,7 @@ Plot overlaid_plot(const PlotSpec& spec, std::span<const RunData> runs,
   return plot;
 }
 
-std::vector<PlotGroup> grouped(std::vector<std::pair<std::string, Plot>> plots) {
+std::vector<PlotGroup> plot_groups(std::vector<std::pair<std::string, Plot>> plots) {
   std::vector<PlotGroup> groups;
   for (auto& [group, plot] : plots) {
     if (!is_drawable(plot)) continue;
@@ -121,7 +121,7 @@ std::vector<PlotGroup> history_plots(const RunData& run) {
   std::vector<std::pair<std::string, Plot>> plots;
   for (const PlotSpec& spec : plot_catalogue())
     plots.emplace_back(spec.group, history_plot(spec, run));
-  return grouped(std::move(plots));
+  return plot_groups(std::move(plots));
 }
 
 std::vector<PlotGroup> overlaid_plots(std::span<const RunData> runs,
@@ -130,7 +130,7 @@ std::vector<PlotGroup> overlaid_plots(std::span<const RunData> runs,
   for (const PlotSpec& spec : plot_catalogue()) {
     plots.emplace_back(spec.group, overlaid_plot(spec, runs, names));
   }
-  return grouped(std::move(plots));
+  return plot_groups(std::move(plots));
 }
 
 }  // namespace meniscus::report

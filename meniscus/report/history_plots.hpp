@@ -10,7 +10,7 @@
 
 namespace meniscus::report {
 
-/// A heading and the plots under it.
+/// A heading with its plots.
 struct PlotGroup {
   std::string heading;
   std::vector<Plot> plots;
@@ -19,11 +19,11 @@ struct PlotGroup {
 /// One plot of a run with its reference, where it has one, and its events.
 [[nodiscard]] Plot history_plot(const PlotSpec& spec, const RunData& run);
 
-/// The plots that the tables of a run allow: shape, energy and stress, mesh and solver. A plot
-/// whose columns are missing or empty is left out, and so is a group without plots.
+/// The plots of a run in groups: shape, energy and stress, mesh and solver. Plots without data and
+/// groups without plots are left out.
 [[nodiscard]] std::vector<PlotGroup> history_plots(const RunData& run);
 
-/// The plots of several runs over each other: a run has a colour, a quantity its dash.
+/// The plots of several runs overlaid: colours tell runs apart, dashes quantities.
 [[nodiscard]] std::vector<PlotGroup> overlaid_plots(std::span<const RunData> runs,
                                                     std::span<const std::string> names);
 

@@ -16,10 +16,9 @@ namespace meniscus::report {
 namespace {
 
 constexpr double margin = 10.0;  // [px] around the widest frame
-// Triangles are written as whole numbers of this fraction of a px: short, and finer than any
-// screen.
+// [px] Triangles are written as whole multiples of this length: short text, finer than any screen.
 constexpr double subpixel = 0.1;
-// How much whiter than their face edges are: the mesh shows on dark colours without ruling them.
+// How much whiter edges are than their face, so that the mesh shows but does not dominate.
 constexpr double edge_whiteness = 0.2;
 
 /// The box of a frame along the axes of the view [R0].
@@ -45,23 +44,23 @@ View flow_plane_view() {
   return view;
 }
 
-/// The colour of a face with unit normal n in the light: even the darkest side shows its colour,
-/// and the brightest does not lose it.
-Color lit(const Color& color, const View& view, const Vec3& n) {
+/// The shaded colour of a face with unit normal n. Neither the darkest nor the brightest side loses
+/// its hue.
+Color lit_color(const Color& color, const View& view, const Vec3& n) {
   const Vec3 light = (-0.45 * view.right + 0.6 * view.up + 0.75 * view.toward).normalized();
   const double share = std::max(0.0, n.dot(light));
   return tint(shade(color, 0.72 + 0.36 * share), 0.16 * share * share);
 }
 
 Color face_color(const SurfaceFrame& frame, FaceId f, const ValueRange& range) {
-  constexpr Color plain = {0.45, 0.62, 0.75};  // a frame without curvature
+  constexpr Color plain = {0.45, 0.62, 0.75};  // colour of a frame without curvature
   if (frame.curvature.empty()) return plain;
   double mean = 0.0;
   for (const VertexId v : frame.mesh.faces[f]) mean += frame.curvature[v] / 3.0;
   return range.color(mean);
 }
 
-/// Faces turned to the eye, the farthest first.
+/// The faces turned to the viewer, the farthest first.
 std::vector<FaceId> visible_faces(const SurfaceFrame& frame, const View& view) {
   std::vector<FaceId> faces;
   FaceField<double> nearness(frame.mesh.num_faces());
@@ -91,7 +90,7 @@ View common_view(std::span<const SurfaceFrame> frames, double width) {
     const Box box = box_of(frame, view);
     extent = extent.cwiseMax(box.high - box.low);
   }
-  // Not taller than wide.
+  // The picture must not be taller than wide.
   view.scale = (width - 2.0 * margin) / std::max(extent.x(), extent.y());
   view.width = width;
   view.height = std::ceil(view.scale * extent.y() + 2.0 * margin);
@@ -128,7 +127,7 @@ std::string draw_surface(const SurfaceFrame& frame, const View& view, const Valu
     const FaceVertices& face = frame.mesh.faces[f];
     const Point a = points[face[0]], b = points[face[1]], c = points[face[2]];
     const Vec3 n = face_area_vector(frame.mesh, f).stableNormalized();
-    const Color color = lit(face_color(frame, f, range), view, n);
+    const Color color = lit_color(face_color(frame, f, range), view, n);
     text += fmt::format(R"(<path fill="{}" stroke="{}" d="M{} {}l{} {} {} {}z"/>)", hex(color),
                         hex(tint(color, edge_whiteness)), a.x, a.y, b.x - a.x, b.y - a.y, c.x - b.x,
                         c.y - b.y);
@@ -138,8 +137,8 @@ std::string draw_surface(const SurfaceFrame& frame, const View& view, const Valu
 
 std::string draw_color_bar(const ValueRange& range, std::string_view label, double x, double y,
                            double width) {
-  constexpr int num_strips = 64;  // finer than the eye tells apart on this length
-  constexpr double thickness = 10.0, overlap = 1.2;  // no seam shows through
+  constexpr int num_strips = 64;                     // finer than the eye resolves on this length
+  constexpr double thickness = 10.0, overlap = 1.2;  // strips overlap so that no seam shows
   std::string text;
   for (int i = 0; i < num_strips; ++i) {
     text += fmt::format(
@@ -157,7 +156,7 @@ std::string draw_color_bar(const ValueRange& range, std::string_view label, doub
   }
   const std::string factor = ticks.factor.empty() ? "" : " (" + ticks.factor + ")";
   return text + fmt::format(R"(<text x="{:.1f}" y="{:.1f}">{}</text>)", x, y - 7.0,
-                            escaped(label) + factor);
+                            markup_text(label) + factor);
 }
 
 std::string draw_key(const View& view, const ValueRange& range, bool has_colors) {
@@ -166,7 +165,7 @@ std::string draw_key(const View& view, const ValueRange& range, bool has_colors)
     text += draw_color_bar(range, "Curvature κ = k₁ + k₂ [1/R₀]", 10.0, 24.0, 260.0);
   }
   const double shown = longest_round_length(120.0 / view.scale), length = shown * view.scale;
-  const std::string name = shown == 1.0 ? "R₀" : readable(shown, 1) + " R₀";
+  const std::string name = shown == 1.0 ? "R₀" : number_text(shown, 1) + " R₀";
   text += fmt::format(R"(<path class="ax" d="M310 29h{0:.1f}m0 -4v8m-{0:.1f} 0v-8"/>)"
                       R"(<text x="{1:.1f}" y="17" text-anchor="middle">{2}</text>)",
                       length, 310.0 + 0.5 * length, name);

@@ -23,7 +23,7 @@ struct Plane {
 
 Edge edge_between(VertexId a, VertexId b) { return std::minmax(a, b); }
 
-/// The faces of one drop, with all vertices of the frame.
+/// The faces of one drop on all vertices of the frame.
 SurfaceMesh faces_of_drop(const SurfaceFrame& frame, int drop) {
   SurfaceMesh mesh{.x = frame.mesh.x, .faces = {}};
   for (const FaceId f : frame.mesh.faces.ids()) {
@@ -32,8 +32,8 @@ SurfaceMesh faces_of_drop(const SurfaceFrame& frame, int drop) {
   return mesh;
 }
 
-/// For each edge that the plane cuts, the next one along the section. A face that the plane cuts
-/// has one edge going down through it and one going up; its neighbour sees the latter going down.
+/// For each edge that the plane cuts, the next edge along the section. A cut face has one edge
+/// going down through the plane and one going up; its neighbour sees the latter going down.
 std::map<Edge, Edge> section_links(const SurfaceMesh& mesh, const Plane& plane) {
   std::map<Edge, Edge> next;
   for (const FaceVertices& face : mesh.faces) {
@@ -63,7 +63,7 @@ void add_point(Curve& curve, double x, double y) {
   curve.y.push_back(y);
 }
 
-/// Follows the links round, one closed curve after the other.
+/// Appends the closed curves of the section, following its links.
 void add_loops(Curve& curve, const SurfaceMesh& mesh, const Plane& plane) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   std::map<Edge, Edge> next = section_links(mesh, plane);

@@ -11,7 +11,7 @@
 namespace meniscus::report {
 namespace {
 
-constexpr double margin_share = 0.6;  // of the drops' largest extent, around them
+constexpr double margin_share = 0.6;  // margin around the drops, in units of their largest extent
 
 using Box = Eigen::AlignedBox3d;
 
@@ -23,7 +23,8 @@ const std::vector<double>* cell_values(const io::VolumeFrame& mesh, const char* 
 }
 
 struct Boxes {
-  Box all, drops;  ///< of all cells; of those that lie in a drop, or again of all when none does
+  Box all, drops;  ///< boxes of all cells and of the cells in drops (of all cells when there are no
+                   ///< drops)
 };
 
 Boxes boxes_of(const io::VolumeFrame& mesh) {
@@ -39,7 +40,7 @@ Boxes boxes_of(const io::VolumeFrame& mesh) {
   return {all, drops.isEmpty() ? all : drops};
 }
 
-/// The axes that span the plane, the first to the right.
+/// The axes that span the plane; the first points to the right.
 std::array<int, 2> plane_axes(int normal) {
   return normal == 2 ? std::array{0, 1} : std::array{0, 2};
 }
@@ -48,8 +49,8 @@ class Cutter {
  public:
   Cutter(MeshCut& cut, const io::VolumeFrame& mesh) : cut_(cut), mesh_(mesh) {}
 
-  /// Appends the polygon of cell c to the points; returns how many there are, none if the cell is
-  /// not cut or lies beyond the window.
+  /// Appends the polygon of cell c and returns its number of points: 0 if the plane misses the cell
+  /// or the polygon lies beyond the window.
   int add_points(std::size_t c) {
     const std::size_t first = cut_.points.size();
     std::vector<std::size_t> above, below;
@@ -58,7 +59,7 @@ class Cutter {
       (height(point) >= 0.0 ? above : below).push_back(point);
     }
     if (above.empty() || below.empty()) return 0;
-    if (above.size() == 2) {  // in the order in which they follow each other round the quadrangle
+    if (above.size() == 2) {  // in the order round the quadrangle
       add_crossing(above[0], below[0]);
       add_crossing(above[0], below[1]);
       add_crossing(above[1], below[1]);

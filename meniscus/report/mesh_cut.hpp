@@ -11,7 +11,7 @@
 
 namespace meniscus::report {
 
-/// Where a plane meets one tetrahedron: a triangle or a quadrangle.
+/// The section of one tetrahedron: a triangle or a quadrangle.
 struct CutPolygon {
   std::size_t first_point = 0;
   int num_points = 0;
@@ -19,33 +19,33 @@ struct CutPolygon {
   double min_dihedral_deg = 0.0;  ///< of the tetrahedron
 };
 
-/// Where the plane x[normal] = offset meets a mesh, in the coordinates along its two axes [R0].
+/// The section of a mesh with the plane x[normal] = offset, in coordinates of the plane [R0].
 struct MeshCut {
   int normal = 2;
   double offset = 0.0;
   std::string axes = "xy";  ///< names of the coordinates of `points`
   std::vector<std::array<double, 2>> points;
   std::vector<CutPolygon> polygons;
-  std::array<double, 2> low{}, high{};  ///< the part of the plane to be looked at
+  std::array<double, 2> low{}, high{};  ///< the window of the plane that is shown
 };
 
-/// The cut normal to the y-axis (`normal` = 1) or the z-axis (2) through the middle of what the
-/// interfaces enclose, around it as far as three fifths of its largest extent; the polygons beyond
-/// are left out. Of a mesh without interfaces: through the middle of all, as a whole.
+/// The cut normal to the y-axis (`normal` = 1) or the z-axis (2) through the middle of the drops.
+/// Its window reaches three fifths of the drops' largest extent beyond them; polygons outside are
+/// left out. A mesh without drops is cut through its middle, without a window.
 [[nodiscard]] MeshCut cut_through_drops(const io::VolumeFrame& mesh, int normal);
 
-/// Where the plane meets the tetrahedra that reach into the window given; corners on the plane
+/// Appends the polygons of the tetrahedra that reach into the cut's window. Corners on the plane
 /// count as above it, so that no cell is cut twice and none is missed.
 void add_polygons(MeshCut& cut, const io::VolumeFrame& mesh);
 
-/// Smallest dihedral angles in degrees on the scale of colour.
+/// The colour range for smallest dihedral angles, in degrees.
 [[nodiscard]] ValueRange quality_range();
 
 enum class CutColors { liquid, quality };
-/// The cut as the inside of an `svg` element, `width` px wide; its height is `cut_height`.
+/// The cut as the content of an `svg` element, `width` px wide and `cut_height` high.
 [[nodiscard]] std::string draw_cut(const MeshCut& cut, CutColors colors, double width);
 [[nodiscard]] double cut_height(const MeshCut& cut, double width);
-/// The key to the colours of the liquids, from (x, y) to the right.
+/// The key to the colours of the liquids, starting at (x, y) and running to the right.
 [[nodiscard]] std::string draw_liquid_key(double x, double y);
 
 }  // namespace meniscus::report

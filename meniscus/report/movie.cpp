@@ -25,10 +25,10 @@ namespace fs = std::filesystem;
 
 constexpr int frames_per_second = 20;
 
-/// A program that reads what is written to it.
+/// A pipe into the standard input of a program.
 class Pipe {
  public:
-  /// Throws InvalidInput when the program is not there.
+  /// Starts the program. Throws InvalidInput when it is not installed.
   explicit Pipe(std::vector<std::string> command) : name_(command.front()) {
     std::array<int, 2> ends{};
     if (pipe(ends.data()) != 0) throw RunFailure(fmt::format("no pipe: {}", std::strerror(errno)));
@@ -56,7 +56,7 @@ class Pipe {
     if (input_ >= 0) (void)wait();
   }
 
-  /// False when the program reads no more.
+  /// Returns false when the program no longer reads.
   [[nodiscard]] bool write(const std::vector<std::uint8_t>& bytes) const {
     for (std::size_t done = 0; done < bytes.size();) {
       const ssize_t count = ::write(input_, bytes.data() + done, bytes.size() - done);
@@ -65,7 +65,7 @@ class Pipe {
     }
     return true;
   }
-  /// Its exit status, once it has read all.
+  /// Closes the pipe and returns the program's exit status.
   int wait() {
     close(std::exchange(input_, -1));
     int status = 0;
@@ -96,9 +96,9 @@ std::vector<std::string> ffmpeg_command(int width, int height, const fs::path& o
           "-i",
           "-",
           "-pix_fmt",
-          "yuv420p",  // what every player and browser reads
+          "yuv420p",  // readable by every player and browser
           "-crf",
-          "18",  // no loss that can be seen
+          "18",  // no visible loss
           "-movflags",
           "+faststart",
           fs::absolute(out).string()};
@@ -113,7 +113,7 @@ void write_movie(const fs::path& run_directory, const fs::path& out) {
     reject_input("{}: no frame of the surface can be read", run_directory.string());
   const MoviePicture picture = movie_picture(frames);
   const auto to_px = [](double length) { return static_cast<int>(length); };
-  // A name of its own until the film is whole.
+  // The film has another name until it is complete.
   const fs::path unfinished = out.string() + ".tmp" + out.extension().string();
   Pipe ffmpeg(ffmpeg_command(to_px(picture.width), to_px(picture.height), unfinished));
   for (const SurfaceFrame& frame : frames) {

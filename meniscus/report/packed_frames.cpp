@@ -16,11 +16,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The best of all smallest dihedral angles, that of the regular tetrahedron, is 70.5 degrees.
+// The regular tetrahedron has the largest possible smallest dihedral angle, 70.5 degrees.
 constexpr double best_quality = 72.0;
 constexpr int most_regions = 255;
 
-std::vector<std::uint16_t> on_grid(std::span<const double> values, const Grid16& grid) {
+std::vector<std::uint16_t> grid_indices(std::span<const double> values, const Grid16& grid) {
   std::vector<std::uint16_t> indices;
   indices.reserve(values.size());
   for (const double value : values) indices.push_back(grid.index(value));
@@ -37,30 +37,31 @@ std::vector<double> coordinate(const Points& points, int axis) {
 
 Json in_json(const Vec3& x) { return Json::array({x.x(), x.y(), x.z()}); }
 
-/// The bits of a number of ten bits, each followed by two zeros.
-std::uint32_t spread_bits(std::uint32_t value) {
+/// The bits of a ten-bit number, two zeros between neighbours.
+std::uint32_t bits_three_apart(std::uint32_t value) {
   std::uint32_t result = 0;
   for (unsigned int bit = 0; bit < 10; ++bit) result |= (value >> bit & 1U) << (3 * bit);
   return result;
 }
 
-/// Vertices along the curve that runs through all cells of a grid of 2^10 per side, near ones
-/// mostly near each other in it: the bits of the three coordinates interleaved.
+/// The vertices in Morton order on a grid of 2^10 cells per side (interleaved bits of the
+/// coordinates): vertices close in space are mostly close in the order.
 std::vector<VertexId> order_along_curve(const VertexField<Vec3>& x,
                                         const std::array<Grid16, 3>& grids) {
-  VertexField<std::uint32_t> place(x.size(), 0);
+  VertexField<std::uint32_t> code(x.size(), 0);
   for (const VertexId v : x.ids()) {
     for (unsigned int k = 0; k < 3; ++k)
-      place[v] |= spread_bits(grids[k].index(x[v][static_cast<int>(k)]) >> 6U) << k;
+      code[v] |= bits_three_apart(grids[k].index(x[v][static_cast<int>(k)]) >> 6U) << k;
   }
   const auto ids = x.ids();
   std::vector<VertexId> order(ids.begin(), ids.end());
-  std::ranges::stable_sort(order, {}, [&](VertexId v) { return place[v]; });
+  std::ranges::stable_sort(order, {}, [&](VertexId v) { return code[v]; });
   return order;
 }
 
 template <class T>
-std::vector<T> reordered(const Field<VertexId, T>& values, const std::vector<VertexId>& order) {
+std::vector<T> values_in_order(const Field<VertexId, T>& values,
+                               const std::vector<VertexId>& order) {
   MENISCUS_ASSERT(values.size() == static_cast<std::int32_t>(order.size()),
                   "{} values in an order of {}", values.size(), order.size());
   std::vector<T> result;
@@ -68,7 +69,7 @@ std::vector<T> reordered(const Field<VertexId, T>& values, const std::vector<Ver
   return result;
 }
 
-/// The faces in the new numbers of the vertices, each with its smallest first, sorted.
+/// The faces by the vertices' ranks in `order`, smallest corner first, sorted.
 std::vector<std::array<std::uint32_t, 3>> sorted_faces(const SurfaceMesh& mesh,
                                                        const std::vector<VertexId>& order) {
   VertexField<std::uint32_t> rank(mesh.num_vertices());
@@ -128,13 +129,14 @@ void add_cut(Package& package, const MeshCut& cut, const std::array<Grid16, 2>& 
   package.add(regions);
   package.add(qualities);
   for (int k = 0; k < 2; ++k) {
-    package.add_differences(on_grid(coordinate(cut.points, k), grids[static_cast<std::size_t>(k)]));
+    package.add_differences(
+        grid_indices(coordinate(cut.points, k), grids[static_cast<std::size_t>(k)]));
   }
 }
 
 }  // namespace
 
-PackedFrame packed(const SurfaceFrame& frame) {
+PackedFrame packed_surface(const SurfaceFrame& frame) {
   PackedFrame result{.t = frame.t, .bytes = {}};
   result.num_faces = result.num_faces_of_run = frame.mesh.num_faces();
   const bool is_wide = frame.mesh.num_vertices() > 65536;
@@ -162,18 +164,20 @@ PackedFrame packed(const SurfaceFrame& frame) {
   Package package(header.dump());
   const std::vector<VertexId> order = order_along_curve(frame.mesh.x, grids);
   add_corners(package, sorted_faces(frame.mesh, order), is_wide);
-  const std::vector<Vec3> points = reordered(frame.mesh.x, order);
+  const std::vector<Vec3> points = values_in_order(frame.mesh.x, order);
   for (int k = 0; k < 3; ++k) {
-    package.add_differences(on_grid(coordinate(points, k), grids[static_cast<std::size_t>(k)]));
+    package.add_differences(
+        grid_indices(coordinate(points, k), grids[static_cast<std::size_t>(k)]));
   }
   for (std::size_t i = 0; i < frame.fields.size(); ++i) {
-    package.add_differences(on_grid(reordered(frame.fields[i].values, order), field_grids[i]));
+    package.add_differences(
+        grid_indices(values_in_order(frame.fields[i].values, order), field_grids[i]));
   }
   result.bytes = package.bytes();
   return result;
 }
 
-PackedFrame packed(double t, const std::vector<MeshCut>& cuts) {
+PackedFrame packed_cuts(double t, const std::vector<MeshCut>& cuts) {
   std::vector<std::array<Grid16, 2>> grids;
   Json headers = Json::array();
   for (const MeshCut& cut : cuts) {

@@ -11,26 +11,26 @@
 
 namespace meniscus::report {
 
-/// A frame or a cut as the page takes it, with what must be known before it is unpacked.
+/// A frame or a cut packed for the page, with the facts needed before it is unpacked.
 struct PackedFrame {
   double t = 0.0;
-  std::string bytes;                              ///< a `Package`
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();   ///< the box around it [R0]
-  int num_faces = 0, num_faces_of_run = 0;        ///< packed, and before any were left out
-  std::map<std::string, ValueRange> ranges = {};  ///< of each field, without the wildest values
+  std::string bytes;                             ///< a `Package`
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< the box around it [R0]
+  int num_faces = 0,
+      num_faces_of_run = 0;  ///< packed faces, and faces of the frame before coarsening
+  std::map<std::string, ValueRange> ranges = {};  ///< colour range of each field (`color_range`)
 };
 
-/// A surface: header {t, vertices, faces, wide, low, high, fields: [{name, low, high}]}; then of
-/// every face its corners a < b, c as a less the a of the face before, b − a and c − a, in 16 or
-/// (wide) 32 bits; then x, y, z of all vertices and the values of each field on a `Grid16`, as
-/// differences. The vertices are put in an order in which neighbours follow each other, the faces
-/// in that of their corners.
-[[nodiscard]] PackedFrame packed(const SurfaceFrame& frame);
+/// Packs a surface. Header: {t, vertices, faces, wide, low, high, fields: [{name, low, high}]}.
+/// Then come the corners a < b, c of all faces, as a minus the previous face's a, b − a and c − a,
+/// in 16 or (wide) 32 bits. Then come x, y, z of all vertices and the values of each field on a
+/// `Grid16`, as differences. Vertices are in Morton order, faces sorted by their corners.
+[[nodiscard]] PackedFrame packed_surface(const SurfaceFrame& frame);
 
-/// Cuts of one moment: header {t, cuts: [{axes, normal, offset, window, polygons, points, low,
-/// high, quality}]}; then for each cut the number of corners of every polygon (8 bits), its region
-/// (8 bits), its quality (8 bits, 0 to 255 for 0 to `quality` degrees) and all points, two numbers
-/// each on a `Grid16`, as differences.
-[[nodiscard]] PackedFrame packed(double t, const std::vector<MeshCut>& cuts);
+/// Packs the cuts of one time. Header: {t, cuts: [{axes, normal, offset, window, polygons, points,
+/// low, high, quality}]}. Then come, for each cut, the number of corners of every polygon (8 bits),
+/// the regions (8 bits), the qualities (8 bits, 0 to 255 for 0 to `quality` degrees) and the two
+/// coordinates of all points on a `Grid16`, as differences.
+[[nodiscard]] PackedFrame packed_cuts(double t, const std::vector<MeshCut>& cuts);
 
 }  // namespace meniscus::report

@@ -29,10 +29,10 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-std::string deflated(std::string_view bytes) {
+std::string zlib_bytes(std::string_view bytes) {
   uLongf size = compressBound(bytes.size());
   std::string result(size, '\0');
-  // 6, zlib's own choice: 9 takes three times as long for a hundredth of the bytes.
+  // 6 is zlib's default: 9 takes three times as long to save one per cent.
   [[maybe_unused]] const int status =
       compress2(reinterpret_cast<Bytef*>(result.data()), &size,
                 reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 6);
@@ -54,7 +54,7 @@ Grid16 Grid16::around(std::span<const double> values) {
 std::uint16_t Grid16::index(double value) const {
   if (!std::isfinite(value)) return none;
   if (!(high > low)) return 0;
-  // Halved first: the difference of two large numbers must not overflow.
+  // Halves each number first, so that the difference of large numbers does not overflow.
   const double share = (0.5 * value - 0.5 * low) / (0.5 * high - 0.5 * low);
   return static_cast<std::uint16_t>(std::lround(steps * std::clamp(share, 0.0, 1.0)));
 }

@@ -7,38 +7,38 @@
 
 namespace meniscus::report {
 
-/// The text of bytes in base 64, as a page can hold and a browser's `atob` read them.
+/// Bytes as text in base 64, which a browser's `atob` reads.
 [[nodiscard]] std::string base64(std::string_view bytes);
 
-/// Bytes in the format zlib (RFC 1950), which browsers call `deflate`. The same bytes always give
-/// the same.
-[[nodiscard]] std::string deflated(std::string_view bytes);
+/// Compressed bytes in zlib's format (RFC 1950), which browsers call `deflate`. Equal input gives
+/// equal output.
+[[nodiscard]] std::string zlib_bytes(std::string_view bytes);
 
-/// Numbers on a grid of 16 bits between two bounds: 0 stands for `low`, `steps` for `high`, the
-/// error is at most half of (high − low)/steps. What is not finite becomes `none`.
+/// A grid of 16-bit numbers between two bounds: 0 stands for `low`, `steps` for `high`. The error
+/// is at most half of (high − low)/steps. Values that are not finite become `none`.
 struct Grid16 {
   static constexpr std::uint16_t steps = 65534, none = 65535;
   double low = 0.0, high = 0.0;
 
-  /// The grid that the finite values need; [0, 0] without any.
+  /// The grid that spans the finite values; [0, 0] when there are none.
   [[nodiscard]] static Grid16 around(std::span<const double> values);
   [[nodiscard]] std::uint16_t index(double value) const;
 };
 
 /// Binary data for the page: the length of a header in bytes (32 bits, lowest byte first), the
-/// header in JSON, then arrays in the order added. Those of more than a byte are laid out in
-/// planes, the lowest byte of all numbers first: high bytes are much alike, and deflate well.
+/// header in JSON, then arrays in the order added. Numbers of several bytes are stored in planes,
+/// the lowest bytes of all numbers first: high bytes are alike and compress well.
 class Package {
  public:
   explicit Package(std::string_view header);
   void add(std::span<const std::uint8_t> values) { add_planes(values); }
   void add(std::span<const std::uint16_t> values) { add_planes(values); }
   void add(std::span<const std::uint32_t> values) { add_planes(values); }
-  /// Each number less the one before it (the first less 0), modulo 2^16: small where neighbours are
-  /// alike.
+  /// Adds the difference of each number to the one before (the first: to 0), modulo 2^16.
+  /// Differences are small where neighbours are alike.
   void add_differences(std::span<const std::uint16_t> values);
-  /// All of it, deflated.
-  [[nodiscard]] std::string bytes() const { return deflated(bytes_); }
+  /// The whole package, compressed.
+  [[nodiscard]] std::string bytes() const { return zlib_bytes(bytes_); }
 
  private:
   template <class T>

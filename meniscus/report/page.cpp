@@ -15,8 +15,8 @@ constexpr std::string_view plain_page_note =
     "turns with the mouse and whose plots give their values: install both, then build again and "
     "run <code>meniscus report</code> on this folder.</p>";
 
-/// What a browser may load: nothing, so that the page is the same wherever it lies. Its own script
-/// stands in it; only a live page may ask, and only where it came from.
+/// The content security policy: the page loads nothing, so that it is the same wherever it is
+/// stored. Scripts are inline. Only a live page may send requests, and only to its own server.
 std::string policy(bool is_live) {
   return fmt::format("default-src 'none'; style-src 'unsafe-inline'{}{}",
                      has_page_bundle() ? "; script-src 'unsafe-inline'" : "",
@@ -37,7 +37,7 @@ std::string whole_page(const PageParts& parts) {
       "strain or shear, μ the outer viscosity. The figures behind the plots are in history.csv and "
       "drops.csv beside this page, the meshes in the .pvd files.{}</footer>\n</main>\n{}</body>\n"
       "</html>\n",
-      policy(parts.is_live), escaped(parts.title), page_style(), plot_style(), page_sheet(),
+      policy(parts.is_live), markup_text(parts.title), page_style(), plot_style(), page_sheet(),
       parts.content, has_page_bundle() ? "" : plain_page_note, script);
 }
 

@@ -5,9 +5,9 @@
 
 namespace meniscus::report {
 
-/// A page without outside references around its `content`: head, styles and, where the program was
-/// built with it, the script that makes the page move. `data` are the elements the script reads; a
-/// page that asks the server it came from for news says so with `is_live`.
+/// The parts of a page without outside references. The page adds head, styles and, where the
+/// program was built with it, the interactive script. `data` holds the elements that the script
+/// reads. A page with `is_live` asks its server for news.
 struct PageParts {
   std::string title, content, data;
   bool is_live = false;

@@ -3,7 +3,7 @@
 namespace meniscus::report {
 namespace {
 
-// Made by cmake/PageBundle.cmake: two raw strings, empty where node or npm was not found.
+// cmake/PageBundle.cmake makes these two raw strings, empty where node or npm was not found.
 const char script[] =
 #include "meniscus/report/page_script_generated.inc"
     ;

@@ -4,8 +4,8 @@
 
 namespace meniscus::report {
 
-/// What `web/` becomes when it is bundled: the script of the page and its style sheet. Both are
-/// empty in a program that was built without node and npm.
+/// The bundled script of the page and its style sheet, built from `web/`. Both are empty in a
+/// program that was built without node and npm.
 [[nodiscard]] std::string_view page_script();
 [[nodiscard]] std::string_view page_sheet();
 [[nodiscard]] inline bool has_page_bundle() { return !page_script().empty(); }

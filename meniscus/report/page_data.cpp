@@ -29,7 +29,7 @@ std::size_t total_size(const std::vector<PackedFrame>& frames) {
   return total;
 }
 
-/// What `load` makes of each entry; what cannot be read joins the faults.
+/// The result of `load` for each entry. Entries that cannot be read are added to the run's faults.
 std::vector<PackedFrame> load_all(RunData& run, std::span<const io::PvdEntry> entries,
                                   const std::function<PackedFrame(const fs::path&, double)>& load) {
   std::vector<PackedFrame> frames;
@@ -45,15 +45,15 @@ std::vector<PackedFrame> load_all(RunData& run, std::span<const io::PvdEntry> en
 
 PackedFrame load_frame(const fs::path& path, double t, int most_faces) {
   const SurfaceFrame whole = load_surface(path, t);
-  PackedFrame frame = packed(coarse_frame(whole, most_faces));
+  PackedFrame frame = packed_surface(coarse_frame(whole, most_faces));
   frame.num_faces_of_run = whole.mesh.num_faces();
   return frame;
 }
 
-/// The number of faces to which all larger frames must be cut down for all to fit: it fills the
-/// budget if each face takes as much as on average.
+/// The largest number of faces per frame with which all frames fit into the budget, if every face
+/// takes the average size.
 int affordable_faces(const std::vector<PackedFrame>& frames, std::size_t budget) {
-  // The merging of vertices misses the number asked for by some per cent.
+  // `coarse_frame` misses the requested number of faces by some per cent.
   constexpr double safety = 0.85;
   std::vector<int> counts;
   double all = 0.0;
@@ -74,7 +74,7 @@ int affordable_faces(const std::vector<PackedFrame>& frames, std::size_t budget)
 }
 
 void pack_surfaces(PageRun& page, RunData& run, const PageBudget& budget) {
-  const auto entries = spread_frames(run.frames, static_cast<int>(budget.most_frames));
+  const auto entries = evenly_spaced_frames(run.frames, static_cast<int>(budget.most_frames));
   if (entries.size() < run.frames.size()) {
     page.notes.push_back(fmt::format("{} of the run’s {} frames of the interface are shown.",
                                      entries.size(), run.frames.size()));
@@ -94,11 +94,11 @@ void pack_surfaces(PageRun& page, RunData& run, const PageBudget& budget) {
 
 void pack_cuts(PageRun& page, RunData& run, const PageBudget& budget) {
   if (budget.most_cuts == 0) return;
-  const auto load = [](const fs::path& path, double t) { return packed(t, load_cuts(path)); };
-  const auto entries = spread_frames(run.volume_frames, static_cast<int>(budget.most_cuts));
+  const auto load = [](const fs::path& path, double t) { return packed_cuts(t, load_cuts(path)); };
+  const auto entries = evenly_spaced_frames(run.volume_frames, static_cast<int>(budget.most_cuts));
   page.cuts = load_all(run, entries, load);
   std::size_t kept = page.cuts.size();
-  while (total_size(page.cuts) > budget.cuts && page.cuts.size() > 1) {  // every other one goes
+  while (total_size(page.cuts) > budget.cuts && page.cuts.size() > 1) {  // drops every other one
     for (std::size_t i = 1; i < page.cuts.size(); ++i) {
       page.cuts.erase(page.cuts.begin() + static_cast<std::ptrdiff_t>(i));
     }
@@ -110,8 +110,8 @@ void pack_cuts(PageRun& page, RunData& run, const PageBudget& budget) {
   }
 }
 
-/// Every n-th step of a table whose first column is the step.
-std::string thinned_rows(const std::string& text, std::int64_t n) {
+/// The header and every n-th step of a table whose first column is the step.
+std::string rows_at_every(const std::string& text, std::int64_t n) {
   std::string result;
   bool is_header = true;
   for (std::size_t at = 0; at < text.size();) {
@@ -125,16 +125,16 @@ std::string thinned_rows(const std::string& text, std::int64_t n) {
   return result;
 }
 
-/// The bytes of a table of the run for the page, fewer of them if need be.
-std::string packed_table(PageRun& page, const io::RunTableFile& table, const fs::path& file,
-                         std::size_t budget) {
+/// A table of the run for the page, with fewer steps where it would be too large.
+std::string table_element_text(PageRun& page, const io::RunTableFile& table, const fs::path& file,
+                               std::size_t budget) {
   const std::string text = io::read_file(file);
-  std::string result = base64(deflated(text));
+  std::string result = base64(zlib_bytes(text));
   if (result.size() <= budget || !text.starts_with("step,")) return result;
   const auto n = static_cast<std::int64_t>(result.size() / budget + 1);
   page.notes.push_back(
       fmt::format("The plots of {} show every {}th step; the file has them all.", table.file, n));
-  return base64(deflated(thinned_rows(text, n)));
+  return base64(zlib_bytes(rows_at_every(text, n)));
 }
 
 std::string text_element(const std::string& id, const std::string& text) {
@@ -186,7 +186,7 @@ std::string page_data_element(std::string_view kind, const Json& runs) {
                   {"fields", fields_json()},
                   {"plots", Json::parse(plot_catalogue_json())}};
   std::string text = page.dump(-1, ' ', false, Json::error_handler_t::replace);
-  // In JSON a slash may be escaped; in HTML "</script" must not stand.
+  // JSON allows an escaped slash; HTML forbids "</script" inside a script.
   for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at))
     text.replace(at, 2, "<\\/");
   return "<script type=\"application/json\" id=\"page-data\">" + text + "</script>\n";
@@ -199,7 +199,7 @@ std::vector<MeshCut> load_cuts(const fs::path& path) {
   return {cut_through_drops(mesh, 2), cut_through_drops(mesh, 1)};
 }
 
-PageRun packed_run(RunData& run, const PageBudget& budget) {
+PageRun page_run(RunData& run, const PageBudget& budget) {
   PageRun page;
   page.name = fs::absolute(run.folder / ".").parent_path().filename().string();
   pack_surfaces(page, run, budget);
@@ -226,8 +226,9 @@ std::string data_elements(std::string_view kind, std::span<const RunData> runs,
       const fs::path file = runs[r].folder / table.file;
       if (!fs::exists(file)) continue;
       tables.push_back(table.name);
-      // One of the two long tables may take half of what a run may.
-      const std::string text = packed_table(page, table, file, budget.tables / runs.size() / 2);
+      // Each of the two long tables may take half of the run's budget for tables.
+      const std::string text =
+          table_element_text(page, table, file, budget.tables / runs.size() / 2);
       elements += text_element(prefix + table.name, text);
     }
     for (std::size_t i = 0; i < page.frames.size(); ++i)

@@ -16,7 +16,7 @@ using namespace report;
 
 std::vector<std::string> write_stills(const fs::path& run_directory, StillFormat format,
                                       std::span<const double> times) {
-  constexpr double png_scale = 2.0;  // a column of a paper, 85 mm, at 300 dots per inch and more
+  constexpr double png_scale = 2.0;  // at least 300 dots per inch in a journal column of 85 mm
   RunData run = load_run(run_directory);
   const std::pair<const char*, std::string> pictures[] = {{"interface", interface_svg(run, times)},
                                                           {"deformation", deformation_svg(run)},

@@ -84,7 +84,7 @@ std::vector<PlotSpec> mesh_plots() {
            .unit = "1/G",
            .table = "history",
            .quantities = {{"dt", "Δt"}},
-           .derivation = Derivation::gap_at_zeros},  // the first row has no step that led to it
+           .derivation = Derivation::gap_at_zeros},  // no step led to the first row
           {.group = group,
            .title = "Linear iterations per step",
            .unit = "",

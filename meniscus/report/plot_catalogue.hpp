@@ -18,19 +18,19 @@ enum class Derivation {
   gap_at_zeros,  ///< a 0 stands for no value
 };
 
-/// One plot of the history of a run, wherever it is drawn: on the page by the browser, in pictures
-/// by the program.
+/// The specification of a plot of a run's history. The browser draws it on the page, the program in
+/// pictures.
 struct PlotSpec {
   std::string group, title, unit;
   std::string table;  ///< history, drops or timing
   std::vector<PlotQuantity> quantities;
-  bool is_log = false, includes_zero = false;  ///< of the axis of values
+  bool is_log = false, includes_zero = false;  ///< properties of the axis of values
   Derivation derivation = Derivation::none;
 };
 
-/// All of them, those of a group one after the other.
+/// All plots; those of one group are consecutive.
 [[nodiscard]] std::span<const PlotSpec> plot_catalogue();
-/// The catalogue for the page: a list of objects in JSON.
+/// The catalogue as a JSON list of objects, for the page.
 [[nodiscard]] std::string plot_catalogue_json();
 
 }  // namespace meniscus::report

@@ -26,7 +26,7 @@ using Owned = std::unique_ptr<T, Release>;
   throw RunFailure(fmt::format("a picture could not be drawn: {}", error->message));
 }
 
-Owned<cairo_surface_t> drawn(std::string_view svg, double scale) {
+Owned<cairo_surface_t> picture_surface(std::string_view svg, double scale) {
   GError* error = nullptr;
   const Owned<RsvgHandle> handle(
       rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(svg.data()), svg.size(), &error));
@@ -59,7 +59,7 @@ cairo_status_t append(void* to, const unsigned char* bytes, unsigned int size) {
 }  // namespace
 
 Pixels pixels_of(std::string_view svg, double scale) {
-  const Owned<cairo_surface_t> surface = drawn(svg, scale);
+  const Owned<cairo_surface_t> surface = picture_surface(svg, scale);
   Pixels pixels{cairo_image_surface_get_width(surface.get()),
                 cairo_image_surface_get_height(surface.get()),
                 {}};
@@ -74,7 +74,7 @@ Pixels pixels_of(std::string_view svg, double scale) {
 }
 
 std::string png_of(std::string_view svg, double scale) {
-  const Owned<cairo_surface_t> surface = drawn(svg, scale);
+  const Owned<cairo_surface_t> surface = picture_surface(svg, scale);
   std::string bytes;
   if (cairo_surface_write_to_png_stream(surface.get(), append, &bytes) != CAIRO_STATUS_SUCCESS) {
     throw RunFailure("a picture could not be written as .png");

@@ -7,16 +7,17 @@
 
 namespace meniscus::report {
 
-/// A picture of points, four bytes each: blue, green, red, opacity; row after row from the top.
+/// A raster image with four bytes per pixel (blue, green, red, opacity), row after row from the
+/// top.
 struct Pixels {
   int width = 0, height = 0;
   std::vector<std::uint8_t> bytes;
 };
 
-/// An .svg file of ours drawn `scale` times as large, on white, without a display. Throws
-/// RunFailure with the library's reason.
+/// An .svg file of this program rendered on white at `scale` times its size, without a display.
+/// Throws RunFailure with the library's reason.
 [[nodiscard]] Pixels pixels_of(std::string_view svg, double scale);
-/// A picture as the bytes of a .png file.
+/// The rendered picture as the bytes of a .png file.
 [[nodiscard]] std::string png_of(std::string_view svg, double scale);
 
 }  // namespace meniscus::report

@@ -28,10 +28,11 @@ namespace fs = std::filesystem;
 
 constexpr int num_page_frames = 8;
 constexpr double frame_width = 320.0;  // [px]
-// A triangle takes about 65 bytes; half of them face the viewer: 1.2 MB for all pictures of a page.
+// A triangle takes about 65 bytes and half of them face the viewer: 1.2 MB for all pictures of a
+// page.
 constexpr int most_faces = 36000;
 
-/// Frames fit for a page, and whether any had to be made coarser for it.
+/// Frames small enough for a page, and whether any was coarsened.
 struct PageFrames {
   std::vector<SurfaceFrame> frames;
   bool is_coarsened = false;
@@ -39,7 +40,8 @@ struct PageFrames {
 
 PageFrames page_frames(RunData& run) {
   PageFrames page;
-  for (const SurfaceFrame& frame : load_surfaces(run, spread_frames(run.frames, num_page_frames))) {
+  for (const SurfaceFrame& frame :
+       load_surfaces(run, evenly_spaced_frames(run.frames, num_page_frames))) {
     page.frames.push_back(coarse_frame(frame, most_faces / num_page_frames));
     page.is_coarsened |= page.frames.back().mesh.num_faces() < frame.mesh.num_faces();
   }
@@ -52,7 +54,7 @@ std::string interface_html(const PageFrames& page) {
   const ValueRange range = curvature_range(page.frames);
   std::string text = "<h2>The interface</h2>\n<div class=\"card\"><div class=\"frames\">\n";
   for (const SurfaceFrame& frame : page.frames) {
-    const std::string time = readable(frame.t, 3);
+    const std::string time = number_text(frame.t, 3);
     const std::string picture = inline_svg(draw_surface(frame, view, range), view.width,
                                            view.height, "The interface at t = " + time);
     text +=
@@ -72,7 +74,7 @@ std::string plot_html(const Plot& plot) {
          inline_svg(draw_plot(plot), plot.width, plot.height, plot.title) + "</figure>\n";
 }
 
-/// Sections of all frames in one plot, coloured by time.
+/// A plot of the sections of all frames, coloured by time.
 Plot section_plot(const std::vector<SurfaceFrame>& frames, const ValueRange& times, int normal) {
   const bool is_flow_plane = normal == 2;
   Plot plot{.title = is_flow_plane ? "Sections in the x–y plane" : "Sections in the x–z plane",
@@ -90,7 +92,7 @@ Plot section_plot(const std::vector<SurfaceFrame>& frames, const ValueRange& tim
 
 std::string sections_html(const std::vector<SurfaceFrame>& frames) {
   if (frames.empty()) return {};
-  // Without the ends of the colours: the dark one is faint at night, the yellow one by day.
+  // Leaves out the ends of viridis: dark is faint on a dark page, yellow on a light one.
   const ValueRange times{.low = frames.front().t,
                          .high = std::max(frames.back().t, frames.front().t + 1e-12),
                          .first = 0.25,
@@ -117,8 +119,8 @@ std::string plots_html(const RunData& run) {
   return text;
 }
 
-/// What can be seen without a script, and on paper: pictures and plots, each in a section that the
-/// page's script puts its own view in place of.
+/// The pictures and plots that are visible without scripts and on paper. The page's script replaces
+/// each section by its own view.
 std::string still_html(RunData& run) {
   const PageFrames page = page_frames(run);
   return "<section class=\"still view\">\n" + interface_html(page) + sections_html(page.frames) +
@@ -138,10 +140,11 @@ std::string page_html(RunData& run) {
   PageParts parts{.title = title_of(run), .content = {}, .data = {}};
   const PageBudget budget;
   if (has_page_bundle()) {
-    PageRun packed = packed_run(run, budget);
+    PageRun packed = page_run(run, budget);
     parts.data = data_elements("report", std::span(&run, 1), std::span(&packed, 1), budget);
   }
-  const std::string stills = still_html(run);  // before the heading, which names what failed here
+  const std::string stills =
+      still_html(run);  // before the heading, which lists the faults found here
   parts.content =
       heading_html(run) + tiles_html(run) + "<div id=\"app\"></div>\n" + stills + end_html(run);
   return whole_page(parts);
@@ -164,16 +167,16 @@ std::string live_page(const fs::path& run_directory) {
 }
 
 LivePart live_surface(const fs::path& path, double t) {
-  // A page asks for one frame at a time: it need not be as small as in a page that holds all.
+  // A live page fetches one frame at a time, so frames may be larger than in a page that holds all.
   constexpr int most_live_faces = 60000;
   const SurfaceFrame whole = load_surface(path, t);
-  PackedFrame frame = packed(coarse_frame(whole, most_live_faces));
+  PackedFrame frame = packed_surface(coarse_frame(whole, most_live_faces));
   frame.num_faces_of_run = whole.mesh.num_faces();
   return {entry_json(frame), std::move(frame.bytes)};
 }
 
 LivePart live_cuts(const fs::path& path, double t) {
-  PackedFrame cuts = packed(t, load_cuts(path));
+  PackedFrame cuts = packed_cuts(t, load_cuts(path));
   return {entry_json(cuts), std::move(cuts.bytes)};
 }
 

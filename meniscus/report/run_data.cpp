@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using io::RunFiles;
 
-/// A value as a case file would show it.
-std::string shown(const Json& value) {
+/// A value as text, as a case file shows it.
+std::string value_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_number_float()) return fmt::format("{}", value.get<double>());
   return value.dump();
@@ -27,7 +27,7 @@ std::string shown(const Json& value) {
 /// The value of a key as text; empty when absent.
 std::string text_of(const Json& object, const char* key) {
   const auto found = object.find(key);
-  return found == object.end() || found->is_null() ? std::string() : shown(*found);
+  return found == object.end() || found->is_null() ? std::string() : value_text(*found);
 }
 
 /// Walks a nested object down to its values: {"flow": {"kind": …}} gives "flow.kind".
@@ -35,7 +35,7 @@ void flatten(const Json& value, const std::string& path,
              std::vector<std::pair<std::string, std::string>>& values) {
   const bool is_list_of_tables = value.is_array() && !value.empty() && value.front().is_object();
   if (!value.is_object() && !is_list_of_tables) {
-    values.emplace_back(path, shown(value));
+    values.emplace_back(path, value_text(value));
     return;
   }
   std::size_t index = 0;
@@ -73,7 +73,7 @@ RunFacts parse_facts(const Json& json) {
   facts.wall_seconds = has_wall ? wall->get<double>() : in_phases;
   flatten(json.value("case", none), "", facts.case_values);
   for (const Json& warning : warnings) {
-    facts.warnings.push_back(shown(warning));
+    facts.warnings.push_back(value_text(warning));
   }
   return facts;
 }

@@ -11,28 +11,30 @@
 
 namespace meniscus::report {
 
-/// What run.json says, as text for readers; empty where it says nothing.
+/// The entries of run.json as text for readers; empty where an entry is missing.
 struct RunFacts {
   std::string title, status, program, version, commit, case_file, case_text, host;
   std::string started, finished, ranks, steps, t;
   double wall_seconds = 0.0;
-  std::vector<std::pair<std::string, double>> seconds;           ///< by phase, in their order
-  std::vector<std::pair<std::string, std::string>> case_values;  ///< "flow.kind" to "simple-shear"
+  std::vector<std::pair<std::string, double>>
+      seconds;  ///< seconds by phase, in the order of run.json
+  std::vector<std::pair<std::string, std::string>>
+      case_values;  ///< such as "flow.kind" and "simple-shear"
   std::vector<std::string> warnings;
 
-  /// The value of a key of the case; empty if it is not there.
+  /// The value of a case key; empty if the case lacks it.
   [[nodiscard]] std::string case_value(const std::string& key) const;
 };
 
-/// The files of a run's folder, as far as they are there; `faults` names those that are but cannot
-/// be read.
+/// The files of a run's folder, as far as they exist. `faults` names those that cannot be read.
 struct RunData {
   std::filesystem::path folder;
   RunFacts facts;
   std::optional<io::Table> history, drops, events, timing;
-  std::optional<io::Table> reference;  ///< what the case is compared with: `t` and columns of above
-  std::vector<io::PvdEntry> frames;    ///< of the surface, in the order of time
-  std::vector<io::PvdEntry> volume_frames;  ///< likewise
+  std::optional<io::Table>
+      reference;                     ///< reference of the case: `t` and columns of the tables above
+  std::vector<io::PvdEntry> frames;  ///< surface frames in the order of time
+  std::vector<io::PvdEntry> volume_frames;  ///< volume frames in the order of time
   std::vector<std::string> faults;
 };
 

@@ -10,22 +10,22 @@
 
 namespace meniscus::report {
 
-// Pictures that stand alone, each the text of an .svg file; empty when the run has nothing for it.
-// Files that cannot be read join the run's faults.
+// Single pictures as the text of an .svg file; empty when the run has no data for them. Unreadable
+// files are added to the run's faults.
 
 /// The interface at the frames nearest to `times` [1/G], or at six between the first and the last
 /// when none are given.
 [[nodiscard]] std::string interface_svg(RunData& run, std::span<const double> times);
-/// All plots of the history.
+/// A picture with all plots of the history.
 [[nodiscard]] std::string history_svg(const RunData& run);
-/// D(t), with the reference where the run has one.
+/// A picture of D(t), with the reference where the run has one.
 [[nodiscard]] std::string deformation_svg(const RunData& run);
-/// The cut through the volume meshes nearest to `times`, or through the last one: coloured by
+/// The cut through the volume meshes nearest to `times`, or through the last one. Coloured by
 /// liquid on the left, by quality on the right.
 [[nodiscard]] std::string mesh_svg(RunData& run, std::span<const double> times);
 
-/// One frame with its time and the key, the picture of a film; its size is even in both directions,
-/// as films want.
+/// One picture of a film: a frame with its time and key. Width and height are even, as video codecs
+/// require.
 struct MoviePicture {
   View view;
   ValueRange range;

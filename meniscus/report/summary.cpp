@@ -13,7 +13,7 @@
 namespace meniscus::report {
 namespace {
 
-constexpr int decimals = 4;  // of lengths in a table: beyond the accuracy of any mesh
+constexpr int decimals = 4;  // of lengths in a table; more than the accuracy of any mesh
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> column(const std::optional<io::Table>& table, const std::string& name) {
@@ -39,15 +39,15 @@ std::string in_words(std::string key) {
   return key;
 }
 
-/// Flow and dimensionless numbers, as far as the case names them.
+/// The flow and the dimensionless numbers that the case gives.
 std::string physics(const RunFacts& facts) {
   std::vector<std::string> parts;
   const auto add = [&](const std::string& key, const char* symbol) {
     const std::string value = facts.case_value(key);
-    if (!value.empty()) parts.push_back(fmt::format("<i>{}</i> = {}", symbol, escaped(value)));
+    if (!value.empty()) parts.push_back(fmt::format("<i>{}</i> = {}", symbol, markup_text(value)));
   };
   const std::string flow = facts.case_value("flow.kind");
-  if (!flow.empty()) parts.push_back(escaped(in_words(flow)));
+  if (!flow.empty()) parts.push_back(markup_text(in_words(flow)));
   add("flow.capillary-number", "Ca");
   add("drop[0].viscosity-ratio", "λ");
   add("drop[0].nodes", "N₀");
@@ -57,7 +57,7 @@ std::string physics(const RunFacts& facts) {
 }
 
 std::string degrees(double angle) {
-  return std::isfinite(angle) ? readable(angle, 3) + "°" : readable(angle);
+  return std::isfinite(angle) ? number_text(angle, 3) + "°" : number_text(angle);
 }
 
 struct Tile {
@@ -66,13 +66,13 @@ struct Tile {
 
 std::string row(const std::string& name, const std::string& value) {
   return value.empty() ? ""
-                       : fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", name, escaped(value));
+                       : fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", name, markup_text(value));
 }
 
 std::string notice(const std::vector<std::string>& lines) {
   if (lines.empty()) return {};
   std::string text = "<div class=\"notice\">";
-  for (const std::string& line : lines) text += fmt::format("<p>{}</p>", escaped(line));
+  for (const std::string& line : lines) text += fmt::format("<p>{}</p>", markup_text(line));
   return text + "</div>\n";
 }
 
@@ -84,36 +84,37 @@ std::string heading_html(const RunData& run) {
   const std::string word = facts.status.substr(0, facts.status.find(':'));
   const char* kind = word == "done" ? "done" : word == "failed" ? "failed" : "other";
   const std::string status =
-      word.empty() ? "" : fmt::format("<span class=\"status {}\">{}</span>", kind, escaped(word));
+      word.empty() ? ""
+                   : fmt::format("<span class=\"status {}\">{}</span>", kind, markup_text(word));
   std::vector<std::string> lines;
   if (word != facts.status) lines.push_back(facts.status);
   lines.insert(lines.end(), facts.warnings.begin(), facts.warnings.end());
   lines.insert(lines.end(), run.faults.begin(), run.faults.end());
   return fmt::format("<header><h1>{}{}</h1>\n<p class=\"lead\">{}</p>\n{}</header>\n",
-                     escaped(title.empty() ? "A run" : title), status, physics(facts),
+                     markup_text(title.empty() ? "A run" : title), status, physics(facts),
                      notice(lines));
 }
 
 std::string tiles_html(const RunData& run) {
   const double tetrahedra = last(run.history, "tetrahedra"), steps = last(run.history, "step");
   const double drift = largest_magnitude(column(run.drops, "volume_drift"));
-  std::vector<Tile> tiles = {{"Time reached", readable(last(run.history, "t")), "1/G"},
-                             {"Steps", readable_count(steps), ""}};
+  std::vector<Tile> tiles = {{"Time reached", number_text(last(run.history, "t")), "1/G"},
+                             {"Steps", count_text(steps), ""}};
   if (last(run.history, "drops") == 1.0) {
-    tiles.push_back({"Deformation D", readable(last(run.drops, "D")), ""});
+    tiles.push_back({"Deformation D", number_text(last(run.drops, "D")), ""});
     tiles.push_back({"Inclination", degrees(last(run.drops, "angle_deg")), ""});
   } else {
-    tiles.push_back({"Drops", readable_count(last(run.history, "drops")), ""});
+    tiles.push_back({"Drops", count_text(last(run.history, "drops")), ""});
   }
-  tiles.push_back({"Volume drift", readable(drift, 2), ""});
+  tiles.push_back({"Volume drift", number_text(drift, 2), ""});
   if (run.drops) {
     const double sum = volume_correction_sum(*run.drops).value_or(nan);
-    tiles.push_back({"Volume corrections, sum", readable(sum, 2), "R₀"});
+    tiles.push_back({"Volume corrections, sum", number_text(sum, 2), "R₀"});
   }
-  tiles.push_back({"Surface nodes", readable_count(last(run.history, "surface_nodes")), ""});
-  tiles.push_back({"Tetrahedra", readable_count(tetrahedra), ""});
+  tiles.push_back({"Surface nodes", count_text(last(run.history, "surface_nodes")), ""});
+  tiles.push_back({"Tetrahedra", count_text(tetrahedra), ""});
   if (run.facts.wall_seconds > 0.0) {
-    tiles.push_back({"Wall time", readable_duration(run.facts.wall_seconds), ""});
+    tiles.push_back({"Wall time", duration_text(run.facts.wall_seconds), ""});
   }
   std::string text = "<dl class=\"tiles\">";
   for (const Tile& tile : tiles) {
@@ -140,9 +141,9 @@ std::string drops_html(const RunData& run) {
     for (const auto& [name, symbol] : quantities) {
       const std::vector<double> values = column(run.drops, name);
       if (values.empty()) continue;
-      cells += fmt::format("<td class=\"n\">{}</td>", fixed(values[i], decimals));
+      cells += fmt::format("<td class=\"n\">{}</td>", decimal_text(values[i], decimals));
     }
-    body += fmt::format("<tr><th>drop {}</th>{}</tr>\n", readable_count(ids[i]), cells);
+    body += fmt::format("<tr><th>drop {}</th>{}</tr>\n", count_text(ids[i]), cells);
   }
   return fmt::format(
       "<div class=\"card scroll\"><table><caption>Drops at the end</caption>"
@@ -153,7 +154,7 @@ std::string drops_html(const RunData& run) {
 std::string facts_html(const RunData& run) {
   const RunFacts& f = run.facts;
   const std::string program = f.program + (f.version.empty() ? "" : " " + f.version);
-  const std::string nodes = readable_count(last(run.history, "nodes"));
+  const std::string nodes = count_text(last(run.history, "nodes"));
   std::string rows = row("Program", program) + row("Commit", f.commit) + row("Case", f.case_file) +
                      row("Status", f.status);
   rows += row("Capillary force", in_words(f.case_value("interface.surface-tension"))) +
@@ -180,7 +181,7 @@ std::string phases_html(const RunData& run) {
     rows += fmt::format(
         "<tr><th>{}</th><td class=\"phase\"><span style=\"width:{:.1f}%\"></span></td>"
         "<td class=\"n\">{}</td><td class=\"n\">{:.0f} %</td></tr>\n",
-        escaped(in_words(phase)), 100.0 * seconds / longest, readable_duration(seconds),
+        markup_text(in_words(phase)), 100.0 * seconds / longest, duration_text(seconds),
         100.0 * seconds / total);
   }
   return "<div class=\"card\"><table><caption>Time by phase</caption><tbody>" + rows +
@@ -191,12 +192,12 @@ std::string case_html(const RunData& run) {
   std::string text;
   if (!run.facts.case_text.empty()) {
     text += fmt::format("<details><summary>Case file</summary><pre>{}</pre></details>\n",
-                        escaped(run.facts.case_text));
+                        markup_text(run.facts.case_text));
   }
   if (run.facts.case_values.empty()) return text;
   std::string rows;
   for (const auto& [key, value] : run.facts.case_values) {
-    rows += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", escaped(key), escaped(value));
+    rows += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", markup_text(key), markup_text(value));
   }
   return text + "<details><summary>Case with all defaults</summary><table><tbody>" + rows +
          "</tbody></table></details>\n";

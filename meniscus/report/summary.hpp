@@ -6,13 +6,13 @@
 
 namespace meniscus::report {
 
-// Parts of the page that are text, each as HTML; empty when the run has nothing for them.
+// The text parts of the page as HTML; empty when the run has no data for them.
 
-/// Title, status, what flows, and what went wrong.
+/// Title, status, flow, and faults.
 [[nodiscard]] std::string heading_html(const RunData& run);
-/// The last values in large figures.
+/// The final values in large digits.
 [[nodiscard]] std::string tiles_html(const RunData& run);
-/// Each drop at the end of the run.
+/// The table of drops at the end of the run.
 [[nodiscard]] std::string drops_html(const RunData& run);
 /// What ran, where and when.
 [[nodiscard]] std::string facts_html(const RunData& run);

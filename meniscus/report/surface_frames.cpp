@@ -67,7 +67,7 @@ std::vector<io::PvdEntry> nearest_frames(std::span<const io::PvdEntry> frames,
   return result;
 }
 
-std::vector<io::PvdEntry> spread_frames(std::span<const io::PvdEntry> frames, int count) {
+std::vector<io::PvdEntry> evenly_spaced_frames(std::span<const io::PvdEntry> frames, int count) {
   if (frames.empty()) return {};
   std::vector<double> times;
   MENISCUS_ASSERT(count > 1, "{} frames cannot be spread", count);
@@ -90,10 +90,10 @@ std::vector<SurfaceFrame> load_surfaces(RunData& run, std::span<const io::PvdEnt
 
 namespace {
 
-/// Means of the values of the vertices that became one.
-VertexField<double> gathered(const VertexField<double>& values,
-                             const VertexField<VertexId>& to_coarse,
-                             const VertexField<double>& count) {
+/// The mean of the values of the vertices that each coarse vertex replaces.
+VertexField<double> cluster_means(const VertexField<double>& values,
+                                  const VertexField<VertexId>& to_coarse,
+                                  const VertexField<double>& count) {
   MENISCUS_ASSERT(values.empty() || values.size() == to_coarse.size(), "{} values of {} vertices",
                   values.size(), to_coarse.size());
   VertexField<double> means(values.empty() ? 0 : count.size(), 0.0);
@@ -130,9 +130,9 @@ SurfaceFrame coarse_frame(const SurfaceFrame& frame, int num_faces) {
     Vec3& mean = result.mesh.x[to_coarse[v]];
     mean += (x - mean) / n;
   }
-  result.curvature = gathered(frame.curvature, to_coarse, count);
+  result.curvature = cluster_means(frame.curvature, to_coarse, count);
   for (const SurfaceField& field : frame.fields) {
-    result.fields.push_back({field.name, gathered(field.values, to_coarse, count)});
+    result.fields.push_back({field.name, cluster_means(field.values, to_coarse, count)});
   }
   for (const FaceId f : frame.mesh.faces.ids()) {
     FaceVertices face;

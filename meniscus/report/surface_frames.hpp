@@ -10,45 +10,46 @@
 
 namespace meniscus::report {
 
-/// A field that a reader can colour the interface by.
+/// A field by which the page can colour the interface.
 struct SurfaceQuantity {
   const char* name;   ///< of the array in the file
   const char* label;  ///< for readers
   const char* unit;
 };
-/// All of them, the one shown first in front.
+/// All quantities; the first is shown by default.
 [[nodiscard]] std::span<const SurfaceQuantity> surface_quantities();
 
-/// The values of one of them.
+/// The values of one quantity on a surface.
 struct SurfaceField {
   std::string name;
   VertexField<double> values;
 };
 
-/// The interface of one moment, with what colours it.
+/// The interface at one time with its fields.
 struct SurfaceFrame {
   double t = 0.0;
   SurfaceMesh mesh;
   VertexField<double> curvature;          ///< kappa = k1 + k2 [1/R0]; empty if the file has none
   FaceField<int> drop;                    ///< id of the drop each face belongs to
-  std::vector<SurfaceField> fields = {};  ///< those of `surface_quantities` that the file has
+  std::vector<SurfaceField> fields = {};  ///< the `surface_quantities` that the file has
 };
 
-/// At most `count` of the frames, about evenly spaced in time, the first and the last among them.
-[[nodiscard]] std::vector<io::PvdEntry> spread_frames(std::span<const io::PvdEntry> frames,
-                                                      int count);
-/// The frame nearest to each of the times, each once.
+/// At most `count` frames, about evenly spaced in time, including the first and the last.
+[[nodiscard]] std::vector<io::PvdEntry> evenly_spaced_frames(std::span<const io::PvdEntry> frames,
+                                                             int count);
+/// The frames nearest to the given times, without repetition.
 [[nodiscard]] std::vector<io::PvdEntry> nearest_frames(std::span<const io::PvdEntry> frames,
                                                        std::span<const double> times);
 
 /// Reads one frame. Throws InvalidInput naming the file and the fault.
 [[nodiscard]] SurfaceFrame load_surface(const std::filesystem::path& path, double t);
-/// Reads frames of a run; those that cannot be read join its faults instead.
+/// Reads frames of a run. Unreadable files are added to the run's faults instead.
 [[nodiscard]] std::vector<SurfaceFrame> load_surfaces(RunData& run,
                                                       std::span<const io::PvdEntry> frames);
 
-/// A mesh with about `num_faces` faces at most: vertices in one cell of a grid become their mean.
-/// For pictures only: it need not be a manifold. Returned as it is when it is small enough.
+/// A frame with at most about `num_faces` faces: the vertices in one cell of a grid become their
+/// mean. For pictures only: the result may not be a manifold. A frame that is small enough is
+/// returned unchanged.
 [[nodiscard]] SurfaceFrame coarse_frame(const SurfaceFrame& frame, int num_faces);
 
 }  // namespace meniscus::report

@@ -15,11 +15,11 @@
 namespace meniscus::report {
 namespace {
 
-// [px] of the picture; its letters are 12 px high and about 6.6 px wide.
+// [px] Letters are 12 px high and about 6.6 px wide.
 constexpr double letter_width = 6.6, title_line = 18.0, legend_line = 38.0, line_sample = 20.0;
 constexpr double margin_right = 14.0, margin_bottom = 38.0, margin_side = 14.0;
 
-/// Where data lie on the picture.
+/// The mapping from data to the picture.
 struct PlotArea {
   double left = 0.0, right = 0.0, top = 0.0, bottom = 0.0;  ///< [px], y downwards
   Ticks x, y;
@@ -35,7 +35,7 @@ struct PlotArea {
   }
 };
 
-/// Least and largest of the values that can be drawn.
+/// The smallest and largest value that can be drawn.
 struct Extent {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -47,8 +47,7 @@ struct Extent {
   [[nodiscard]] bool is_empty() const { return low > high; }
 };
 
-/// Beyond 10^±300 differences and quotients of values overflow; nothing that a run computes is
-/// there.
+/// Beyond 10^±300 differences and quotients overflow. No result of a run is that large.
 constexpr double largest_drawable = 1e300;
 
 bool is_within(double value) { return std::abs(value) < largest_drawable; }
@@ -66,7 +65,7 @@ Extents data_extents(const Plot& plot) {
   Extents extents;
   for (const Curve& curve : plot.curves) {
     for (std::size_t i = 0; i < curve.x.size(); ++i) {
-      // Where y has a gap the axis of x goes on, the same for all plots of a run.
+      // The x-axis includes gaps of y, so that all plots of a run have the same x-axis.
       if (is_within(curve.x[i])) extents.x.add(curve.x[i]);
       if (is_drawable(curve, i, plot.is_log)) extents.y.add(curve.y[i]);
     }
@@ -77,7 +76,7 @@ Extents data_extents(const Plot& plot) {
   return extents;
 }
 
-/// Widens the range that is the shorter on the picture until both have one scale.
+/// Widens one range until both axes have the same scale on the picture.
 void equalize_scales(Extents& extents, double width, double height) {
   const double slack = 1.08;  // room between the curves and the frame
   const auto middle = [](const Extent& e) { return 0.5 * (e.low + e.high); };
@@ -88,7 +87,7 @@ void equalize_scales(Extents& extents, double width, double height) {
   extents.y = {y - 0.5 * unit * height, y + 0.5 * unit * height};
 }
 
-/// Letters as they are seen: bytes that go on a letter of several do not count.
+/// Width of a text [px]; continuation bytes of UTF-8 do not count.
 double text_width(std::string_view text) {
   return letter_width * static_cast<double>(
                             std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
@@ -112,7 +111,7 @@ PlotArea plot_area(const Plot& plot) {
   }
   const bool is_rounded = !plot.has_equal_scales;
   const auto count = [](double length, double spacing) {
-    return std::max(2, static_cast<int>(length / spacing));  // one mark in so many px
+    return std::max(2, static_cast<int>(length / spacing));  // one mark per `spacing` px
   };
   area.y = plot.is_log ? log_ticks(extents.y.low, extents.y.high)
                        : linear_ticks(extents.y.low, extents.y.high,
@@ -147,11 +146,11 @@ std::string draw_axes(const Plot& plot, const PlotArea& f) {
   const std::string x_factor = f.x.factor.empty() ? "" : " (" + f.x.factor + ")";
   labels +=
       fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)",
-                  0.5 * (f.left + f.right), f.bottom + 33.0, escaped(plot.x_label) + x_factor);
+                  0.5 * (f.left + f.right), f.bottom + 33.0, markup_text(plot.x_label) + x_factor);
   if (!plot.y_label.empty()) {
     labels += fmt::format(
         R"x(<text transform="translate({:.1f} {:.1f}) rotate(-90)" text-anchor="middle">{}</text>)x",
-        margin_side, 0.5 * (f.top + f.bottom), escaped(plot.y_label));
+        margin_side, 0.5 * (f.top + f.bottom), markup_text(plot.y_label));
   }
   return fmt::format(
       R"(<path class="grid" d="{}"/><path class="ax" d="M{:.1f} {:.1f}V{:.1f}H{:.1f}"/>{})", grid,
@@ -167,20 +166,20 @@ std::string stroke_of(const Curve& curve) {
 }
 
 std::string draw_heading(const Plot& plot, const PlotArea& f) {
-  const std::string unit =
-      plot.unit.empty() ? ""
-                        : fmt::format(R"( <tspan class="unit">[{}]</tspan>)", escaped(plot.unit));
+  const std::string unit = plot.unit.empty() ? ""
+                                             : fmt::format(R"( <tspan class="unit">[{}]</tspan>)",
+                                                           markup_text(plot.unit));
   std::string text = fmt::format(R"(<text class="ttl" x="{:.1f}" y="{:.1f}">{}{}</text>)",
-                                 margin_side, title_line, escaped(plot.title), unit);
+                                 margin_side, title_line, markup_text(plot.title), unit);
   double x = margin_side;
   for (const Curve& curve : plot.curves) {
     if (curve.label.empty()) continue;
     const double next = x + line_sample + 6.0 + text_width(curve.label) + 14.0;
-    if (next > f.right + 14.0) break;  // what has no room is told apart by its own title
+    if (next > f.right + 14.0) break;  // curves without room in the legend still have a tooltip
     text +=
         fmt::format(R"(<path {} d="M{:.1f} {:.1f}h{:.0f}"/><text x="{:.1f}" y="{:.1f}">{}</text>)",
                     stroke_of(curve), x, legend_line - 4.0, line_sample, x + line_sample + 6.0,
-                    legend_line, escaped(curve.label));
+                    legend_line, markup_text(curve.label));
     x = next;
   }
   return text;
@@ -192,7 +191,7 @@ std::string draw_marks(const Plot& plot, const PlotArea& f) {
     if (!(mark.x >= f.x.min && mark.x <= f.x.max)) continue;
     text +=
         fmt::format(R"(<path class="mk" d="M{0:.1f} {1:.1f}V{2:.1f}"><title>{3}</title></path>)",
-                    f.to_x(mark.x), f.top, f.bottom, escaped(mark.label));
+                    f.to_x(mark.x), f.top, f.bottom, markup_text(mark.label));
   }
   return text;
 }
@@ -207,7 +206,7 @@ std::string draw_curve(const Plot& plot, const Curve& curve, const PlotArea& f) 
   const CurvePath path = curve_path(points);
   std::string text;
   const std::string title =
-      curve.label.empty() ? "" : fmt::format("<title>{}</title>", escaped(curve.label));
+      curve.label.empty() ? "" : fmt::format("<title>{}</title>", markup_text(curve.label));
   if (!path.line.empty()) {
     text += fmt::format(R"(<path {} d="{}">{}</path>)", stroke_of(curve), path.line, title);
   }
@@ -232,7 +231,7 @@ std::string draw_plot(const Plot& plot) {
 std::string inline_svg(std::string_view content, double width, double height,
                        std::string_view label) {
   return fmt::format(R"(<svg viewBox="0 0 {:g} {:g}" role="img" aria-label="{}">{}</svg>)", width,
-                     height, escaped(label), content);
+                     height, markup_text(label), content);
 }
 
 std::string svg_file(std::string_view content, double width, double height) {

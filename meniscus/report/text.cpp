@@ -17,7 +17,7 @@ std::string with_true_minus(std::string text) {
 
 }  // namespace
 
-std::string escaped(std::string_view text) {
+std::string markup_text(std::string_view text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
@@ -49,7 +49,7 @@ std::string superscript(int value) {
   return result;
 }
 
-std::string readable(double value, int digits) {
+std::string number_text(double value, int digits) {
   if (!std::isfinite(value)) return "–";
   if (value == 0.0) return "0";
   const double magnitude = std::abs(value);
@@ -63,15 +63,15 @@ std::string readable(double value, int digits) {
   return with_true_minus(text.substr(0, e)) + "×10" + superscript(std::stoi(text.substr(e + 1)));
 }
 
-std::string fixed(double value, int decimals) {
+std::string decimal_text(double value, int decimals) {
   if (!std::isfinite(value)) return "–";
   const std::string text = fmt::format("{:.{}f}", value, decimals);
-  // What rounds to nought has no sign.
+  // A number that rounds to zero has no sign.
   const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
   return with_true_minus(is_zero && text.starts_with('-') ? text.substr(1) : text);
 }
 
-std::string readable_count(double value) {
+std::string count_text(double value) {
   if (!std::isfinite(value)) return "–";
   std::string text = fmt::format("{:.0f}", std::abs(value));
   for (int at = static_cast<int>(text.size()) - 3; at > 0; at -= 3) {
@@ -80,7 +80,7 @@ std::string readable_count(double value) {
   return value < 0.0 ? "−" + text : text;
 }
 
-std::string readable_duration(double seconds) {
+std::string duration_text(double seconds) {
   if (!std::isfinite(seconds)) return "–";
   if (seconds < 10.0) return fmt::format("{:.2f} s", seconds);
   if (seconds < 60.0) return fmt::format("{:.1f} s", seconds);

@@ -5,23 +5,23 @@
 
 namespace meniscus::report {
 
-/// Text as HTML and SVG hold it, also between quotes. Control characters, which XML has no way to
-/// write, are left out.
-[[nodiscard]] std::string escaped(std::string_view text);
+/// Text escaped for HTML and SVG, also between quotes. Control characters, which XML cannot
+/// contain, are left out.
+[[nodiscard]] std::string markup_text(std::string_view text);
 
 /// A number for readers: `digits` significant ones, a true minus sign, powers of ten as ×10ⁿ beyond
 /// 10⁻⁴…10⁶; "–" when it is not finite.
-[[nodiscard]] std::string readable(double value, int digits = 4);
+[[nodiscard]] std::string number_text(double value, int digits = 4);
 
 /// A number with a fixed count of decimals and a true minus sign, for columns of a table; "–" when
 /// it is not finite.
-[[nodiscard]] std::string fixed(double value, int decimals);
+[[nodiscard]] std::string decimal_text(double value, int decimals);
 
 /// A whole number with thin spaces between thousands.
-[[nodiscard]] std::string readable_count(double value);
+[[nodiscard]] std::string count_text(double value);
 
 /// "0.35 s", "12.4 s", "3 min 05 s", "2 h 07 min".
-[[nodiscard]] std::string readable_duration(double seconds);
+[[nodiscard]] std::string duration_text(double seconds);
 
 /// An integer in superscript digits: "⁻¹²".
 [[nodiscard]] std::string superscript(int value);

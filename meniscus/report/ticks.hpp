@@ -13,12 +13,12 @@ struct Ticks {
   std::string factor = {};  ///< "×10⁻³" when all labels are to be multiplied by it; else empty
 };
 
-/// About `count` marks at 1, 2 or 5 times a power of ten around [low, high], both within ±1e300;
-/// the range ends at marks when `is_rounded`, else at the data. A range without extent is widened.
+/// About `count` marks at 1, 2 or 5 times a power of ten around [low, high], both within ±1e300.
+/// The range ends at marks when `is_rounded`, else at the data. A range without extent is widened.
 [[nodiscard]] Ticks linear_ticks(double low, double high, int count, bool is_rounded = true);
 
-/// Marks at powers of ten around 1e-300 < low ≤ high < 1e300, and at their 2- and 5-fold in a short
-/// range.
+/// Marks at powers of ten around [low, high], 1e-300 < low ≤ high < 1e300. A short range also has
+/// marks at 2 and 5 times these powers.
 [[nodiscard]] Ticks log_ticks(double low, double high);
 
 }  // namespace meniscus::report

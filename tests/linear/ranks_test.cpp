@@ -82,7 +82,8 @@ TEST_P(RanksByMethod, FindTheSolution) {
     const SharedChain chain(20, is_closed);
     for (unsigned seed = 0; seed < 3; ++seed) {
       const std::vector<double> exact = random_solution(chain.whole.system, seed);
-      const std::vector<double> side = product(merged(chain.whole.system, 1.0, 0.0).view(), exact);
+      const std::vector<double> side =
+          product(merged_system(chain.whole.system, 1.0, 0.0).view(), exact);
       SaddleSolver solver(world(), {.method = GetParam(), .petsc_options = {}});
       std::vector<double> u(std::size_t(chain.system.size()), 0.0);
       LinearReport report = solver.solve(chain.system, chain.own(side), u, 1e-12);

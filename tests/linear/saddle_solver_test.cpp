@@ -27,7 +27,7 @@ TEST_P(EveryMethod, FindsTheSolution) {
   for (unsigned seed = 0; seed < 5; ++seed) {
     const Chain chain(20, is_closed);  // 80 unknowns: fewer than GMRES keeps before it restarts
     const std::vector<double> exact = random_solution(chain.system, seed);
-    const std::vector<double> side = product(merged(chain.system, 1.0, 0.0).view(), exact);
+    const std::vector<double> side = product(merged_system(chain.system, 1.0, 0.0).view(), exact);
     SaddleSolver solver(Communicator::self(), {.method = method, .petsc_options = {}});
     std::vector<double> u(exact.size(), 0.0);
     const LinearReport report = solver.solve(chain.system, side, u, 1e-12);
@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(SaddleSolver, NoConvergenceIsReported) {
   const Chain chain(60, true);
   const std::vector<double> exact = random_solution(chain.system, 3);
-  const std::vector<double> side = product(merged(chain.system, 1.0, 0.0).view(), exact);
+  const std::vector<double> side = product(merged_system(chain.system, 1.0, 0.0).view(), exact);
   for (const SaddleMethod method :
        {SaddleMethod::block, SaddleMethod::paper_gmres, SaddleMethod::minres}) {
     SaddleSolver solver(Communicator::self(),
@@ -114,7 +114,7 @@ TEST(SaddleSolver, SingularBlockIsReported) {
 TEST(SaddleSolver, OptionsOverrideTheMethod) {
   const Chain chain(60, true);
   const std::vector<double> exact = random_solution(chain.system, 1);
-  const std::vector<double> side = product(merged(chain.system, 1.0, 0.0).view(), exact);
+  const std::vector<double> side = product(merged_system(chain.system, 1.0, 0.0).view(), exact);
   std::vector<double> u(exact.size(), 0.0);
   SaddleSolver limited(Communicator::self(), {.petsc_options = "-ksp_max_it 3"});
   EXPECT_EQ(limited.solve(chain.system, side, u, 1e-14).iterations, 3);
@@ -132,7 +132,7 @@ TEST(SaddleSolver, OptionsThatPetscCannotReadAreRefused) {
 TEST(SaddleSolver, PreparedIsKept) {
   const Chain chain(20, true);
   const std::vector<double> exact = random_solution(chain.system, 2);
-  const std::vector<double> side = product(merged(chain.system, 1.0, 0.0).view(), exact);
+  const std::vector<double> side = product(merged_system(chain.system, 1.0, 0.0).view(), exact);
   for (const SaddleMethod method : {SaddleMethod::block, SaddleMethod::mumps}) {
     const SaddleOptions options = {.method = method, .petsc_options = {}};
     SaddleSolver fresh(Communicator::self(), options), prepared(Communicator::self(), options);
@@ -154,7 +154,7 @@ TEST(SaddleSolver, KeptIsNotMadeAnew) {
   for (std::size_t k = 0; k < second.laplacian.values.size(); ++k)
     second.laplacian.values[k] *= k < 90 ? 3.0 : 1.0;
   const std::vector<double> exact = random_solution(first.system, 4);
-  const std::vector<double> side = product(merged(second.system, 1.0, 0.0).view(), exact);
+  const std::vector<double> side = product(merged_system(second.system, 1.0, 0.0).view(), exact);
   SaddleSolver solver(Communicator::self(), {.petsc_options = {}});
   std::vector<double> kept(exact.size(), 0.0), fresh(exact.size(), 0.0);
   solver.prepare(first.system);
@@ -175,7 +175,8 @@ TEST(SaddleOptions, DoWithoutHypre) {
 
 TEST(SaddleSystem, MergedMatrixHasSignAndPin) {
   const Chain chain(3, true);
-  const CsrMatrix plus = merged(chain.system, 1.0, 0.0), minus = merged(chain.system, -1.0, 7.0);
+  const CsrMatrix plus = merged_system(chain.system, 1.0, 0.0),
+                  minus = merged_system(chain.system, -1.0, 7.0);
   std::vector<double> u(12, 0.0);
   u[9] = 1.0;  // the first pressure
   const auto column = product(plus.view(), u), flipped = product(minus.view(), u);

@@ -140,14 +140,14 @@ TEST(InterfaceSection, OfAnEllipsoidIsAnEllipse) {
 TEST(SurfaceFrames, ChoosesFramesSpreadInTime) {
   std::vector<io::PvdEntry> frames;
   for (int i = 0; i <= 100; ++i) frames.push_back({0.1 * i, std::to_string(i)});
-  const auto chosen = spread_frames(frames, 6);
+  const auto chosen = evenly_spaced_frames(frames, 6);
   ASSERT_EQ(chosen.size(), 6U);
   EXPECT_EQ(chosen[0].file, "0");
   EXPECT_EQ(chosen[1].file, "20");
   EXPECT_EQ(chosen[5].file, "100");
-  EXPECT_EQ(spread_frames(std::span(frames).first(3), 6).size(), 3U);
-  EXPECT_EQ(spread_frames(std::span(frames).first(1), 6).size(), 1U);
-  EXPECT_TRUE(spread_frames({}, 6).empty());
+  EXPECT_EQ(evenly_spaced_frames(std::span(frames).first(3), 6).size(), 3U);
+  EXPECT_EQ(evenly_spaced_frames(std::span(frames).first(1), 6).size(), 1U);
+  EXPECT_TRUE(evenly_spaced_frames({}, 6).empty());
   const double times[] = {4.96, 0.0, 5.04, 99.0};
   EXPECT_EQ(nearest_frames(frames, times).size(), 3U);
 }

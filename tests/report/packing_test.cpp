@@ -43,9 +43,9 @@ TEST(Packing, DeflateIsUndoneByZlib) {
   std::mt19937 random(7);
   std::string bytes;
   for (int i = 0; i < 100000; ++i) bytes += static_cast<char>(random() % 16);
-  EXPECT_EQ(inflated(deflated(bytes)), bytes);
-  EXPECT_LT(deflated(bytes).size(), bytes.size());
-  EXPECT_EQ(inflated(deflated("")), "");
+  EXPECT_EQ(inflated(zlib_bytes(bytes)), bytes);
+  EXPECT_LT(zlib_bytes(bytes).size(), bytes.size());
+  EXPECT_EQ(inflated(zlib_bytes("")), "");
 }
 
 TEST(Packing, GridIsExactToHalfAStep) {
@@ -141,7 +141,7 @@ VertexId nearest_vertex(const SurfaceMesh& mesh, const Vec3& point) {
 /// Vertices and faces come in another order: the triangles are the same ones, turned the same way.
 TEST(PackedFrames, SurfaceIsReadBack) {
   const SurfaceFrame frame = sphere_frame(301);
-  const PackedFrame packed_frame = packed(frame);
+  const PackedFrame packed_frame = packed_surface(frame);
   PackageReader package(packed_frame.bytes);
   EXPECT_EQ(package.header["t"], 1.5);
   EXPECT_EQ(package.header["vertices"], 301);
@@ -180,7 +180,7 @@ TEST(PackedFrames, SurfaceIsReadBack) {
   for (std::size_t v = 0; v < 301; ++v)
     EXPECT_NEAR(low + (high - low) / Grid16::steps * values[v], points[v].z(), tolerance);
   EXPECT_EQ(packed_frame.ranges.count("curvature"), 1U);
-  EXPECT_EQ(packed(frame).bytes, packed_frame.bytes);
+  EXPECT_EQ(packed_surface(frame).bytes, packed_frame.bytes);
 }
 
 TEST(PackedFrames, ManyVerticesHaveWideCorners) {
@@ -188,7 +188,7 @@ TEST(PackedFrames, ManyVerticesHaveWideCorners) {
   for (int i = 0; i < 65500; ++i) frame.mesh.x.add(Vec3(1.0 + 1e-6 * i, 0.0, 0.0));
   frame.mesh.faces[FaceId{0}][2] = VertexId{65599};
   frame.fields.clear();
-  PackageReader package(packed(frame).bytes);
+  PackageReader package(packed_surface(frame).bytes);
   EXPECT_EQ(package.header["wide"], true);
   std::uint32_t largest = 0;
   for (const auto& face :
