@@ -1,5 +1,5 @@
-// Pair interactions per second of the direct sums, beside what the same core reaches in fused
-// multiply-adds on registers alone, and the time of a whole solve by its parts.
+// Pair interactions per second of the direct sums, the core's peak rate of fused multiply-adds on
+// registers, and the time of a solve by its parts.
 
 #include <array>
 #include <random>
@@ -13,7 +13,7 @@
 namespace meniscus::bem {
 namespace {
 
-// Operations of a pair as the loops are written, a square root and a division counting one each.
+// Operations per pair in the loops; a square root or a division counts as one.
 constexpr double kSingleLayerFlops = 30.0, kDoubleLayerFlops = 31.0;
 
 SourcePoints random_points(std::int32_t count) {
@@ -99,7 +99,7 @@ Scene stretched_drop(int num_vertices) {
   return scene;
 }
 
-/// Everything that a new geometry costs before the first iteration.
+/// Measures the set-up for a new geometry, before the first iteration.
 void make_equation(benchmark::State& state) {
   const Scene scene = stretched_drop(static_cast<int>(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(IntegralEquation(scene, 0.0, {}));

@@ -91,7 +91,7 @@ void print_gaps() {
   }
 }
 
-/// A row's search: for necks thinner than half of the sphere of the same volume.
+/// Prints the cost of a row's search for necks, thinner than half of the sphere of equal volume.
 void print_necks() {
   fmt::print(
       "Necks of flat drops: s a row, us a vertex\n vertices  1.3:1.3:0.59          2:2:0.25\n");

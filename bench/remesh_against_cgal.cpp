@@ -27,8 +27,8 @@ namespace {
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// Cassini's oval turned about its axis, (x² + ρ² + 1)² − 4x² = c⁴, by its radius in a direction:
-/// half-length about 1.41, neck radius (c² − 1)^½.
+/// The radius in a direction of Cassini's oval of revolution, (x² + ρ² + 1)² − 4x² = c⁴, of
+/// half-length about 1.41 and neck radius (c² − 1)^½.
 double dumbbell_radius(const Vec3& direction, double neck) {
   const double c2 = 1.0 + neck * neck, x = direction.x();
   const double cos_2 = 2.0 * x * x - 1.0, sin2_2 = 1.0 - cos_2 * cos_2;
@@ -43,8 +43,8 @@ RemeshOptions even_mesh_options(double edge) {
           .spring_tolerance = 0.01};
 }
 
-/// Even triangles, then every vertex moved at random within its tangent plane by up to a fifth of
-/// an edge: what neither of the two has relaxed.
+/// An even mesh whose vertices were moved at random in their tangent planes by up to a fifth of an
+/// edge, so that neither remesher starts from its own result.
 SurfaceMesh noisy_mesh(SurfaceMesh mesh, int num_vertices) {
   const double edge = length_of_density(num_vertices / surface_area(mesh));
   for (int pass = 0; pass < 2; ++pass)
@@ -104,7 +104,8 @@ Outcome by_cgal(const SurfaceMesh& input, double edge, unsigned iterations) {
   return outcome;
 }
 
-/// The median time of remeshing to a mean edge; the length asked for is corrected twice before.
+/// The outcome with the median time of remeshing to a mean edge. The target length is corrected
+/// twice before.
 Outcome median_outcome(const Remesher& remesher, const SurfaceMesh& input, double edge,
                        int repeats) {
   double asked = edge;

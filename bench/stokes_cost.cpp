@@ -73,13 +73,14 @@ void set_viscosities(StokesProblem& problem, double ratio) {
     problem.viscosity[c] = problem.mesh.region[c] == RegionId{0} ? 1.0 : ratio;
 }
 
-/// What assembly must at least move: its matrices once, and once what tells it where to put them.
+/// The least bytes that assembly must move: the matrices and the table of positions, once each.
 double assembly_bytes(const FlowSpace& space, const linear::SaddleSystem& system) {
   std::size_t reals = system.A.values.size() + system.B.values.size() + system.C.values.size() +
                       3 * static_cast<std::size_t>(space.velocity.num_nodes);
   for (const linear::CsrView& laplacian : system.laplacians) reals += laplacian.values.size();
   const auto nodes = static_cast<std::size_t>(space.velocity.nodes_per_cell);
-  // Nodes, and where entries are: of P1-P1 its edges, and edge, place and column of each entry.
+  // Nodes and positions of entries; for P1-P1 the edges, and edge, position and column of each
+  // entry.
   const bool has_edges = space.elements == Elements::p1_p1;
   const std::size_t bytes_per_cell =
       4 * nodes + (has_edges ? 24 : 16 + 2 * (nodes * nodes + 4 * nodes + 16));
@@ -140,7 +141,7 @@ int main(int count, char** given) {
   using namespace meniscus::fem;
   keep_freed_memory();
   const Arguments arguments = read_arguments(count, given);
-  check_linear_options(arguments.options);  // and PETSc has started
+  check_linear_options(arguments.options);  // starts PETSc
   const Scene scene = stretched_drop(shape_of(arguments.shape), arguments.N0, 1.0);
   TetMesh mesh;
   if (const VolumeMeshReport report =

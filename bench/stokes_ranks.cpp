@@ -26,7 +26,7 @@ namespace {
 
 linear::Communicator world() { return linear::Communicator::world(); }
 
-/// From all ranks' coming to all ranks' having done.
+/// Seconds from the arrival of all ranks to the end of the last.
 double seconds(const std::function<void()>& action) {
   using Clock = std::chrono::steady_clock;
   linear::barrier(world());

@@ -50,7 +50,7 @@ void print_relaxation_rates(int l) {
   }
 }
 
-/// One row per size, one column per wall radius and viscosity ratio.
+/// Prints one row per size, one column per wall radius and viscosity ratio.
 template <std::size_t Walls, class Error>
 void print_in_walls(const char* title, const std::array<double, Walls>& walls, Error error) {
   fmt::print("\n{}\n\n| N0 |", title);
@@ -66,7 +66,7 @@ void print_in_walls(const char* title, const std::array<double, Walls>& walls, E
   }
 }
 
-/// Quadratic elements: what the linear ones are measured by, in one table.
+/// Prints the same errors for quadratic elements, in one table.
 void print_quadratic_drops(std::span<char*> given_sizes) {
   const Method fitted(CapillaryForm::weak, Elements::p2_p1);
   Method analytic = fitted;

@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
   for (const VertexId v : mesh.x.ids()) {
     const Vec3 across(0.0, mesh.x[v].y(), mesh.x[v].z());
     radius[v] = across.norm();
-    // The rate of the radius at fixed x: of normal motion w n it is w/(n·e).
+    // The rate of the radius at fixed x: w/(n·e) for normal motion w n.
     const Vec3& w = motion[0][v];
     rate[v] = radius[v] > 0.0 && w.norm() > 0.0 ? w.squaredNorm() / w.dot(across) * radius[v] : 0.0;
   }

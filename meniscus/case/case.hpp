@@ -48,7 +48,7 @@ struct PatchCase {
   std::string name;       ///< of the shape's patch, or the label of a tag
   std::vector<int> tags;  ///< of the shape's faces, or the tag in the surface file
   enum class Condition { velocity, symmetry, open } condition = Condition::velocity;
-  bool follows_flow = true;  ///< v = G·x; else `velocity` with its profile
+  bool follows_flow = true;  ///< v = G·x; if false, `velocity` with its profile
   Vec3 velocity = Vec3::Zero();
   bool is_parabolic = false;
   std::optional<Vec3> profile_center;

@@ -14,10 +14,11 @@
 namespace meniscus::linear {
 namespace {
 
-// PETSc sends on copies of its communicators: no message of its local has this tag here.
+// PETSc sends on duplicates of this communicator, so no message of PETSc can have this tag.
 constexpr int kArrivalTag = 4711;
 
-/// FNV-1a of the numbers' bits, taken in four strands: one alone waits for each of its products.
+/// FNV-1a hash of the numbers' bits in four interleaved strands: a single strand would wait for
+/// each product.
 template <typename Number, typename Bits>
 std::uint64_t fingerprint(std::span<const Number> numbers) {
   constexpr std::uint64_t basis = 14695981039346656037u, prime = 1099511628211u;
@@ -57,7 +58,8 @@ bool any(Communicator communicator, bool local) {
 
 bool agree(Communicator communicator, std::uint64_t local) {
   if (communicator.size() == 1) return true;
-  // The largest of a number and of its complement: both are one's local where all are equal.
+  // The largest number and the largest complement are complements of each other only where all
+  // ranks agree.
   const std::array<std::uint64_t, 2> mine = {local, ~local};
   std::array<std::uint64_t, 2> largest{};
   MPI_Allreduce(mine.data(), largest.data(), 2, MPI_UINT64_T, MPI_MAX, handle_of(communicator));
@@ -129,12 +131,12 @@ bool all_arrive(Communicator communicator, std::chrono::milliseconds patience) {
     if (is_done != 0) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  return false;  // what was sent stays under way: the program is about to end
+  return false;  // messages stay pending: the program is about to end
 }
 
 void abort(Communicator communicator, int status) {
   MPI_Abort(handle_of(communicator), status);
-  std::abort();  // MPI's has not returned
+  std::abort();  // MPI_Abort does not return
 }
 
 }  // namespace meniscus::linear

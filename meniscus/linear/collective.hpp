@@ -14,7 +14,7 @@ namespace meniscus::linear {
 
 [[nodiscard]] double sum(Communicator communicator, double local);
 [[nodiscard]] std::int64_t sum(Communicator communicator, std::int64_t local);
-/// Euclidean norm of the ranks' norms.
+/// Euclidean norm of the whole vector from the norm of each rank's part.
 [[nodiscard]] double norm(Communicator communicator, double local);
 /// Whether `local` is true on one rank or more.
 [[nodiscard]] bool any(Communicator communicator, bool local);
@@ -24,18 +24,19 @@ namespace meniscus::linear {
 [[nodiscard]] bool agree(Communicator communicator, std::span<const std::int32_t> local);
 [[nodiscard]] bool agree(Communicator communicator, std::span<const double> local);
 void barrier(Communicator communicator);
-/// Sends the value of rank 0 to all. A text takes rank 0's length, a span must have it already.
+/// Sends the value of rank 0 to all ranks. A text is resized; a span must have the length of rank
+/// 0.
 void broadcast(Communicator communicator, std::string& text);
 void broadcast(Communicator communicator, std::span<std::int32_t> numbers);
-/// Gathers the ranks' parts, one after the other, in `all` on every rank; `counts` are their
-/// lengths.
+/// Gathers the ranks' parts in `all`, in the order of ranks, on every rank. `counts` are the
+/// lengths of the parts.
 void gather(Communicator communicator, std::span<const double> local,
             std::span<const std::int32_t> counts, std::span<double> all);
 
-/// Whether all ranks call this within the time. For a rank that has met an error: if the others
-/// have not, they wait in another collective call, and only `abort` can end them.
+/// Whether all ranks call this function within the time. A rank that met an error calls it: ranks
+/// without error wait in another collective call, and only `abort` can end them.
 [[nodiscard]] bool all_arrive(Communicator communicator, std::chrono::milliseconds patience);
-/// Ends all ranks, wherever they are; programs end with `status`.
+/// Ends all ranks, wherever they are. Their programs end with `status`.
 [[noreturn]] void abort(Communicator communicator, int status);
 
 }  // namespace meniscus::linear

@@ -4,13 +4,13 @@ namespace meniscus::linear {
 
 /// Which processes share the work.
 enum class Processes {
-  alone,  ///< none: each that calls does all
-  all     ///< those that mpirun started, which must all make the same calls
+  alone,  ///< each process works alone
+  all     ///< the processes that mpirun started share the work and must make the same calls
 };
 
-/// A group of processes. It holds MPI's portable integer handle, so that MPI itself stays inside
-/// this room. Making one starts PETSc and MPI if nobody has; they are stopped at exit by whoever
-/// started them.
+/// A group of processes. It holds MPI's portable integer handle, so that MPI stays inside this
+/// room. The constructor starts PETSc and MPI unless they run; if it started them, they are stopped
+/// at exit.
 class Communicator {
  public:
   static Communicator self();

@@ -6,7 +6,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/linear/petsc_objects.hpp"
 
-// Present when PETSc is linked with Scotch.
+// Weak: present when PETSc is linked with Scotch.
 extern "C" void SCOTCH_randomReset() __attribute__((weak));
 
 namespace meniscus::linear {
@@ -15,7 +15,7 @@ namespace {
 using Partitioning = Owned<MatPartitioning, MatPartitioningDestroy>;
 using IndexSet = Owned<IS, ISDestroy>;
 
-/// A copy that PETSc frees.
+/// A copy of the values that PETSc will free.
 PetscInt* petsc_copy(std::span<const std::int32_t> values) {
   PetscInt* copy = nullptr;
   petsc_check(PetscMalloc1(std::max<std::size_t>(values.size(), 1), &copy), "PetscMalloc1");
@@ -49,7 +49,7 @@ std::vector<std::int32_t> partition(const WeightedGraph& graph, int num_parts,
                   graph.row_start.size(), graph.neighbours.size(), graph.edge_weights.size());
   start_petsc();
   const bool is_scotch = partitioner == Partitioner::ptscotch;
-  // Its random numbers go on from call to call; a resumed run has made fewer calls.
+  // Scotch's random numbers depend on earlier calls, and a resumed run has made fewer.
   if (is_scotch && SCOTCH_randomReset != nullptr) SCOTCH_randomReset();
   const Matrix matrix = adjacency(graph);
   Partitioning partitioning;

@@ -6,8 +6,8 @@
 
 namespace meniscus::linear {
 
-/// An undirected graph in compressed rows: each edge stands in the rows of both its ends, with the
-/// same weight.
+/// An undirected graph in compressed rows. Each edge is in the rows of both its ends, with equal
+/// weight.
 struct WeightedGraph {
   std::vector<std::int32_t> row_start, neighbours, edge_weights;
   std::vector<std::int32_t> vertex_weights;
@@ -18,13 +18,13 @@ struct WeightedGraph {
 
 enum class Partitioner {
   ptscotch,  ///< equal weights, few edges cut
-  even       ///< equal numbers of vertices, in their order: always there
+  even       ///< consecutive parts with equal numbers of vertices; always available
 };
-/// PT-Scotch where PETSc has it.
+/// PT-Scotch where PETSc has it, else `even`.
 [[nodiscard]] Partitioner best_partitioner();
 
-/// The part, below `num_parts`, of each vertex of a graph. Done on this process alone, the same for
-/// the same graph wherever and whenever.
+/// The part (0 to num_parts − 1) of each vertex of a graph. Computed on this process alone; equal
+/// graphs give equal parts.
 [[nodiscard]] std::vector<std::int32_t> partition(const WeightedGraph& graph, int num_parts,
                                                   Partitioner partitioner = best_partitioner());
 

@@ -33,7 +33,7 @@ PetscErrorCode apply_operator(Mat matrix, Vec x, Vec y) {
 Matrix shell(const LinearOperator& matrix, std::size_t size) {
   Matrix result;
   const auto n = static_cast<PetscInt>(size);
-  // PETSc takes the context as it comes and hands it back; it is only read.
+  // PETSc only stores the context and returns it, so the const_cast is safe.
   petsc_check(MatCreateShell(PETSC_COMM_SELF, n, n, n, n, const_cast<LinearOperator*>(&matrix),
                              result.out()),
               "MatCreateShell");

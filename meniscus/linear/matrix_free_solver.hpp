@@ -7,16 +7,16 @@
 
 namespace meniscus::linear {
 
-/// A square matrix known by what it does: writes A x to `result`.
+/// A square matrix given by its action: writes A x to `result`.
 using LinearOperator = std::function<void(std::span<const double> x, std::span<double> result)>;
 
 struct MatrixFreeOptions {
-  double rtol = 1e-8;  ///< of the right-hand side's norm
+  double rtol = 1e-8;  ///< relative to the norm of the right-hand side
   int max_iterations = 200;
   int restart = 60;
 };
 
-/// Solves A x = b by GMRES, `solution` being the first guess and where the result goes.
+/// Solves A x = b by GMRES. `solution` holds the initial guess and then the result.
 LinearReport solve_matrix_free(const LinearOperator& matrix,
                                std::span<const double> right_hand_side, std::span<double> solution,
                                const MatrixFreeOptions& options);

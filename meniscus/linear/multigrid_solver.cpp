@@ -19,7 +19,7 @@ class MultigridSolver::Implementation {
     try {
       start_petsc();
       set_up(matrix);
-    } catch (const PetscFailure& failure) {  // the first solve reports it
+    } catch (const PetscFailure& failure) {  // the next solve reports the failure
       failure_ = failure.what();
     }
     setup_seconds_ = processor_seconds() - start;

@@ -7,10 +7,10 @@
 
 namespace meniscus::linear {
 
-/// Solves systems with one scalar elliptic matrix, symmetric positive definite, on this process
-/// alone: conjugate gradients with one cycle of algebraic multigrid as preconditioner. The number
-/// of iterations hardly grows with the number of rows, and every process that solves the same
-/// system gets the same bits.
+/// Solves systems with one scalar elliptic matrix (symmetric positive definite) on this process
+/// alone, by conjugate gradients preconditioned with one cycle of algebraic multigrid. The number
+/// of iterations hardly grows with the number of rows. Processes that solve the same system get the
+/// same bits.
 class MultigridSolver {
  public:
   /// Sets the multigrid up. The arrays of the matrix must outlive this.
@@ -19,8 +19,8 @@ class MultigridSolver {
   MultigridSolver(const MultigridSolver&) = delete;
   MultigridSolver& operator=(const MultigridSolver&) = delete;
 
-  /// Starts from zero and ends when the residual is `rtol` times the norm of the right-hand side.
-  /// An iterate cut short after `max_iterations` stays in `solution`.
+  /// Starts from zero and stops when the residual is `rtol` times the norm of the right-hand side.
+  /// After `max_iterations` the last iterate is in `solution`.
   LinearReport solve(std::span<const double> right_hand_side, std::span<double> solution,
                      double rtol, int max_iterations) const;
 

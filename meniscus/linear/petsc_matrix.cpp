@@ -25,8 +25,8 @@ bool is_shared(MPI_Comm comm) {
   return size > 1;
 }
 
-/// The rows of a shared matrix as PETSc keeps them: own columns, numbered from the first of them,
-/// apart from the others.
+/// The rows of a distributed matrix as PETSc keeps them: owned columns with local numbers, and
+/// ghost columns, in separate arrays.
 struct SplitRows {
   struct Part {
     std::vector<PetscInt> start = {0};
@@ -52,7 +52,7 @@ struct SplitRows {
     take_values(csr);
   }
 
-  /// Copies the values of a matrix on the same sparsity.
+  /// Copies the values of a matrix with the same sparsity.
   void take_values(const CsrView& csr) {
     MENISCUS_ASSERT(std::size_t(csr.num_rows) + 1 == own.start.size(), "{} rows of {}",
                     csr.num_rows, own.start.size() - 1);
@@ -69,13 +69,14 @@ struct SplitRows {
  private:
   static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-  /// Where a row begins, where its other columns do, and where it ends.
+  /// The start of a row, the start of its ghost columns, and its end.
   [[nodiscard]] std::array<std::int32_t, 3> row(const CsrView& csr, std::int32_t i) const {
     const std::int32_t begin = csr.row_start[at(i)];
     return {begin, begin + own.start[at(i) + 1] - own.start[at(i)], csr.row_start[at(i) + 1]};
   }
 
-  /// Own columns come first in each row: most rows have no others.
+  /// Finds the starts of ghost columns. Owned columns come first in each row, and most rows have no
+  /// others.
   void find_starts(const CsrView& csr, PetscInt first_column) {
     own.start.reserve(at(csr.num_rows) + 1);
     others.start.reserve(at(csr.num_rows) + 1);
@@ -107,7 +108,7 @@ PetscErrorCode destroy_rows(void* rows) {
 
 constexpr const char* kRows = "meniscus_rows";
 
-/// Gives a matrix the arrays that it was made on, to keep as long as it lives.
+/// Ties the arrays of a matrix to its lifetime.
 void attach_rows(Mat matrix, std::unique_ptr<SplitRows> rows) {
   Container container;
   petsc_check(PetscContainerCreate(PETSC_COMM_SELF, container.out()), "PetscContainerCreate");
@@ -120,7 +121,8 @@ void attach_rows(Mat matrix, std::unique_ptr<SplitRows> rows) {
               "PetscObjectCompose");
 }
 
-/// Copies values into a shared matrix. PETSc is not told: what it derived from old values is stale.
+/// Copies values into a distributed matrix. PETSc does not notice, so data it derived from old
+/// values is stale.
 void take_values(Mat matrix, const CsrView& csr) {
   PetscObject container = nullptr;
   void* rows = nullptr;
@@ -160,7 +162,7 @@ Matrix scaled_copy(MPI_Comm comm, const CsrView& csr, double scale) {
   return copy;
 }
 
-/// Rank 0 adds to the diagonal entry of its first pressure.
+/// Adds `pin` to the diagonal entry of the first pressure, which rank 0 owns.
 void add_pin(Mat matrix, std::int32_t num_velocities, double pin) {
   PetscInt first = 0;
   petsc_check(MatGetOwnershipRange(matrix, &first, nullptr), "MatGetOwnershipRange");
@@ -180,7 +182,7 @@ Matrix borrowed_matrix(MPI_Comm comm, const CsrView& csr) {
       "{} rows, {} starts, {} columns, {} values", csr.num_rows, csr.row_start.size(),
       csr.columns.size(), csr.values.size());
   Matrix matrix;
-  // PETSc's interface is not const-correct: it neither writes nor frees these arrays.
+  // PETSc's interface is not const-correct, but it neither writes nor frees these arrays.
   petsc_check(MatCreateSeqAIJWithArrays(comm, csr.num_rows, csr.num_columns,
                                         const_cast<PetscInt*>(csr.row_start.data()),
                                         const_cast<PetscInt*>(csr.columns.data()),

@@ -1,5 +1,5 @@
 #pragma once
-// Only for the .cpp files of this room.
+// Private header of this room.
 
 #include <span>
 
@@ -8,37 +8,39 @@
 
 namespace meniscus::linear {
 
-// All are collective on the communicator, whose ranks give their own parts.
+// All functions are collective: every rank of the communicator passes its own part.
 
-/// A PETSc matrix of this rank's rows: on the caller's arrays where there is one rank, else a copy.
+/// A PETSc matrix of this rank's rows. It borrows the caller's arrays on one rank, else copies
+/// them.
 [[nodiscard]] Matrix borrowed_matrix(MPI_Comm comm, const CsrView& csr);
-/// A PETSc matrix of this rank's rows on arrays of its own.
+/// A PETSc matrix of this rank's rows with its own arrays.
 [[nodiscard]] Matrix copied_matrix(MPI_Comm comm, const CsrView& csr);
-/// A PETSc vector of `size` zeros here.
+/// A PETSc vector of zeros with `size` entries on this rank.
 [[nodiscard]] Vector zero_vector(MPI_Comm comm, PetscInt size);
-/// A PETSc vector on the caller's array, which it never writes to when only read.
+/// A PETSc vector that borrows the caller's array. PETSc writes to it only if the vector is
+/// written.
 [[nodiscard]] Vector borrowed_vector(MPI_Comm comm, std::span<const double> values);
-/// The operator [A Bᵀ; B −C] as a nest of borrowed matrices. A rank has its velocities, then its
-/// pressures, side by side.
+/// The operator [A Bᵀ; B −C] as a nest of matrices. Each rank has its velocities, then its
+/// pressures.
 struct NestedOperator {
   Matrix A, B, minus_C;
-  Matrix lower_left;  ///< none where it is B
-  Matrix nest;        ///< refers to the others
+  Matrix lower_left;  ///< empty where it is B
+  Matrix nest;        ///< refers to the matrices above
 };
 [[nodiscard]] NestedOperator nested_operator(MPI_Comm comm, const SaddleSystem& system);
-/// Gives an operator that was made for another system on the same sparsity the values of this one.
-/// False, and nothing done, where a new one is due: on one rank, whose matrices are the caller's
-/// arrays; and where one of the two has a lower left block of its own and the other has not.
+/// Copies the values of a system into an operator of another system with the same sparsity. Returns
+/// false and does nothing where a new operator is needed: on one rank, where matrices borrow the
+/// caller's arrays, and where only one of the two has a separate lower left block.
 [[nodiscard]] bool take_values(MPI_Comm comm, const SaddleSystem& system, NestedOperator& nested);
-/// The system as one matrix [A Bᵀ; sB −sC], with `pin` as `merged` takes it, numbered as the nest
-/// is.
+/// The system as one matrix [A Bᵀ; sB −sC] in the numbering of the nest. `pin` as in
+/// `merged_system`.
 struct MergedMatrix {
-  CsrMatrix arrays;  ///< those that the handle borrows
+  CsrMatrix arrays;  ///< the arrays that the handle borrows
   Matrix handle;
 };
 [[nodiscard]] MergedMatrix merged_matrix(MPI_Comm comm, const SaddleSystem& system,
                                          double continuity_sign, double pin);
-/// Tells a matrix of the whole system that the constant pressure is its null vector.
+/// Attaches the constant pressure as null space to a matrix of the whole system.
 void attach_constant_pressure(Communicator communicator, Mat matrix, std::int32_t num_velocities,
                               std::int32_t num_pressures);
 

@@ -7,7 +7,8 @@
 
 #include "meniscus/core/error.hpp"
 
-// One BLAS thread per rank: more only fight for the cores. Present when BLAS is OpenBLAS.
+// Sets one BLAS thread per rank, as more compete for the cores. Weak: present when BLAS is
+// OpenBLAS.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 namespace meniscus::linear {
@@ -33,14 +34,14 @@ void start_petsc() {
   PetscBool is_running = PETSC_FALSE;
   petsc_check(PetscInitialized(&is_running), "PetscInitialized");
   if (is_running) return;
-  // Open MPI's own choice maps a file of megabytes, which a small limit on file sizes forbids.
+  // Open MPI's default maps a file of megabytes, which fails under a small limit on file sizes.
   setenv("PMIX_MCA_gds", "hash", 0);
   // A copy through shared memory costs less than the system call that lets one process read
   // another's.
   setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
-  // Most of what neighbours exchange in one level of multigrid then goes without asking first.
+  // Most messages of one multigrid level are then sent eagerly, without a handshake.
   setenv("OMPI_MCA_btl_vader_eager_limit", "65536", 0);
-  // Scotch's threads make its partitions depend on chance.
+  // With threads Scotch's partitions are not reproducible.
   setenv("SCOTCH_PTHREAD_NUMBER", "1", 1);
   petsc_check(PetscOptionsSetValue(nullptr, "-no_signal_handler", "true"), "PetscOptionsSetValue");
   petsc_check(PetscOptionsSetValue(nullptr, "-skip_petscrc", "true"), "PetscOptionsSetValue");

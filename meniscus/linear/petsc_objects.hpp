@@ -1,5 +1,5 @@
 #pragma once
-// Only for the .cpp files of this room: nothing else includes PETSc.
+// Private header of this room: no other room includes PETSc.
 
 #include <stdexcept>
 #include <utility>
@@ -18,10 +18,10 @@ class PetscFailure : public std::runtime_error {
 
 /// Throws PetscFailure unless `code` is zero.
 void petsc_check(PetscErrorCode code, const char* function);
-/// Starts PETSc (and MPI) unless it runs: no arguments, no resource files, no signal handlers, and
-/// an error handler that returns codes in silence.
+/// Starts PETSc and MPI unless they run, without arguments, resource files or signal handlers, and
+/// with an error handler that silently returns codes.
 void start_petsc();
-/// PETSc's own for one process where there is but one.
+/// The MPI communicator; PETSC_COMM_SELF where there is one process.
 [[nodiscard]] MPI_Comm mpi_communicator(Communicator communicator);
 
 /// Sole owner of a PETSc object. `out()` is for the functions that create one.
@@ -61,7 +61,7 @@ using KrylovSolver = Owned<KSP, KSPDestroy>;
 using NullSpace = Owned<MatNullSpace, MatNullSpaceDestroy>;
 using OptionTable = Owned<PetscOptions, PetscOptionsDestroy>;
 
-/// Makes `table` the one that PETSc objects ask for their options, while it lives.
+/// Makes `table` PETSc's current options table during its lifetime.
 class OptionScope {
  public:
   explicit OptionScope(PetscOptions table) {

@@ -31,11 +31,12 @@ void with_array(Vec of, Action action) {
   petsc_check(VecRestoreArray(of, &values), "VecRestoreArray");
 }
 
-/// Steps of Lanczos, and how far beyond their estimate the spectrum may reach: PETSc's own choices.
+/// Number of Lanczos steps, and the factor by which the spectrum may exceed their estimate: PETSc's
+/// defaults.
 constexpr int kLanczosSteps = 10;
 constexpr double kBeyondEstimate = 1.1;
 
-/// A right-hand side D^½ξ, ξ being noise: Lanczos on D^(−½) A D^(−½) then starts from ξ.
+/// A right-hand side D^½ξ with noise ξ, so that Lanczos on D^(−½) A D^(−½) starts from ξ.
 Vector weighted_noise(Mat matrix) {
   Vector diagonal, noise;
   petsc_check(MatCreateVecs(matrix, noise.out(), diagonal.out()), "MatCreateVecs");
@@ -47,9 +48,9 @@ Vector weighted_noise(Mat matrix) {
 }
 
 /// An estimate of the largest eigenvalue of D⁻¹A, D = diag A, for a symmetric positive definite A.
-/// PETSc's own starts from D⁻¹ξ, which is 1/μ larger where a liquid has the viscosity μ: between
-/// liquids that differ by 10⁴ it never sees the more viscous one's spectrum, and a Chebyshev step
-/// then magnifies what lies above it.
+/// PETSc's estimate starts from D⁻¹ξ, which scales as 1/μ in a liquid of viscosity μ. If
+/// viscosities differ by 10⁴ it misses the spectrum of the more viscous liquid, and Chebyshev steps
+/// amplify the modes above the estimate.
 double largest_jacobi_eigenvalue(MPI_Comm comm, Mat matrix) {
   KrylovSolver lanczos;
   petsc_check(KSPCreate(comm, lanczos.out()), "KSPCreate");
@@ -74,8 +75,8 @@ double largest_jacobi_eigenvalue(MPI_Comm comm, Mat matrix) {
   return largest;
 }
 
-/// Tells the smoother of the finest level, a Chebyshev one unless options say otherwise, the part
-/// of the spectrum that the coarse level leaves to it: from a tenth of its end on.
+/// Sets the bounds of the Chebyshev smoother of the finest level (options may choose another): from
+/// a tenth of the largest eigenvalue up, the part that the coarse level does not treat.
 void bound_smoother(MPI_Comm comm, PC multigrid, Mat laplacian) {
   KSP smoother = nullptr;
   petsc_check(PCMGGetSmoother(multigrid, 1, &smoother), "PCMGGetSmoother");
@@ -85,7 +86,8 @@ void bound_smoother(MPI_Comm comm, PC multigrid, Mat laplacian) {
               "KSPChebyshevSetEigenvalues");
 }
 
-/// Two levels, quadratic over linear functions; what the coarse one does is the options' business.
+/// Sets up two levels, quadratic over linear functions. Options choose the solver of the coarse
+/// level.
 void use_interpolation(MPI_Comm comm, KSP cycle, Mat laplacian, const CsrView& interpolation) {
   PC pc = nullptr;
   petsc_check(KSPGetPC(cycle, &pc), "KSPGetPC");

@@ -1,5 +1,5 @@
 #pragma once
-// Only for the .cpp files of this room.
+// Private header of this room.
 
 #include <array>
 #include <span>
@@ -10,14 +10,15 @@
 
 namespace meniscus::linear {
 
-// Collective, as PETSc's own.
+// All functions are collective, like PETSc's preconditioners.
 
-/// One multigrid cycle per velocity component on a scalar μ-weighted Laplacian: spectrally close
-/// to 2μ D:D by Korn's inequality, at a ninth of its entries. Keeps its own copy of the Laplacians.
+/// One multigrid cycle per velocity component on a scalar μ-weighted Laplacian. By Korn's
+/// inequality it is spectrally equivalent to 2μ D:D, with a ninth of the entries. Keeps a copy of
+/// the Laplacians.
 class VelocityMultigrid {
  public:
   VelocityMultigrid(Communicator communicator, const SaddleSystem& system);
-  /// z = M⁻¹ r for the 3n velocities, components side by side.
+  /// z = M⁻¹ r for the 3n velocities, the three components of a node side by side.
   void apply(Vec r, Vec z) const;
   [[nodiscard]] std::int32_t num_nodes() const { return num_nodes_; }
 
@@ -29,7 +30,7 @@ class VelocityMultigrid {
   Vector component_r_, component_z_;
 };
 
-/// An approximate solve with the pressure mass matrix, the lumped or the consistent one.
+/// An approximate solve with the pressure mass matrix, lumped or consistent.
 class PressureMass {
  public:
   /// The system must outlive this.
@@ -41,7 +42,7 @@ class PressureMass {
   Communicator communicator_;
   const SaddleSystem& system_;
   Matrix matrix_;
-  KrylovSolver solver_;  ///< none for the lumped matrix
+  KrylovSolver solver_;  ///< empty for the lumped matrix
 };
 
 /// z_p = s (M_p/μ)⁻¹ r_p, z_v = M_A⁻¹ (r_v − Bᵀ z_p) (upper triangular, s = −1) or M_A⁻¹ r_v
@@ -49,7 +50,7 @@ class PressureMass {
 class BlockPreconditioner {
  public:
   enum class Shape { upper_triangular, diagonal };
-  /// B is the system's, and must outlive this as system and multigrid must.
+  /// The system, its B and the multigrid must outlive this.
   BlockPreconditioner(Communicator communicator, Shape shape, const SaddleSystem& system,
                       const VelocityMultigrid& multigrid, Mat B);
   void apply(Vec r, Vec z) const;
@@ -69,7 +70,7 @@ class Factorization {
  public:
   Factorization(Communicator communicator, const SaddleSystem& system);
   void apply(Vec r, Vec z) const;
-  /// The system's, of this rank.
+  /// The size of the system on this rank.
   [[nodiscard]] std::int32_t size() const { return size_; }
 
  private:

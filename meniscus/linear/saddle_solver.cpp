@@ -25,7 +25,7 @@ namespace {
 
 using Apply = std::function<void(Vec, Vec)>;
 
-// Ranks that meet the same error do so within a collective call of each other.
+// Ranks that meet the same error are at most one collective call apart.
 constexpr std::chrono::seconds kPatience{10};
 
 PetscErrorCode apply_shell(PC pc, Vec r, Vec z) {
@@ -45,7 +45,8 @@ double mean_of(Communicator communicator, std::span<const double> values) {
          double(sum(communicator, static_cast<std::int64_t>(values.size())));
 }
 
-/// Right-hand side of a consistent system: the pressures' part sums to zero where it must.
+/// The right-hand side with its pressure part times `continuity_sign`. Where the constant pressure
+/// is a null vector, the mean of that part is removed to make the system consistent.
 std::vector<double> consistent_right_hand_side(Communicator communicator,
                                                const SaddleSystem& system,
                                                std::span<const double> given,
@@ -63,7 +64,7 @@ bool is_option(const std::string& word) {
          std::isalpha(static_cast<unsigned char>(word[1])) != 0;
 }
 
-/// PETSc passes over words that belong to no option; a user should know.
+/// Warns of words that belong to no option, which PETSc ignores.
 void check_words(const std::string& given) {
   std::istringstream words(given);
   bool may_be_value = false;
@@ -75,7 +76,7 @@ void check_words(const std::string& given) {
   }
 }
 
-/// The user's options that no solver has asked for, likely misspelt, by a line in the log.
+/// Warns of options that no solver has read, which are likely misspelt.
 void warn_of_unused(PetscOptions table, const std::string& given) {
   std::istringstream words(given);
   for (std::string word; words >> word;) {
@@ -141,7 +142,7 @@ class SaddleSolver::Implementation {
     drop_preconditioner();
     try {
       prepare(system);
-    } catch (const PetscFailure& failure) {  // the solve that wants it will report why
+    } catch (const PetscFailure& failure) {  // the solve that needs it will report why
       abort_if_alone(failure);
       drop_preconditioner();
     }
@@ -151,7 +152,7 @@ class SaddleSolver::Implementation {
  private:
   [[nodiscard]] MPI_Comm comm() const { return mpi_communicator(communicator_); }
 
-  /// Ends all ranks when one rank alone has met an error: the others would wait for it for ever.
+  /// Ends all ranks if only some ranks met an error: the others would wait for ever.
   void abort_if_alone(const PetscFailure& failure) const {
     if (all_arrive(communicator_, kPatience)) return;
     log::write(log::Level::error,
@@ -165,7 +166,7 @@ class SaddleSolver::Implementation {
     nested_ = {};
   }
 
-  /// Makes the operator, and the preconditioner but for the parts that were kept.
+  /// Makes the operator, and those parts of the preconditioner that were not kept.
   void prepare(const SaddleSystem& system) {
     const bool is_paper = options_.method == SaddleMethod::paper_gmres;
     if (is_paper) {
@@ -202,7 +203,8 @@ class SaddleSolver::Implementation {
     KrylovSolver outer;
     petsc_check(KSPCreate(comm(), outer.out()), "KSPCreate");
     petsc_check(KSPSetOperators(outer.get(), operator_, operator_), "KSPSetOperators");
-    // A relative tolerance of one or more is refused by PETSc; the absolute one must not interfere.
+    // PETSc refuses a relative tolerance of one or more. The absolute tolerance must have no
+    // effect.
     petsc_check(KSPSetTolerances(outer.get(), std::min(rtol, 0.9), 1e-300, PETSC_DEFAULT,
                                  options_.max_iterations),
                 "KSPSetTolerances");
@@ -243,7 +245,8 @@ class SaddleSolver::Implementation {
       remove_mean(communicator_, solution.subspan(std::size_t(system.num_velocities())));
   }
 
-  /// On a singular operator a Krylov space may end with a zero residual of its own and no solution.
+  /// Checks the true residual: on a singular operator a Krylov method may stop with a zero residual
+  /// estimate and no solution.
   void check_breakdown(Vec b, Vec x, double rtol, LinearReport& report) const {
     Vector residual;
     double norm = 0.0, first = 0.0;
@@ -252,14 +255,15 @@ class SaddleSolver::Implementation {
     petsc_check(VecAYPX(residual.get(), -1.0, b), "VecAYPX");
     petsc_check(VecNorm(residual.get(), NORM_2, &norm), "VecNorm");
     petsc_check(VecNorm(b, NORM_2, &first), "VecNorm");
-    // The root: far from the tolerance, which roundoff alone may miss by a little.
+    // The square root of the tolerance tells a breakdown from a tolerance slightly missed by
+    // roundoff.
     report.converged = norm <= std::sqrt(std::min(rtol, 0.9)) * first;
     if (!report.converged)
       report.reason =
           fmt::format("singular block: breakdown at {:.1e} of the first residual", norm / first);
   }
 
-  /// Drops what refers to the caller's arrays, keeps the preconditioner.
+  /// Drops all references to the caller's arrays and keeps the preconditioner.
   void release() {
     apply_ = nullptr;
     block_.reset();
@@ -272,10 +276,10 @@ class SaddleSolver::Implementation {
   Communicator communicator_;
   SaddleOptions options_;
   OptionTable table_;
-  bool is_checked_ = false;  ///< the user's options, after a first solve
+  bool is_checked_ = false;  ///< whether options were checked, after a first solve
   NestedOperator nested_;
   MergedMatrix merged_;
-  Mat operator_ = nullptr;  ///< one of the two
+  Mat operator_ = nullptr;  ///< the nest or the merged matrix
   Apply apply_;
   std::optional<BlockPreconditioner> block_;
   std::optional<DiagonalScaling> scaling_;

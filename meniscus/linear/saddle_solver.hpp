@@ -21,28 +21,28 @@ enum class SaddleMethod {
 struct SaddleOptions {
   SaddleMethod method = SaddleMethod::block;
   int max_iterations = 2000;
-  /// Whether the systems come with interpolations (quadratic velocities).
+  /// Whether systems have `interpolations` (quadratic velocities).
   bool multigrid_by_degree = false;
-  /// Options as on PETSc's command line; they override the method's own. Prefixes: none for the
-  /// outer solver, v_ for the velocity block's multigrid; by degree v_mg_levels_ for its smoother
-  /// and v_mg_coarse_ for the algebraic part; p_ for the pressure mass matrix, where there is one;
-  /// f_ for the direct method's factorisation.
+  /// Options as on PETSc's command line, which override the defaults of the method. Prefixes: none
+  /// for the outer solver; v_ for the velocity block's multigrid; with multigrid by degree
+  /// v_mg_levels_ for the smoother and v_mg_coarse_ for the algebraic part; p_ for the consistent
+  /// pressure mass matrix; f_ for the factorisation of the direct method.
   std::string petsc_options;
 };
 
-/// How a linear solve ended. That it did not converge is an outcome for the caller to answer.
+/// The outcome of a linear solve. The caller must handle a solve that did not converge.
 struct [[nodiscard]] LinearReport {
   bool converged = false;
   std::string reason;  ///< PETSc's name for why it stopped, or its error message
   int iterations = 0;
-  std::vector<double> residuals;  ///< norms by iteration, in the method's own norm
-  double setup_seconds = 0.0, solve_seconds = 0.0;  ///< of this process's processor time
+  std::vector<double> residuals;  ///< residual norms by iteration, in the norm of the method
+  double setup_seconds = 0.0, solve_seconds = 0.0;  ///< processor time of this process
 };
 
 enum class Preconditioner { fresh, kept };
 
-/// Solves saddle systems one after the other, keeping a preconditioner where asked to. Each process
-/// of the communicator gives its part of the system, the right-hand side and the solution.
+/// Solves a sequence of saddle systems and may keep a preconditioner. Each process of the
+/// communicator passes its part of the system, the right-hand side and the solution.
 class SaddleSolver {
  public:
   SaddleSolver(Communicator communicator, SaddleOptions options);
@@ -50,13 +50,13 @@ class SaddleSolver {
   SaddleSolver& operator=(SaddleSolver&&) noexcept;
   ~SaddleSolver();
 
-  /// Solves for `solution` (starting from zero) until the residual is `rtol` times its first value
-  /// (Euclidean norm; the preconditioner's norm with MINRES). `kept` takes the preconditioner of an
-  /// earlier system, if there is one; this one must then be on the same sparsity. Collective.
+  /// Solves for `solution`, starting from zero, until the residual is `rtol` times its first value
+  /// (Euclidean norm; with MINRES the preconditioner's norm). `kept` reuses the preconditioner of
+  /// an earlier system with the same sparsity, if there is one. Collective.
   LinearReport solve(const SaddleSystem& system, std::span<const double> right_hand_side,
                      std::span<double> solution, double rtol,
                      Preconditioner preconditioner = Preconditioner::fresh);
-  /// Makes and keeps the preconditioner that a fresh solve of this system would make. Collective.
+  /// Makes and keeps the preconditioner of this system. Collective.
   void prepare(const SaddleSystem& system);
 
  private:

@@ -51,8 +51,8 @@ struct SaddleSystem {
   /// The pressure mass matrix ∫ψψ/μ before lumping, which stands for the Schur complement better
   /// where nothing stabilises. Empty: the lumped one does.
   CsrView consistent_mass = {};
-  /// Groups of pressures: χ w_r χᵀ, χ being 1 in group r and 0 elsewhere, is added to the inverse
-  /// of the mass matrix. Empty: no groups.
+  /// Groups of pressures: χ w_r χᵀ is added to the inverse of the mass matrix, where χ is 1 in
+  /// group r and 0 elsewhere. Empty: no groups.
   std::span<const std::int32_t> group_of_pressure = {};
   std::span<const double> group_weights = {};  ///< w_r ≥ 0
 
@@ -71,8 +71,7 @@ struct SaddleSystem {
   }
 };
 
-/// The whole system as one matrix [A Bᵀ; sB −sC], s = ±1, the lower left block being its own, with
-/// `pin` added to the diagonal entry −sC_00 as −s·pin.
+/// A sparse matrix that owns its arrays.
 struct CsrMatrix {
   std::int32_t num_columns = 0;
   std::vector<std::int32_t> row_start, columns;
@@ -82,6 +81,8 @@ struct CsrMatrix {
             values};
   }
 };
+/// The whole system as one matrix [A Bᵀ; sB −sC], s = ±1, with its own lower left block. `pin` is
+/// added to the diagonal entry −sC_00 as −s·pin.
 [[nodiscard]] CsrMatrix merged_system(const SaddleSystem& system, double continuity_sign,
                                       double pin);
 

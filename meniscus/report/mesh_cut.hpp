@@ -31,7 +31,7 @@ struct MeshCut {
 
 /// The cut normal to the y-axis (`normal` = 1) or the z-axis (2) through the middle of the drops.
 /// Its window reaches three fifths of the drops' largest extent beyond them; polygons outside are
-/// left out. A mesh without drops is cut through its middle, without a window.
+/// left out. A mesh without drops is cut through its middle, as a whole.
 [[nodiscard]] MeshCut cut_through_drops(const io::VolumeFrame& mesh, int normal);
 
 /// Appends the polygons of the tetrahedra that reach into the cut's window. Corners on the plane
