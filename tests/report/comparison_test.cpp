@@ -28,11 +28,11 @@ report::RunData run_with(const test::TemporaryFolder& folder, const std::string&
 
 TEST(Comparison, LinearBetweenRows) {
   const double t[] = {0.0, 1.0, 3.0}, y[] = {1.0, 2.0, -2.0};
-  EXPECT_EQ(report::interpolated(t, y, 0.0), 1.0);
-  EXPECT_EQ(report::interpolated(t, y, 3.0), -2.0);
-  EXPECT_DOUBLE_EQ(report::interpolated(t, y, 2.0), 0.0);
-  EXPECT_TRUE(std::isnan(report::interpolated(t, y, 3.1)));
-  EXPECT_TRUE(std::isnan(report::interpolated(t, y, -0.1)));
+  EXPECT_EQ(report::value_at(t, y, 0.0), 1.0);
+  EXPECT_EQ(report::value_at(t, y, 3.0), -2.0);
+  EXPECT_DOUBLE_EQ(report::value_at(t, y, 2.0), 0.0);
+  EXPECT_TRUE(std::isnan(report::value_at(t, y, 3.1)));
+  EXPECT_TRUE(std::isnan(report::value_at(t, y, -0.1)));
 }
 
 /// D = t against a triangle with rows at other times: |difference| is largest at its corner, 0.5 at
