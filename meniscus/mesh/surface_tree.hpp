@@ -12,8 +12,13 @@
 namespace meniscus {
 
 /// A tree of boxes over the faces of a surface as it was when the tree was built (it keeps its own
-/// copy of the positions). Built in O(|F| log |F|), about 0.2 µs per face and level; a query is
-/// O(log |F|).
+/// copy of the positions). Built in O(|F| log |F|), 0.20 to 0.26 µs per face at 10,000 to 100,000
+/// faces; a query is O(log |F|).
+///
+/// A tree of our own: CGAL's `AABB_tree` with our kernel takes 1.2 to 1.3 of its time to build, 1.7
+/// to 2.2 for nearest points, 1.4 to 2.6 within a bound, 1.8 to 3.1 for rays; with plain doubles
+/// still 1.15 to 2.9. Its answers are ours (bench/surface_tree_against_cgal.cpp: spheres and
+/// crumpled shapes of 10,000 and 100,000 faces, by turns in one process).
 class SurfaceTree {
  public:
   struct Hit {
