@@ -134,6 +134,8 @@ void write_volume_frame(const std::filesystem::path& path, const Evolution& evol
       dihedral{"min_dihedral_deg", 1, {}};
   const BulkFlow flow = evolution.flow().bulk.value_or(BulkFlow());
   velocity.values = flat(flow.v);
+  MENISCUS_ASSERT(flow.v.empty() || flow.v.size() == mesh.num_vertices(),
+                  "{} velocities of {} vertices", flow.v.size(), mesh.num_vertices());
   for (const RegionId r : mesh.region) region.values.push_back(r.value);
   for (const double angle : min_dihedral_deg(mesh)) dihedral.values.push_back(angle);
   const io::NamedArray pressure{"pressure", 1, flow.corner_pressure};

@@ -108,6 +108,8 @@ void Simulation::record(Progress& progress, bool is_last) {
   if (observer_) time_phase(output_times_, "output", [&] { observer_(*directory_); });
   const auto now = seconds();
   auto spent = now;
+  MENISCUS_ASSERT(spent.size() == timed_.size(), "{} phases, {} before", spent.size(),
+                  timed_.size());
   for (std::size_t i = 0; i < spent.size(); ++i) spent[i].second -= timed_[i].second;
   timed_ = now;
   directory_->add_timing(history.step, history.t, spent);

@@ -174,6 +174,8 @@ Scene build_surroundings(const Case& c) {
 Scene build_scene(const Case& c) {
   Scene scene = build_surroundings(c);
   add_drops(c, scene);
+  MENISCUS_ASSERT(scene.interfaces.size() == c.drops.size(), "{} interfaces of {} drops",
+                  scene.interfaces.size(), c.drops.size());
   require_no_conflict(c, scene);
   require_no_net_inflow(c, scene);
   return scene;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "meniscus/case/surface_source.hpp"
+#include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 
 namespace meniscus {
@@ -146,6 +147,8 @@ void require_matching_tags(const Case& c, const std::set<int>& tags) {
 
 std::string patch_name(const DomainCase& domain, int tag) {
   const std::vector<std::string_view> names = names_by_tag(domain.shape);
+  MENISCUS_ASSERT(domain.shape == Shape::file || (tag >= 0 && std::size_t(tag) < names.size()),
+                  "tag {} of {} patches", tag, names.size());
   if (domain.shape != Shape::file) return std::string(names[static_cast<std::size_t>(tag)]);
   const PatchCase* given = find_patch(domain, tag);
   return given != nullptr && !given->name.empty() ? given->name : fmt::format("tag {}", tag);
@@ -173,6 +176,8 @@ OuterBoundary build_boundary(const Case& c) {
   if (c.domain.shape == Shape::file) require_matching_tags(c, tags);
 
   OuterBoundary boundary;
+  MENISCUS_ASSERT(surface.tag.size() == surface.mesh.num_faces(), "{} tags of {} faces",
+                  surface.tag.size(), surface.mesh.num_faces());
   boundary.patch = FaceField<PatchId>(surface.mesh.num_faces());
   for (const int tag : tags) {
     std::vector<FaceId> faces;

@@ -133,6 +133,7 @@ void Settings::require_all_used(const std::map<std::string, Value>& used_without
     if (used_.contains(path)) continue;
     if (!given.is_override && used_without_overrides.contains(path)) continue;
     const schema::Key* key = schema::find_key(schema::generic_path(path));
+    MENISCUS_ASSERT(key != nullptr, "no key {} in the schema", path);
     if (key->applies.empty())
       reject_input("{}: {} has no effect in this case", given.source, name(path));
     reject_input("{}: {} has no effect here: it applies {}", given.source, name(path),

@@ -51,6 +51,7 @@ template <class IdType>
 
 template <class IdType>
 [[nodiscard]] Field<IdType, Vec3> vectors(const std::vector<double>& values) {
+  MENISCUS_ASSERT(values.size() % 3 == 0, "{} numbers are no vectors", values.size());
   Field<IdType, Vec3> field;
   for (std::size_t i = 0; i + 2 < values.size(); i += 3)
     field.add(Vec3(values[i], values[i + 1], values[i + 2]));

@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "meniscus/core/error.hpp"
+
 namespace meniscus::report {
 namespace {
 
@@ -37,6 +39,7 @@ std::vector<HistoryCurve> drop_curves(const PlotSpec& plot, const RunData& run) 
   std::vector<HistoryCurve> curves;
   for (const auto& [drop, rows] : drop_to_rows) {
     for (const HistoryCurve& all : together) {
+      MENISCUS_ASSERT(rows.back() < all.t.size(), "row {} of {}", rows.back(), all.t.size());
       HistoryCurve& curve = curves.emplace_back(HistoryCurve{all.quantity, drop, {}, {}});
       for (const std::size_t row : rows) {
         curve.t.push_back(all.t[row]);

@@ -110,6 +110,7 @@ void add_polygons(MeshCut& cut, const io::VolumeFrame& mesh) {
     const std::size_t first = cut.points.size();
     const int num_points = cutter.add_points(c);
     if (num_points == 0) continue;
+    MENISCUS_ASSERT(num_points == 3 || num_points == 4, "a section of {} corners", num_points);
     const int in = region == nullptr ? 0 : static_cast<int>(std::lround((*region)[c]));
     cut.polygons.push_back({first, num_points, in, quality == nullptr ? nan : (*quality)[c]});
   }

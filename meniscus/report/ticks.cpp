@@ -65,6 +65,7 @@ Ticks linear_ticks(double low, double high, int count, bool is_rounded) {
 }
 
 Ticks log_ticks(double low, double high) {
+  MENISCUS_ASSERT(low > 0.0 && low <= high, "logarithmic ticks from {:g} to {:g}", low, high);
   const double first = std::floor(std::log10(low) + 1e-9),
                last = std::ceil(std::log10(high) - 1e-9);
   const bool is_short = last - first <= 2.0;
