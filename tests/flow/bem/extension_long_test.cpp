@@ -1,4 +1,7 @@
 // A drop stretched from a sphere in uniaxial extension, from case file to the last row.
+#include <cmath>
+#include <numbers>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -57,24 +60,30 @@ Shape at(const std::vector<Shape>& shapes, double t) {
   return shapes.back();
 }
 
-/// The volume kept is that of a polyhedron with its vertices on the drop, which is O(1/N) smaller:
-/// L and B have errors ~ 1/N, and their extrapolation from N and 2N is compared.
-void expect_transient(double lambda, double Ca, const std::vector<Shape>& reference, int count,
-                      double tolerance, double extrapolated_tolerance) {
+/// Parabolic faces of edge h are O(h⁴) off the drop, and so are the flow and the volume kept:
+/// errors fall as 1/N². With N and 2N vertices h⁴ itself, that of equilateral faces on the unit
+/// sphere, bounds the finer run; a volume kept under flat faces, 1.8/N off in radius, exceeds it.
+/// What orders of 1.7 to 2.3 in 1/N leave after extrapolation with 2 is a quarter of that.
+void expect_transient(double lambda, double Ca, const std::vector<Shape>& reference, int count) {
   const double end = reference.back().t;
   const auto coarse = stretched(count, lambda, Ca, end),
              fine = stretched(2 * count, lambda, Ca, end);
+  const double h4 = std::pow(8.0 * std::numbers::pi / (std::sqrt(3.0) * 2.0 * count), 2);
   for (const Shape& exact : reference) {
     const Shape c = at(coarse, exact.t), f = at(fine, exact.t);
-    EXPECT_NEAR(f.L, exact.L, tolerance) << exact.t;
-    EXPECT_NEAR(f.B, exact.B, tolerance) << exact.t;
-    EXPECT_NEAR(2.0 * f.L - c.L, exact.L, extrapolated_tolerance) << exact.t;
-    EXPECT_NEAR(2.0 * f.B - c.B, exact.B, extrapolated_tolerance) << exact.t;
+    EXPECT_NEAR(f.L, exact.L, h4) << exact.t;
+    EXPECT_NEAR(f.B, exact.B, h4) << exact.t;
+    EXPECT_NEAR((4.0 * f.L - c.L) / 3.0, exact.L, 0.25 * h4) << exact.t;
+    EXPECT_NEAR((4.0 * f.B - c.B) / 3.0, exact.B, 0.25 * h4) << exact.t;
   }
+  const double L = reference.back().L;
+  const double order = std::log2((at(coarse, end).L - L) / (at(fine, end).L - L));
+  EXPECT_NEAR(order, 2.0, 0.3);
 }
 
 // References: an axisymmetric boundary-integral program with a spectral meridian, written for the
-// purpose, the same to six digits with 48, 64 and 96 modes; error below 2e-5.
+// purpose, the same to six digits with 48, 64 and 96 modes; error below 2e-5. Measured here: errors
+// of 0.04 to 0.56 h⁴, 0.07 h⁴ at most extrapolated, orders 1.98 and 2.12.
 TEST(Extension, DropOfTheMatrixsViscosityStretchesAsItShould) {
   expect_transient(1.0, 0.10,
                    {{0.25, 1.169178, 0.924644},
@@ -82,7 +91,7 @@ TEST(Extension, DropOfTheMatrixsViscosityStretchesAsItShould) {
                     {0.75, 1.292985, 0.878056},
                     {1.0, 1.317700, 0.869292},
                     {1.5, 1.341455, 0.860988}},
-                   150, 4e-3, 2e-3);
+                   150);
 }
 
 TEST(Extension, LessViscousDropStretchesAsItShould) {
@@ -91,7 +100,7 @@ TEST(Extension, LessViscousDropStretchesAsItShould) {
                     {0.5, 1.419104, 0.839658},
                     {0.752, 1.510139, 0.813845},
                     {1.0, 1.570921, 0.797740}},
-                   200, 6e-3, 3e-3);
+                   200);
 }
 
 }  // namespace
