@@ -25,7 +25,7 @@ void PrintTo(const Case& each, std::ostream* out) {
 class LinearIterations : public testing::TestWithParam<Case> {
  protected:
   LinearIterations() : scene_(stretched_drop(GetParam().shape, GetParam().N0, 1.0)) {
-    EXPECT_TRUE(tetrahedralize(scene_, suited_volume_mesh(GetParam().elements), mesh_).ok);
+    EXPECT_TRUE(tetrahedralize(scene_, suited_volume_mesh(GetParam().elements), mesh_).ok());
     space_ = flow_space(mesh_, GetParam().elements);
     problem_.emplace(instant(scene_, mesh_, space_));
   }
