@@ -10,6 +10,7 @@
 #include "meniscus/evolve/remesh_interfaces.hpp"
 #include "meniscus/evolve/step_length.hpp"
 #include "meniscus/evolve/step_start.hpp"
+#include "meniscus/evolve/time_schemes.hpp"
 #include "meniscus/evolve/topology_step.hpp"
 #include "meniscus/evolve/volume_restoration.hpp"
 #include "meniscus/mesh/surface_check.hpp"
@@ -72,14 +73,8 @@ Report Evolution::prepare() {
 }
 
 Report Evolution::solve() {
-  flow_ = solve_flow({.t = state_.t});
-  if (!flow_.ok()) return flow_;
-  MENISCUS_ASSERT(flow_.velocity.size() == state_.scene.interfaces.size(),
-                  "{} velocities of {} interfaces", flow_.velocity.size(),
-                  state_.scene.interfaces.size());
-  const PhaseTimer timer(times_, "move interfaces");
-  motion_ = normal_motion(state_.scene, flow_.velocity, options_.motion_normal);
-  return {};
+  first_ = flow_at({.t = state_.t});
+  return first_;
 }
 
 Report Evolution::advance() {
@@ -114,26 +109,51 @@ void Evolution::accept_step(double dt) {
   ++state_.step;
 }
 
-/// Table 1 of hooper2001 after the solve at t_k: move to the half time, solve there, move the whole
-/// step with that velocity, remesh. Explicit Euler omits the half time.
+/// Table 1 of hooper2001 after the solve at t_k: find the mean motion of the step by the stages of
+/// the scheme, move the whole step with it, remesh.
 Report Evolution::try_step(const Scene& start, double dt) {
-  if (options_.scheme == TimeScheme::euler) return finish_step(start, motion_, flow_, dt);
+  const StageFlow whole = time_scheme_step(start, dt);
+  if (!whole.ok()) return whole;
+  return finish_step(start, whole, dt);
+}
 
-  time_phase(times_, "move interfaces", [&] { move_interfaces(state_.scene, motion_, 0.5 * dt); });
-  if (Report moved = move_mesh(start, motion_, flow_, 0.5 * dt); !moved.ok()) return moved;
-  const FlowSolution middle =
-      solve_flow({.t = state_.t + 0.5 * dt, .dt = dt, .stage = Stage::middle});
-  if (!middle.ok()) return middle;
-  const InterfaceMotion motion = time_phase(times_, "move interfaces", [&] {
-    return normal_motion(state_.scene, middle.velocity, options_.motion_normal);
+StageFlow Evolution::time_scheme_step(const Scene& start, double dt) {
+  if (options_.scheme == TimeScheme::euler) return euler_step(first_);
+  return midpoint_step(first_, state_.t, dt,
+                       [&](const StageFlow& stage, double duration, const Instant& instant) {
+                         return solve_stage(start, stage, duration, instant);
+                       });
+}
+
+/// The flow after the interfaces moved for `duration` from where they were at `start`.
+StageFlow Evolution::solve_stage(const Scene& start, const StageFlow& stage, double duration,
+                                 const Instant& instant) {
+  time_phase(times_, "move interfaces", [&] {
+    state_.scene = start;
+    move_interfaces(state_.scene, stage.motion, duration);
   });
-  return finish_step(start, motion, middle, dt);
+  if (Report moved = move_mesh(start, stage.motion, stage.flow, duration); !moved.ok())
+    return {std::move(moved)};
+  return flow_at(instant);
+}
+
+StageFlow Evolution::flow_at(const Instant& instant) {
+  StageFlow stage;
+  stage.flow = solve_flow(instant);
+  stage.fault = stage.flow.fault;
+  if (!stage.ok()) return stage;
+  MENISCUS_ASSERT(stage.flow.velocity.size() == state_.scene.interfaces.size(),
+                  "{} velocities of {} interfaces", stage.flow.velocity.size(),
+                  state_.scene.interfaces.size());
+  const PhaseTimer timer(times_, "move interfaces");
+  stage.motion = normal_motion(state_.scene, stage.flow.velocity, options_.motion_normal);
+  return stage;
 }
 
 /// Moves the interfaces of `start` the whole step, then makes them and the mesh fit for the next.
-Report Evolution::finish_step(const Scene& start, const InterfaceMotion& motion,
-                              const FlowSolution& flow, double dt) {
+Report Evolution::finish_step(const Scene& start, const StageFlow& whole, double dt) {
   Scene& scene = state_.scene;
+  const InterfaceMotion& motion = whole.motion;
   MENISCUS_ASSERT(motion.size() == start.interfaces.size(), "{} motions of {} interfaces",
                   motion.size(), start.interfaces.size());
   state_.events.clear();
@@ -141,7 +161,7 @@ Report Evolution::finish_step(const Scene& start, const InterfaceMotion& motion,
   if (Report moved = move_whole_step(start, motion, dt); !moved.ok()) return moved;
   if (is_remesh_due()) {
     const Scene moved = scene;
-    carry_fields_of_mesh(start, flow, dt);
+    carry_fields_of_mesh(start, whole.flow, dt);
     if (Report apart = refuse_contact(remesh_interfaces()); !apart.ok()) return apart;
     if (Report changed = change_topology(moved, motion); !changed.ok()) return changed;
     if (Report kept = judge_volume_shift(dt); !kept.ok()) return kept;
@@ -150,7 +170,7 @@ Report Evolution::finish_step(const Scene& start, const InterfaceMotion& motion,
   restore_volumes();
   if (Report apart = refuse_contact(false); !apart.ok()) return apart;
   if (Report kept = judge_volume_shift(dt); !kept.ok()) return kept;
-  return move_mesh(start, mean_motion(start, scene, dt), flow, dt);
+  return move_mesh(start, mean_motion(start, scene, dt), whole.flow, dt);
 }
 
 Report Evolution::move_whole_step(const Scene& start, const InterfaceMotion& motion, double dt) {
@@ -258,7 +278,7 @@ void Evolution::give_notice(Notice notice) {
 
 HistoryRow Evolution::history_row() const {
   const PhaseTimer timer(times_, "diagnostics");
-  return meniscus::history_row(state_, flow_, motion_, options_.surface);
+  return meniscus::history_row(state_, first_.flow, first_.motion, options_.surface);
 }
 
 std::vector<DropRow> Evolution::drop_rows() const {

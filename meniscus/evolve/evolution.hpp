@@ -12,6 +12,7 @@
 #include "meniscus/evolve/notices.hpp"
 #include "meniscus/evolve/options.hpp"
 #include "meniscus/evolve/state.hpp"
+#include "meniscus/evolve/time_schemes.hpp"
 #include "meniscus/evolve/volume_restoration.hpp"
 
 namespace meniscus {
@@ -40,8 +41,8 @@ class Evolution {
   [[nodiscard]] const Scene& scene() const { return state_.scene; }
   [[nodiscard]] bool is_finished() const { return state_.t >= options_.end; }
   /// The flow at t_k, and the velocity ẋ = n n·v of the interfaces' vertices at t_k.
-  [[nodiscard]] const FlowSolution& flow() const { return flow_; }
-  [[nodiscard]] const InterfaceMotion& motion() const { return motion_; }
+  [[nodiscard]] const FlowSolution& flow() const { return first_.flow; }
+  [[nodiscard]] const InterfaceMotion& motion() const { return first_.motion; }
   /// The topology events of the step that led to t_k.
   [[nodiscard]] const std::vector<TopologyEvent>& events() const { return state_.events; }
   /// All notices to the user so far.
@@ -69,8 +70,11 @@ class Evolution {
 
  private:
   Report try_step(const Scene& start, double dt);
-  Report finish_step(const Scene& start, const InterfaceMotion& motion, const FlowSolution& flow,
-                     double dt);
+  StageFlow time_scheme_step(const Scene& start, double dt);
+  StageFlow solve_stage(const Scene& start, const StageFlow& stage, double duration,
+                        const Instant& instant);
+  StageFlow flow_at(const Instant& instant);
+  Report finish_step(const Scene& start, const StageFlow& whole, double dt);
   Report move_whole_step(const Scene& start, const InterfaceMotion& motion, double dt);
   void accept_step(double dt);
   void carry_fields_of_mesh(const Scene& start, const FlowSolution& flow, double dt);
@@ -98,8 +102,7 @@ class Evolution {
   State state_;
   std::int64_t last_connectivity_ =
       0;                      // largest number given so far; undone steps do not free theirs
-  FlowSolution flow_;         // at t_k
-  InterfaceMotion motion_;    // n n·v at t_k
+  StageFlow first_;           // the flow and n n·v at t_k
   mutable PhaseTimes times_;  // times are not part of the state
   ShiftJudge shift_judge_;    // judges the attempts at the step from t_k
   std::vector<Notice> notices_;
