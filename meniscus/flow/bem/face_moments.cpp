@@ -16,20 +16,37 @@ using Part = std::array<Vec3, 3>;  // barycentric corners of a part of a face
 constexpr double kSizePerDistance = 1.0;
 constexpr int kMostQuarterings = 14;  // parts of 6e-5 of the face: surfaces that all but touch
 
+using Values = std::array<double, kQuadraticNodes>;
+
+/// The face's six functions at the points of the rule.
+constexpr std::array<Values, kTriangleRule5.size()> kRuleValues = [] {
+  std::array<Values, kTriangleRule5.size()> values{};
+  for (std::size_t q = 0; q < values.size(); ++q)
+    values[q] = quadratic_values(kTriangleRule5[q].barycentric);
+  return values;
+}();
+
+void add_kernels(const Values& values, const LayerKernels& kernels, FaceMoments& moments) {
+  for (std::size_t a = 0; a < values.size(); ++a) {
+    moments.single[a] += values[a] * kernels.single;
+    add(moments.double_layer[a], values[a], kernels.double_layer);
+  }
+}
+
 void add_point(const Face& face, const QuadraturePoint<3>& point, const Vec3& x,
                FaceMoments& moments) {
   const TriangleShape<kQuadraticNodes> shape = quadratic_shape(point.barycentric);
-  const LayerKernels kernels = layer_kernels(weighted_sum(shape.value, face.nodes) - x,
-                                             point.share * tangents(shape, face.nodes).area());
-  for (std::size_t a = 0; a < shape.value.size(); ++a) {
-    moments.single[a] += shape.value[a] * kernels.single;
-    add(moments.double_layer[a], shape.value[a], kernels.double_layer);
-  }
+  add_kernels(shape.value,
+              layer_kernels(weighted_sum(shape.value, face.nodes) - x,
+                            point.share * tangents(shape, face.nodes).area()),
+              moments);
 }
 
 Vec3 point_of(const Face& face, const Vec3& b) {
   return weighted_sum(quadratic_values({b[0], b[1], b[2]}), face.nodes);
 }
+
+bool is_small_beside(double size, double distance) { return size <= kSizePerDistance * distance; }
 
 FaceMoments no_moments() {
   FaceMoments moments;
@@ -41,7 +58,7 @@ void add_part(const Face& face, const Part& b, int depth, const Vec3& x, FaceMom
   const double size = std::ldexp(face.size, -depth);
   const Vec3 middle = (b[0] + b[1] + b[2]) / 3.0;
   const double distance = (point_of(face, middle) - x).norm();
-  if (size > kSizePerDistance * distance && depth < kMostQuarterings) {
+  if (!is_small_beside(size, distance) && depth < kMostQuarterings) {
     const Part half = {0.5 * (b[1] + b[2]), 0.5 * (b[2] + b[0]), 0.5 * (b[0] + b[1])};
     for (const Part& part : {Part{b[0], half[2], half[1]}, Part{half[2], b[1], half[0]},
                              Part{half[1], half[0], b[2]}, half})
@@ -76,6 +93,12 @@ FaceMoments corner_moments(const Face& face, std::size_t corner) {
 
 FaceMoments near_moments(const Face& face, const Vec3& x) {
   FaceMoments moments = no_moments();
+  if (is_small_beside(face.size, (face.points[0].x - x).norm())) {  // the first point is the middle
+    for (std::size_t q = 0; q < face.points.size(); ++q)
+      add_kernels(kRuleValues[q], layer_kernels(face.points[q].x - x, face.points[q].area),
+                  moments);
+    return moments;
+  }
   add_part(face, {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}, 0, x, moments);
   return moments;
 }

@@ -4,7 +4,6 @@
 #include <map>
 
 #include "meniscus/core/error.hpp"
-#include "meniscus/geometry/quadrature.hpp"
 #include "meniscus/surface/edge_interpolation.hpp"
 #include "meniscus/surface/edge_middles.hpp"
 #include "meniscus/surface/quartic_curvature.hpp"
@@ -46,14 +45,16 @@ void set_stencil(Face& face, const FaceVertices& corners,
   }
 }
 
-void set_shares(Face& face) {
+void set_points_and_shares(Face& face) {
   Eigen::Matrix<double, kQuadraticNodes, 1> moment =
       Eigen::Matrix<double, kQuadraticNodes, 1>::Zero();
-  for (const auto& [barycentric, share] : kTriangleRule5) {
+  for (std::size_t q = 0; q < kTriangleRule5.size(); ++q) {
+    const auto& [barycentric, share] = kTriangleRule5[q];
     const TriangleShape<kQuadraticNodes> shape = quadratic_shape(barycentric);
-    const double area = share * tangents(shape, face.nodes).area().norm();
-    moment +=
-        area * Eigen::Map<const Eigen::Matrix<double, kQuadraticNodes, 1>>(shape.value.data());
+    face.points[q] = {weighted_sum(shape.value, face.nodes),
+                      share * tangents(shape, face.nodes).area()};
+    moment += face.points[q].area.norm() *
+              Eigen::Map<const Eigen::Matrix<double, kQuadraticNodes, 1>>(shape.value.data());
   }
   const Eigen::VectorXd share = face.to_nodes.transpose() * moment;
   face.share.assign(share.begin(), share.end());
@@ -86,7 +87,7 @@ InterfaceElements make_elements(const SurfaceMesh& mesh) {
       face.size = std::max(face.size, (face.nodes[k] - face.nodes[(k + 1) % 3]).norm());
     }
     set_stencil(face, mesh.faces[f], middles);
-    set_shares(face);
+    set_points_and_shares(face);
     MENISCUS_ASSERT(face.size > 0.0 && face.share.size() == face.columns.size(), "face {}",
                     f.value);
     for (std::size_t c = 0; c < face.columns.size(); ++c)

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "meniscus/geometry/quadratic_triangle.hpp"
+#include "meniscus/geometry/quadrature.hpp"
 #include "meniscus/mesh/surface_mesh.hpp"
 
 namespace meniscus::bem {
@@ -16,6 +18,11 @@ struct InterfaceElements {
     TriangleNodes<kQuadraticNodes> nodes;
     std::vector<VertexId> columns;
     Eigen::Matrix<double, kQuadraticNodes, Eigen::Dynamic> to_nodes;
+    /// The points of kTriangleRule5 on the face, and their vector areas n dS.
+    struct Point {
+      Vec3 x, area;
+    };
+    std::array<Point, kTriangleRule5.size()> points;
     std::vector<double> share;  ///< ∫_face f dS ≈ Σ_c share[c] f(x of columns[c])
     Vec3 center = Vec3::Zero();
     double size = 0.0;  ///< longest edge

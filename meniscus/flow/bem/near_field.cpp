@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -45,6 +46,7 @@ class RowBuilder {
         q_(q),
         has_double_layer_(has_double_layer),
         dense_(static_cast<std::size_t>(geometry.size())),
+        share_(static_cast<std::size_t>(geometry.size()), 0.0),
         is_touched_(static_cast<std::size_t>(geometry.size()), false) {}
 
   NearRow row(std::int32_t i) {
@@ -72,6 +74,7 @@ class RowBuilder {
     // subtraction removes.
     constant_ = constant_layer_sums(geometry_.points, surface.range, x_);
     for (const FaceId f : near_) add_face(m, f, i);
+    remove_vertex_rule(m, i);
     if (own == m) {
       subtract(m, i, 1.0, kOnSurface);
       return;
@@ -111,8 +114,6 @@ class RowBuilder {
                     "point {} on surface {}", i, m);
     const FaceMoments moments = corner == 3 ? near_moments(face, x_) : corner_moments(face, corner);
     for (std::size_t c = 0; c < face.columns.size(); ++c) {
-      const VertexId v = face.columns[c];
-      const std::int32_t j = geometry_.index(m, v);
       LayerKernels entry{.single = Vec3::Zero(), .double_layer = {}};
       for (std::size_t a = 0; a < kQuadraticNodes; ++a) {
         const double to_node =
@@ -121,16 +122,35 @@ class RowBuilder {
         entry.single += to_node * moments.single[a];
         add(entry.double_layer, to_node, moments.double_layer[a]);
       }
-      if (j != i) {
-        const LayerKernels far = layer_kernels(elements.x[v] - x_, face.share[c] * elements.n[v]);
-        entry.single -= far.single;
-        add(entry.double_layer, -1.0, far.double_layer);
-      }
-      row_.single += q_[static_cast<std::size_t>(j)] * entry.single;
-      constant_.single += entry.single;
-      add(constant_.double_layer, 1.0, entry.double_layer);
-      if (has_double_layer_[m]) add(at(j), 1.0, entry.double_layer);
+      const std::int32_t j = geometry_.index(m, face.columns[c]);
+      add_entry(m, j, entry);
+      add_share(j, face.share[c]);
     }
+  }
+
+  void add_share(std::int32_t j, double share) {
+    double& sum = share_[static_cast<std::size_t>(j)];
+    if (sum == 0.0) with_share_.push_back(j);
+    sum += share;
+  }
+
+  /// Takes away what the weights of the vertices gave for the near faces.
+  void remove_vertex_rule(std::size_t m, std::int32_t i) {
+    const Surface& surface = geometry_.surfaces[m];
+    for (const std::int32_t j : with_share_) {
+      const double share = std::exchange(share_[static_cast<std::size_t>(j)], 0.0);
+      if (j == i) continue;
+      const VertexId v{j - surface.range.begin};
+      add_entry(m, j, layer_kernels(surface.elements.x[v] - x_, -share * surface.elements.n[v]));
+    }
+    with_share_.clear();
+  }
+
+  void add_entry(std::size_t m, std::int32_t j, const LayerKernels& entry) {
+    row_.single += q_[static_cast<std::size_t>(j)] * entry.single;
+    constant_.single += entry.single;
+    add(constant_.double_layer, 1.0, entry.double_layer);
+    if (has_double_layer_[m]) add(at(j), 1.0, entry.double_layer);
   }
 
   /// Replaces the rule's integral of the constant weight × (value at point j) by the exact one.
@@ -152,6 +172,8 @@ class RowBuilder {
   const std::vector<double>& q_;
   const std::vector<bool>& has_double_layer_;
   std::vector<Symmetric> dense_;
+  std::vector<double> share_;  // weights of the vertices in the rule on the near faces
+  std::vector<std::int32_t> with_share_;
   std::vector<bool> is_touched_;
   Vec3 x_ = Vec3::Zero();
   NearRow row_;
