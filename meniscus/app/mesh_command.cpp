@@ -53,7 +53,9 @@ int mesh_command(const MeshArguments& arguments) {
   Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c), make_moving_mesh(c));
   evolution.set_listener(log_notice);
   if (const Report prepared = evolution.prepare(); !prepared.ok())
-    throw RunFailure(fmt::format("the mesh could not be made: {}", prepared.text()));
+    throw RunFailure(fmt::format("{}: the mesh could not be made: {}",
+                                 source_of_surface(c, evolution.scene(), prepared.fault->position),
+                                 prepared.text()));
   print_surfaces(evolution.scene());
   if (evolution.state().mesh) print_quality(evolution.state().mesh->tetrahedra());
   if (!arguments.output.empty()) write_volume_frame(arguments.output, evolution);

@@ -185,7 +185,9 @@ int run(const RunArguments& arguments) {
   require_usable(folder, arguments.is_overwrite);
   Evolution evolution = make_evolution(c, std::move(scene));
   if (const Report prepared = evolution.prepare(); !prepared.ok())
-    throw RunFailure(fmt::format("the initial mesh could not be made: {}", prepared.text()));
+    throw RunFailure(fmt::format("{}: the initial mesh could not be made: {}",
+                                 source_of_surface(c, evolution.scene(), prepared.fault->position),
+                                 prepared.text()));
   require_first_step(evolution, c);
   if (arguments.set_up) arguments.set_up(evolution);
   check_field_names(evolution);

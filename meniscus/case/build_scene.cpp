@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
+
+#include <fmt/format.h>
 
 #include "meniscus/case/case.hpp"
 #include "meniscus/case/outer_boundary.hpp"
@@ -156,6 +159,12 @@ void require_no_net_inflow(const Case& c, const Scene& scene) {
   }
 }
 
+double squared_distance(const SurfaceMesh& mesh, const Vec3& position) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec3& x : mesh.x) least = std::min(least, (x - position).squaredNorm());
+  return least;
+}
+
 }  // namespace
 
 Scene build_surroundings(const Case& c) {
@@ -179,6 +188,23 @@ Scene build_scene(const Case& c) {
   require_no_conflict(c, scene);
   require_no_net_inflow(c, scene);
   return scene;
+}
+
+std::string source_of_surface(const Case& c, const Scene& scene,
+                              const std::optional<Vec3>& position) {
+  std::string path = "drop[0]";
+  if (!position) return c.settings.source(path);
+  double nearest = std::numeric_limits<double>::infinity();
+  const auto offer = [&](const SurfaceMesh& mesh, const std::string& its_path) {
+    const double distance = squared_distance(mesh, *position);
+    if (distance >= nearest) return;
+    nearest = distance;
+    path = its_path;
+  };
+  for (const Interface& interface : scene.interfaces)
+    offer(interface.mesh, fmt::format("drop[{}]", interface.drop));
+  if (!scene.is_unbounded) offer(scene.boundary.mesh, "domain");
+  return c.settings.source(path);
 }
 
 }  // namespace meniscus

@@ -116,6 +116,10 @@ struct Case {
 /// The initial scene without interfaces. A resumed run needs no more, so that the drops' surface
 /// files may be gone.
 [[nodiscard]] Scene build_surroundings(const Case& c);
+/// Where the case gives the surface nearest to a position: "file:line" of its drop or domain, or
+/// of the first drop without a position. Messages about a scene's initial mesh begin with it.
+[[nodiscard]] std::string source_of_surface(const Case& c, const Scene& scene,
+                                            const std::optional<Vec3>& position);
 /// The flow solver of a case.
 [[nodiscard]] std::unique_ptr<FlowSolver> make_flow_solver(const Case& c);
 /// The moving mesh of the case's solver, without tetrahedra as yet; none for boundary integrals.

@@ -106,8 +106,7 @@ void redirect_output(int errors) {
   dup2(errors, STDERR_FILENO);
 }
 
-int do_job(void* argument) {
-  Job& job = *static_cast<Job*>(argument);
+void do_work(Job& job) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != job.parent) _exit(1);  // the parent ended before prctl took effect
   restore_signals();
@@ -121,7 +120,19 @@ int do_job(void* argument) {
     job.failure = fault.what();
   }
   job.is_answered = true;
-  _exit(0);  // exit handlers belong to the other process
+}
+
+/// Ends the child. Exit handlers belong to the other process.
+int do_job(void* argument) {
+  do_work(*static_cast<Job*>(argument));
+  _exit(0);
+}
+
+int wait_for(pid_t child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
 }
 
 std::string words_for(int status, unsigned seconds, const std::string& said) {
@@ -147,12 +158,31 @@ ChildResult run_in_child(const std::function<void()>& work, unsigned seconds) {
   // The memory is shared, and this thread stands still until the child has ended.
   const pid_t child = clone(do_job, stack.top(), CLONE_VM | CLONE_VFORK | SIGCHLD, &job);
   if (child < 0) return {fmt::format("no process could be started: {}", reason(errno)), 0};
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  const int status = wait_for(child);
   if (job.is_answered) return {std::move(job.failure), 0};
   return {words_for(status, seconds, errors.first_line()),
           WIFSIGNALED(status) ? WTERMSIG(status) : 0};
+}
+
+ChildResult try_in_child(const std::function<void()>& work, unsigned seconds) {
+  constexpr int kDone = 0, kFailed = 3;
+  const Pipe errors;
+  if (errors.error() != 0)
+    return {fmt::format("no pipe could be made: {}", reason(errors.error())), 0};
+  Job job{work, seconds, errors.writing(), getpid()};
+  const pid_t child = fork();
+  if (child < 0) return {fmt::format("no process could be started: {}", reason(errno)), 0};
+  if (child == 0) {
+    do_work(job);
+    if (job.failure.empty()) _exit(kDone);
+    const ssize_t written = write(STDERR_FILENO, job.failure.data(), job.failure.size());
+    _exit(written < 0 ? 1 : kFailed);
+  }
+  const int status = wait_for(child);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kDone) return {};
+  const std::string said = errors.first_line();
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kFailed) return {said, 0};
+  return {words_for(status, seconds, said), WIFSIGNALED(status) ? WTERMSIG(status) : 0};
 }
 
 }  // namespace meniscus

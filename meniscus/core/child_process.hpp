@@ -23,4 +23,8 @@ struct [[nodiscard]] ChildResult {
 /// ends when the calling thread does.
 ChildResult run_in_child(const std::function<void()>& work, unsigned seconds);
 
+/// Tries `work` in a child process that has a copy of the memory of this one: what it leaves broken
+/// there, such as a library's own state, is lost. Otherwise as `run_in_child`.
+ChildResult try_in_child(const std::function<void()>& work, unsigned seconds);
+
 }  // namespace meniscus

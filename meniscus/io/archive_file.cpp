@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "meniscus/core/child_process.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/atomic_file.hpp"
 #include "meniscus/io/hdf5_handle.hpp"
@@ -17,6 +18,7 @@ constexpr int format_version = 2;
 // HDF5 looks for its signature at bytes 0, 512, 1024, …, so it opens the file with our text in
 // front.
 constexpr std::size_t prefix_size = 512;
+constexpr unsigned kMostSeconds = 60;  // of processor time for reading an archive
 
 /// FNV-1a over 64 bits: any change of one byte changes it, any other with odds of 2⁻⁶⁴ against.
 std::uint64_t checksum(std::string_view bytes) {
@@ -176,11 +178,11 @@ Archive read_archive(const std::filesystem::path& path) {
   const Hdf5Silence silence;
   const std::string bytes = read_file(path);
   const std::string_view image = checked_image(path, bytes);
-  try {
-    return parse_image(image);
-  } catch (const Hdf5Failure& failure) {
-    reject_input("{}: the checkpoint cannot be read: {}", path.string(), failure.what());
-  }
+  // A damaged image can leave HDF5 in a state that it cannot close, or end the process.
+  const ChildResult tried = try_in_child([&] { parse_image(image); }, kMostSeconds);
+  if (!tried.failure.empty())
+    reject_input("{}: the checkpoint cannot be read: {}", path.string(), tried.failure);
+  return parse_image(image);
 }
 
 }  // namespace meniscus::io

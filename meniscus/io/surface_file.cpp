@@ -32,12 +32,15 @@ std::string lower_extension(const fs::path& path) {
 }
 
 /// Tags of the cell array `patch`, if the file has one.
-std::vector<int> patch_tags(const fs::path& path, const MeshData& data) {
-  const auto patch = std::ranges::find(data.on_cells, "patch", &NamedArray::name);
+std::vector<int> patch_tags(const fs::path& path, const SurfaceFrame& frame) {
+  const std::vector<NamedArray>& arrays = frame.data.on_cells;
+  const auto patch = std::ranges::find(arrays, "patch", &NamedArray::name);
   std::vector<int> tags;
-  if (patch == data.on_cells.end()) return tags;
+  if (patch == arrays.end()) return tags;
   if (patch->components != 1)
     reject_input("{}: the cell array `patch` is no scalar", path.string());
+  MENISCUS_ASSERT(static_cast<std::int32_t>(patch->values.size()) == frame.mesh.num_faces(),
+                  "{} tags of {} faces", patch->values.size(), frame.mesh.num_faces());
   for (const double value : patch->values) {
     // 2³¹: what an int holds
     if (value != std::floor(value) || value < 0.0 || value >= 0x1p31) {
@@ -55,7 +58,7 @@ RawTriangles parse_vtp(const fs::path& path) {
   for (const FaceVertices& f : frame.mesh.faces) {
     triangles.corners.push_back({f[0].value, f[1].value, f[2].value});
   }
-  triangles.tags = patch_tags(path, frame.data);
+  triangles.tags = patch_tags(path, frame);
   return triangles;
 }
 

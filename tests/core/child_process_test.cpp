@@ -76,6 +76,18 @@ TEST(ChildProcess, LeavesFilesHandlersAndLimitsAlone) {
   EXPECT_NE(fcntl(STDERR_FILENO, F_GETFD), -1);
 }
 
+TEST(ChildProcess, TriesOnACopyOfTheMemory) {
+  int number = 1;
+  EXPECT_EQ(try_in_child([&] { number = 2; }, kSeconds).failure, "");
+  EXPECT_EQ(number, 1);
+  const auto failure = [](auto work) { return try_in_child(work, kSeconds).failure; };
+  EXPECT_EQ(failure([] { throw std::runtime_error("an array is damaged"); }),
+            "an array is damaged");
+  EXPECT_EQ(failure([] { throw std::bad_alloc(); }), "out of memory");
+  EXPECT_EQ(failure([] { std::raise(SIGSEGV); }), "it was ended by signal 11 (Segmentation fault)");
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);  // no child is left to be waited for
+}
+
 TEST(ChildProcess, LeavesNoProcessBehind) {
   for (int i = 0; i < 3; ++i) EXPECT_EQ(run_in_child([] {}, 1).failure, "");
   EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);  // no child is left to be waited for

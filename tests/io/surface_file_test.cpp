@@ -190,6 +190,8 @@ NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0</DataArray></Points><Pol
   EXPECT_EQ(read_text(".vtp", begin + "2 5" + end).tag, FaceField<int>(std::vector<int>{2, 5}));
   EXPECT_EQ(complaint(".vtp", begin + "2 0.5" + end),
             "s.vtp: patch = 0.5 is not a whole number from 0 on");
+  EXPECT_EQ(complaint(".vtp", begin + "2" + end),
+            "s.vtp: not a surface file of VTK (.vtp), or corrupt");
 }
 
 TEST(SurfaceFile, SaysWhatIsWrong) {
