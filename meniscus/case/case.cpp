@@ -91,10 +91,12 @@ Case parse_case(std::string_view text, const std::string& name, const std::files
   require_capillary_time(c);
   c.method = read_method(c.settings, c.domain);
   if (c.method == FlowMethod::boundary_integral) require_newtonian(c);
-  if (c.method == FlowMethod::boundary_integral)
+  if (c.method == FlowMethod::boundary_integral) {
     c.boundary_integral = read_boundary_integrals(c.settings);
-  else
+  } else {
     c.flow_solver = read_finite_elements(c.settings);
+    c.volume_mesh = read_volume_mesh(c.settings, c.flow_solver.elements);
+  }
   c.evolution = read_evolution(c.settings, c.method, c.flow_solver.elements);
   c.output = read_output(c.settings, c.method);
   // An override may choose another solver or boundary. Keys of the file for the old one are then no

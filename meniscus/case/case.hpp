@@ -88,7 +88,8 @@ struct Case {
   DomainCase domain;
   EvolutionOptions evolution;
   FlowMethod method = FlowMethod::finite_element;
-  fem::Options flow_solver;  ///< options of the finite-element solver
+  fem::Options flow_solver;       ///< options of the finite-element solver
+  MovingMeshOptions volume_mesh;  ///< of finite elements
   bem::Options boundary_integral;
   OutputOptions output;
 };

@@ -21,6 +21,7 @@ namespace meniscus {
 void require_newtonian(const Case& c);
 [[nodiscard]] FlowMethod read_method(Settings& settings, const DomainCase& domain);
 [[nodiscard]] fem::Options read_finite_elements(Settings& settings);
+[[nodiscard]] MovingMeshOptions read_volume_mesh(Settings& settings, fem::Elements elements);
 [[nodiscard]] bem::Options read_boundary_integrals(Settings& settings);
 [[nodiscard]] OutputOptions read_output(Settings& settings, FlowMethod method);
 

@@ -16,7 +16,7 @@ std::unique_ptr<FlowSolver> make_flow_solver(const Case& c) {
 
 std::optional<MovingMesh> make_moving_mesh(const Case& c) {
   if (c.method == FlowMethod::boundary_integral) return std::nullopt;
-  return MovingMesh({c.flow_solver.volume_mesh, c.flow_solver.volume_motion});
+  return MovingMesh(c.volume_mesh);
 }
 
 }  // namespace meniscus

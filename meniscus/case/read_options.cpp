@@ -93,14 +93,21 @@ fem::Options read_finite_elements(Settings& settings) {
   options.rtol = settings.number("solver.rtol");
   options.max_iterations = settings.whole("solver.max-iterations");
   options.petsc_options = read_petsc_options(settings);
-  const VolumeMeshOptions suited = fem::suited_volume_mesh(options.elements);
-  settings.prefer("domain.grading", std::string(words::word_for(words::gradings, suited.grading)));
-  options.volume_mesh.grading = settings.choice("domain.grading", words::gradings);
-  options.volume_mesh.cell_volume = settings.number_or("domain.cell-volume", suited.cell_volume);
-  options.volume_mesh.interior_growth = settings.number("domain.interior-growth");
-  options.volume_mesh.radius_edge = settings.number("domain.radius-edge");
-  options.volume_mesh.gap_layers = settings.whole("interface.gap-layers");
-  options.volume_motion = settings.choice("interface.volume-motion", words::volume_motions);
+  return options;
+}
+
+MovingMeshOptions read_volume_mesh(Settings& settings, fem::Elements elements) {
+  MovingMeshOptions options;
+  VolumeMeshOptions& tetrahedra = options.tetrahedra;
+  tetrahedra = fem::suited_volume_mesh(elements);
+  settings.prefer("domain.grading",
+                  std::string(words::word_for(words::gradings, tetrahedra.grading)));
+  tetrahedra.grading = settings.choice("domain.grading", words::gradings);
+  tetrahedra.cell_volume = settings.number_or("domain.cell-volume", tetrahedra.cell_volume);
+  tetrahedra.interior_growth = settings.number("domain.interior-growth");
+  tetrahedra.radius_edge = settings.number("domain.radius-edge");
+  tetrahedra.gap_layers = settings.whole("interface.gap-layers");
+  options.motion = settings.choice("interface.volume-motion", words::volume_motions);
   return options;
 }
 

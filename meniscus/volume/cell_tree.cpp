@@ -9,6 +9,7 @@
 #include <boost/geometry/index/rtree.hpp>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/geometry/tetrahedron.hpp"
 
 namespace meniscus {
 namespace {
@@ -72,7 +73,7 @@ std::optional<CellTree::Hit> CellTree::containing(const Vec3& p) const {
       return exact;
     }
     if (found) continue;
-    const std::array<double, 4> weights = barycentric(x, p);
+    const std::array<double, 4> weights = barycentric_coordinates(x, p);
     if (std::ranges::min(weights) >= 0.0) found = Hit{c, {p, weights}, 0.0};
   }
   return found;

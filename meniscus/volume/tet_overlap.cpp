@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/geometry/tetrahedron.hpp"
 #include "meniscus/geometry/triangle.hpp"
 
 namespace meniscus {
@@ -128,20 +129,8 @@ VolumeMoments tet_overlap(const HalfSpaceTet& a, const HalfSpaceTet& b) {
   return sum;
 }
 
-std::array<double, 4> barycentric(const TetCorners& tet, const Vec3& p) {
-  const double whole = six_volumes(tet);
-  MENISCUS_ASSERT(whole != 0.0, "a tetrahedron without volume");
-  std::array<double, 4> weights{};
-  for (std::size_t k = 0; k < 4; ++k) {
-    TetCorners part = tet;
-    part[k] = p;
-    weights[k] = six_volumes(part) / whole;
-  }
-  return weights;
-}
-
 TetPoint closest_point(const TetCorners& tet, const Vec3& p) {
-  const TetPoint inside{p, barycentric(tet, p)};
+  const TetPoint inside{p, barycentric_coordinates(tet, p)};
   if (std::ranges::min(inside.weights) >= 0.0) return inside;
   TetPoint nearest;
   double least = std::numeric_limits<double>::infinity();

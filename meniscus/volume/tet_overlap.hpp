@@ -38,9 +38,6 @@ class HalfSpaceTet {
 /// by those half spaces of the second that cut it, and stays a union of tetrahedra.
 [[nodiscard]] VolumeMoments tet_overlap(const HalfSpaceTet& a, const HalfSpaceTet& b);
 
-/// The weights with Σ w_k x_k = p and Σ w_k = 1; none is negative where p lies in the tetrahedron.
-[[nodiscard]] std::array<double, 4> barycentric(const TetCorners& tet, const Vec3& p);
-
 /// The point of a tetrahedron nearest to p, with its weights Σ w_k x_k, w_k ≥ 0, Σ w_k = 1.
 struct TetPoint {
   Vec3 point = Vec3::Zero();

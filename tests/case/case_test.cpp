@@ -46,13 +46,14 @@ TEST(Case, DefaultOptionsAreThoseOfTheRooms) {
   EXPECT_EQ(c.evolution.remesh_every, evolution.remesh_every);
   EXPECT_EQ(c.evolution.edge_floor, 0.5 * c.evolution.topology.breakup_radius);
   const fem::Options solver;
+  const MovingMeshOptions mesh;
   EXPECT_EQ(c.flow_solver.capillary, solver.capillary);
   EXPECT_EQ(c.flow_solver.linear, solver.linear);
   EXPECT_EQ(c.flow_solver.rtol, solver.rtol);
   EXPECT_EQ(c.flow_solver.max_iterations, solver.max_iterations);
-  EXPECT_EQ(c.flow_solver.volume_mesh.grading, solver.volume_mesh.grading);
-  EXPECT_EQ(c.flow_solver.volume_mesh.cell_volume, solver.volume_mesh.cell_volume);
-  EXPECT_EQ(c.flow_solver.volume_motion, solver.volume_motion);
+  EXPECT_EQ(c.volume_mesh.tetrahedra.grading, mesh.tetrahedra.grading);
+  EXPECT_EQ(c.volume_mesh.tetrahedra.cell_volume, mesh.tetrahedra.cell_volume);
+  EXPECT_EQ(c.volume_mesh.motion, mesh.motion);
   EXPECT_EQ(c.flow_solver.petsc_options, solver.petsc_options);
 }
 
@@ -87,11 +88,11 @@ TEST(Case, WordsBecomeOptions) {
       "step-edges = \"mesh\"\n[domain]\ngrading = \"gaussian\"\n");
   EXPECT_EQ(c.flow_solver.capillary, fem::CapillaryForm::balanced);
   EXPECT_EQ(c.evolution.motion_normal, MotionNormal::fit);
-  EXPECT_EQ(c.flow_solver.volume_motion, VolumeMotion::harmonic);
+  EXPECT_EQ(c.volume_mesh.motion, VolumeMotion::harmonic);
   EXPECT_EQ(c.flow_solver.linear, fem::LinearSolver::mumps);
   EXPECT_EQ(c.evolution.scheme, TimeScheme::euler);
   EXPECT_EQ(c.evolution.step_edges, StepEdges::mesh);
-  EXPECT_EQ(c.flow_solver.volume_mesh.grading, Grading::gaussian);
+  EXPECT_EQ(c.volume_mesh.tetrahedra.grading, Grading::gaussian);
 }
 
 TEST(Case, InterfacesAreTheSurfacesThatTheSolverIntegratesOver) {
@@ -102,12 +103,12 @@ TEST(Case, InterfacesAreTheSurfacesThatTheSolverIntegratesOver) {
 
 TEST(Case, QuadraticElementsGetSmallCellsAroundTheDrops) {
   const std::string elements = "[solver]\nelements = \"P2-P1\"\n";
-  const VolumeMeshOptions plain = shear_case(elements).flow_solver.volume_mesh;
+  const VolumeMeshOptions plain = shear_case(elements).volume_mesh.tetrahedra;
   EXPECT_EQ(plain.grading, Grading::gaussian);
   EXPECT_EQ(plain.cell_volume, 1.5);
   const VolumeMeshOptions told =
       shear_case(elements + "[domain]\ngrading = \"linear\"\ncell-volume = 3.0\n")
-          .flow_solver.volume_mesh;
+          .volume_mesh.tetrahedra;
   EXPECT_EQ(told.grading, Grading::linear);
   EXPECT_EQ(told.cell_volume, 3.0);
 }

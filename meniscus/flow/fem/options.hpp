@@ -4,7 +4,6 @@
 
 #include "meniscus/linear/communicator.hpp"
 #include "meniscus/linear/saddle_solver.hpp"
-#include "meniscus/volume/motion.hpp"
 #include "meniscus/volume/tetrahedralize.hpp"
 
 namespace meniscus::fem {
@@ -43,8 +42,6 @@ struct Options {
   LinearSolver linear = LinearSolver::block;
   double rtol = 1e-6;  ///< relative residual of the linear solve
   int max_iterations = 2000;
-  VolumeMeshOptions volume_mesh;
-  VolumeMotion volume_motion = VolumeMotion::spines;
   linear::Processes processes = linear::Processes::alone;
   std::string petsc_options;  ///< further PETSc options, as on its command line
 };
