@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstddef>
+#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <new>
@@ -79,11 +80,22 @@ class Stack {
   void* begin_;
 };
 
+/// Bytes of addresses that this process has in use; 0 where the system does not say.
+std::size_t addresses_in_use() {
+  std::FILE* const file = std::fopen("/proc/self/statm", "re");
+  if (file == nullptr) return 0;
+  std::size_t pages = 0;
+  if (std::fscanf(file, "%zu", &pages) != 1) pages = 0;
+  std::fclose(file);
+  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
 struct Job {
   const std::function<void()>& work;
-  unsigned seconds;
+  const ChildLimits& limits;
   int errors;    // takes standard error
   pid_t parent;  // process id that the child expects of its parent
+  std::size_t in_use = addresses_in_use();
   std::string failure = {};
   bool is_answered = false;
 };
@@ -94,10 +106,14 @@ void restore_signals() {
     std::signal(signal, SIG_DFL);
 }
 
-void limit_processor_time(unsigned seconds) {
-  const rlimit time{seconds, seconds + 1}, no_core{0, 0};
+void set_limits(const ChildLimits& limits, std::size_t in_use) {
+  const rlimit time{limits.seconds, limits.seconds + 1}, no_core{0, 0};
   setrlimit(RLIMIT_CPU, &time);
   setrlimit(RLIMIT_CORE, &no_core);
+  rlimit addresses{};
+  if (limits.memory == 0 || in_use == 0 || getrlimit(RLIMIT_AS, &addresses) != 0) return;
+  addresses.rlim_cur = std::min<rlim_t>(addresses.rlim_cur, in_use + limits.memory);
+  setrlimit(RLIMIT_AS, &addresses);
 }
 
 void redirect_output(int errors) {
@@ -110,7 +126,7 @@ void do_work(Job& job) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != job.parent) _exit(1);  // the parent ended before prctl took effect
   restore_signals();
-  limit_processor_time(job.seconds);
+  set_limits(job.limits, job.in_use);
   redirect_output(job.errors);
   try {
     job.work();
@@ -148,28 +164,28 @@ std::string words_for(int status, unsigned seconds, const std::string& said) {
 
 }  // namespace
 
-ChildResult run_in_child(const std::function<void()>& work, unsigned seconds) {
+ChildResult run_in_child(const std::function<void()>& work, const ChildLimits& limits) {
   const Pipe errors;
   const Stack stack;
   if (errors.error() != 0)
     return {fmt::format("no pipe could be made: {}", reason(errors.error())), 0};
   if (!stack.is_there()) return {"no process could be started: out of memory", 0};
-  Job job{work, seconds, errors.writing(), getpid()};
+  Job job{work, limits, errors.writing(), getpid()};
   // The memory is shared, and this thread stands still until the child has ended.
   const pid_t child = clone(do_job, stack.top(), CLONE_VM | CLONE_VFORK | SIGCHLD, &job);
   if (child < 0) return {fmt::format("no process could be started: {}", reason(errno)), 0};
   const int status = wait_for(child);
   if (job.is_answered) return {std::move(job.failure), 0};
-  return {words_for(status, seconds, errors.first_line()),
+  return {words_for(status, limits.seconds, errors.first_line()),
           WIFSIGNALED(status) ? WTERMSIG(status) : 0};
 }
 
-ChildResult try_in_child(const std::function<void()>& work, unsigned seconds) {
+ChildResult try_in_child(const std::function<void()>& work, const ChildLimits& limits) {
   constexpr int kDone = 0, kFailed = 3;
   const Pipe errors;
   if (errors.error() != 0)
     return {fmt::format("no pipe could be made: {}", reason(errors.error())), 0};
-  Job job{work, seconds, errors.writing(), getpid()};
+  Job job{work, limits, errors.writing(), getpid()};
   const pid_t child = fork();
   if (child < 0) return {fmt::format("no process could be started: {}", reason(errno)), 0};
   if (child == 0) {
@@ -182,7 +198,7 @@ ChildResult try_in_child(const std::function<void()>& work, unsigned seconds) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == kDone) return {};
   const std::string said = errors.first_line();
   if (WIFEXITED(status) && WEXITSTATUS(status) == kFailed) return {said, 0};
-  return {words_for(status, seconds, said), WIFSIGNALED(status) ? WTERMSIG(status) : 0};
+  return {words_for(status, limits.seconds, said), WIFSIGNALED(status) ? WTERMSIG(status) : 0};
 }
 
 }  // namespace meniscus

@@ -1,9 +1,16 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
 namespace meniscus {
+
+/// What a child process may use.
+struct ChildLimits {
+  unsigned seconds;        ///< of processor time
+  std::size_t memory = 0;  ///< bytes of addresses beyond those in use; 0: no limit of its own
+};
 
 /// The outcome of work in a child process.
 struct [[nodiscard]] ChildResult {
@@ -19,12 +26,12 @@ struct [[nodiscard]] ChildResult {
 /// Nothing is copied, so that the cost does not grow with the memory (a `fork` would cost some
 /// 0.25 ms per MB: page tables, and a fault for each page that is written afterwards). As after
 /// `vfork`, signal handlers, files and limits are the child's own: standard output goes nowhere
-/// there. `work` must not hold locks where it may be ended. It has `seconds` of processor time, and
-/// ends when the calling thread does.
-ChildResult run_in_child(const std::function<void()>& work, unsigned seconds);
+/// there. `work` must not hold locks where it may be ended. It ends at its
+/// limits, and when the calling thread does.
+ChildResult run_in_child(const std::function<void()>& work, const ChildLimits& limits);
 
 /// Tries `work` in a child process that has a copy of the memory of this one: what it leaves broken
 /// there, such as a library's own state, is lost. Otherwise as `run_in_child`.
-ChildResult try_in_child(const std::function<void()>& work, unsigned seconds);
+ChildResult try_in_child(const std::function<void()>& work, const ChildLimits& limits);
 
 }  // namespace meniscus

@@ -18,7 +18,6 @@ constexpr int format_version = 2;
 // HDF5 looks for its signature at bytes 0, 512, 1024, …, so it opens the file with our text in
 // front.
 constexpr std::size_t prefix_size = 512;
-constexpr unsigned kMostSeconds = 60;  // of processor time for reading an archive
 
 /// FNV-1a over 64 bits: any change of one byte changes it, any other with odds of 2⁻⁶⁴ against.
 std::uint64_t checksum(std::string_view bytes) {
@@ -179,7 +178,9 @@ Archive read_archive(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
   const std::string_view image = checked_image(path, bytes);
   // A damaged image can leave HDF5 in a state that it cannot close, or end the process.
-  const ChildResult tried = try_in_child([&] { parse_image(image); }, kMostSeconds);
+  constexpr std::size_t kLeast = std::size_t{1} << 30U;  // bytes
+  const ChildResult tried = try_in_child([&] { parse_image(image); },
+                                         {.seconds = 60, .memory = kLeast + 10 * image.size()});
   if (!tried.failure.empty())
     reject_input("{}: the checkpoint cannot be read: {}", path.string(), tried.failure);
   return parse_image(image);

@@ -26,7 +26,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr unsigned kMostSeconds = 600;  // of processor time; a gigabyte takes some ten
+/// A gigabyte takes some ten seconds. Arrays of one value may be packed a hundredfold.
+ChildLimits read_limits(std::size_t file_size) {
+  constexpr std::size_t kLeast = std::size_t{1} << 30U, kMostPacking = 100;
+  return {.seconds = 600, .memory = kLeast + kMostPacking * file_size};
+}
 
 /// Whether each array of numbers says of which type it is. VTK 9.1 follows a null pointer where an
 /// array among the field data does not.
@@ -60,7 +64,7 @@ auto read_data_set(const fs::path& path, const char* kind) {
   reader->SetInputString(bytes);
   // VTK 9.1 trusts what a file says of itself: an absurd length asks for more memory than there is,
   // and blocks that are not where they should be end the process.
-  const ChildResult read = run_in_child([&] { reader->Update(); }, kMostSeconds);
+  const ChildResult read = run_in_child([&] { reader->Update(); }, read_limits(bytes.size()));
   if (!read.failure.empty()) reject_foreign(path, kind);
   if (messages.any() || reader->GetErrorCode() != 0 || reader->GetOutput() == nullptr) {
     reject_foreign(path, kind);

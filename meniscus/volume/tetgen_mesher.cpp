@@ -202,7 +202,8 @@ MesherResult run_tetgen(const SurfaceComplex& complex, const std::string& switch
   MENISCUS_ASSERT(is_understood, "TetGen does not know the switches {}", switches);
 
   MesherResult result;
-  const auto seconds = kLeastSeconds + static_cast<unsigned>(kSecondsPerCell * target.num_cells);
+  const ChildLimits limits{.seconds = kLeastSeconds +
+                                      static_cast<unsigned>(kSecondsPerCell * target.num_cells)};
   // Points are inserted in rounds, each a multiple of the last, drawn by chance. Another multiple
   // is another order, in which points that fail an assertion of TetGen's in one come out well.
   const double first = behavior.brio_ratio;
@@ -210,7 +211,7 @@ MesherResult run_tetgen(const SurfaceComplex& complex, const std::string& switch
     behavior.brio_ratio = order * first;
     result = {};
     const ChildResult child =
-        run_in_child([&] { mesh_complex(complex, behavior, target, result); }, seconds);
+        run_in_child([&] { mesh_complex(complex, behavior, target, result); }, limits);
     current_test = nullptr;  // of an attempt that was cut short
     if (child.failure.empty()) return result;
     result = {fmt::format("TetGen -{}: {}", switches, child.failure), {}, {}};

@@ -17,25 +17,25 @@
 namespace meniscus {
 namespace {
 
-constexpr unsigned kSeconds = 60;
+constexpr ChildLimits kLimits{.seconds = 60};
 
 TEST(ChildProcess, SharesTheMemory) {
   std::vector<int> numbers;
-  const ChildResult result = run_in_child([&] { numbers.assign(1000, 7); }, kSeconds);
+  const ChildResult result = run_in_child([&] { numbers.assign(1000, 7); }, kLimits);
   EXPECT_EQ(result.failure, "");
   EXPECT_EQ(numbers, std::vector<int>(1000, 7));
 }
 
 TEST(ChildProcess, IsAnotherProcess) {
   pid_t child = 0;
-  EXPECT_EQ(run_in_child([&] { child = getpid(); }, kSeconds).failure, "");
+  EXPECT_EQ(run_in_child([&] { child = getpid(); }, kLimits).failure, "");
   EXPECT_NE(child, 0);
   EXPECT_NE(child, getpid());
 }
 
 TEST(ChildProcess, TellsWhatIsThrown) {
   const auto thrown = [](auto fault) {
-    return run_in_child([&] { throw fault; }, kSeconds).failure;
+    return run_in_child([&] { throw fault; }, kLimits).failure;
   };
   EXPECT_EQ(thrown(std::runtime_error("facets meet")), "facets meet");
   EXPECT_EQ(thrown(std::bad_alloc()), "out of memory");
@@ -48,12 +48,12 @@ TEST(ChildProcess, TellsHowItCrashed) {
           std::fputs("the matrix is singular\nmore\n", stderr);
           std::abort();
         },
-        kSeconds);
+        kLimits);
     EXPECT_EQ(aborted.signal, SIGABRT);
     EXPECT_EQ(aborted.failure, "it was ended by signal 6 (Aborted): the matrix is singular");
-    const ChildResult killed = run_in_child([] { std::raise(SIGSEGV); }, kSeconds);
+    const ChildResult killed = run_in_child([] { std::raise(SIGSEGV); }, kLimits);
     EXPECT_EQ(killed.signal, SIGSEGV);
-    EXPECT_EQ(run_in_child([] { _exit(0); }, kSeconds).failure, "it ended without an answer");
+    EXPECT_EQ(run_in_child([] { _exit(0); }, kLimits).failure, "it ended without an answer");
   }
 }
 
@@ -62,14 +62,27 @@ TEST(ChildProcess, EndsAnEndlessLoop) {
     while (getpid() > 0) {
     }
   };
-  EXPECT_EQ(run_in_child(loop, 1).failure, "it took more than 1 s of processor time");
+  EXPECT_EQ(run_in_child(loop, {.seconds = 1}).failure, "it took more than 1 s of processor time");
+}
+
+TEST(ChildProcess, TakesNoMoreMemoryThanAllowed) {
+  constexpr std::size_t mebibyte = std::size_t{1} << 20U;
+  const auto failure = [](std::size_t bytes) {
+    return run_in_child([=] { const std::vector<char> taken(bytes); },
+                        {.seconds = 60, .memory = 256 * mebibyte})
+        .failure;
+  };
+  EXPECT_EQ(failure(64 * mebibyte), "");
+  EXPECT_NE(failure(512 * mebibyte), "");
+  const std::vector<char> here(512 * mebibyte);  // the limit is the child's alone
+  EXPECT_EQ(here.back(), 0);
 }
 
 TEST(ChildProcess, LeavesFilesHandlersAndLimitsAlone) {
   rlimit before{}, after{};
   getrlimit(RLIMIT_CPU, &before);
   const auto handler = std::signal(SIGABRT, SIG_IGN);
-  EXPECT_EQ(run_in_child([] { close(STDERR_FILENO); }, kSeconds).failure, "");
+  EXPECT_EQ(run_in_child([] { close(STDERR_FILENO); }, kLimits).failure, "");
   EXPECT_EQ(std::signal(SIGABRT, handler), SIG_IGN);
   getrlimit(RLIMIT_CPU, &after);
   EXPECT_EQ(before.rlim_cur, after.rlim_cur);
@@ -78,9 +91,9 @@ TEST(ChildProcess, LeavesFilesHandlersAndLimitsAlone) {
 
 TEST(ChildProcess, TriesOnACopyOfTheMemory) {
   int number = 1;
-  EXPECT_EQ(try_in_child([&] { number = 2; }, kSeconds).failure, "");
+  EXPECT_EQ(try_in_child([&] { number = 2; }, kLimits).failure, "");
   EXPECT_EQ(number, 1);
-  const auto failure = [](auto work) { return try_in_child(work, kSeconds).failure; };
+  const auto failure = [](auto work) { return try_in_child(work, kLimits).failure; };
   EXPECT_EQ(failure([] { throw std::runtime_error("an array is damaged"); }),
             "an array is damaged");
   EXPECT_EQ(failure([] { throw std::bad_alloc(); }), "out of memory");
@@ -89,7 +102,7 @@ TEST(ChildProcess, TriesOnACopyOfTheMemory) {
 }
 
 TEST(ChildProcess, LeavesNoProcessBehind) {
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(run_in_child([] {}, 1).failure, "");
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(run_in_child([] {}, {.seconds = 1}).failure, "");
   EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);  // no child is left to be waited for
 }
 
@@ -102,7 +115,7 @@ TEST(ChildProcess, ServesSeveralThreads) {
         const auto add = [&] {
           for (int k = 0; k < 1000; ++k) sums[i] += std::vector<double>(100 + k, 1.0).back();
         };
-        EXPECT_EQ(run_in_child(add, kSeconds).failure, "");
+        EXPECT_EQ(run_in_child(add, kLimits).failure, "");
       });
   }
   EXPECT_EQ(sums, std::vector<double>(sums.size(), 1000.0));
