@@ -166,6 +166,15 @@ void require_same_run(const Archive& archive, const fs::path& checkpoint, const 
                  run.string());
 }
 
+/// Loads the state of a checkpoint. Throws InvalidInput, naming the file, where it does not fit.
+void load_checkpoint(const Archive& archive, const fs::path& checkpoint, Evolution& evolution) {
+  try {
+    evolution.load(archive);
+  } catch (const InvalidInput& damage) {
+    reject_input("{}: {}", checkpoint.string(), damage.what());
+  }
+}
+
 /// Throws InvalidInput when the smallest step of the case is too long for its initial shapes.
 void require_first_step(const Evolution& evolution, const Case& c) {
   if (evolution.step_length() >= c.evolution.min_step || evolution.is_finished()) return;
@@ -220,7 +229,7 @@ int resume(const ResumeArguments& arguments) {
   if (arguments.until) overrides.push_back(fmt::format("time.end={}", *arguments.until));
   const Case c = case_of_checkpoint(archive, checkpoint, overrides);
   Evolution evolution = make_evolution(c, build_surroundings(c));
-  evolution.load(archive);
+  load_checkpoint(archive, checkpoint, evolution);
   if (arguments.until && *arguments.until < evolution.t())
     reject_input("--until {:g} lies before the checkpoint's t = {:g}", *arguments.until,
                  evolution.t());
