@@ -69,6 +69,7 @@ TEST(SemiImplicit, GoesOnFromACheckpointBitForBit) {
     run(whole, 0.2);
     Archive between;
     whole.save(between);
+    EXPECT_TRUE(between.reals.contains("flow/preconditioner/damping"));
     Evolution resumed = evolution_of(drop, 0.1);
     resumed.load(between);
     run(whole, 0.4);
