@@ -47,6 +47,8 @@ EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elem
   EvolutionOptions options;
   options.surface = surface_shape(method, elements);
   options.scheme = settings.choice("time.scheme", words::time_schemes);
+  if (options.scheme == TimeScheme::semi_implicit && method == FlowMethod::boundary_integral)
+    settings.reject("time.scheme", "needs solver.method = \"finite-element\"");
   if (options.surface != SurfaceShape::faceted)
     settings.prefer("interface.motion-normal",
                     std::string(words::word_for(words::motion_normals, MotionNormal::smooth)));

@@ -533,7 +533,10 @@ const std::vector<Key> kKeys{
      .type = word,
      .words = words::list(words::time_schemes),
      .value = "rk2"s,
-     .sentence = "Midpoint Runge-Kutta (the paper's eq. 22) or explicit Euler (eq. 21)."},
+     .sentence =
+         "Midpoint Runge-Kutta (the paper's eq. 22), explicit Euler (eq. 21), or the midpoint "
+         "rule with surface tension damped so that long steps are stable; the last needs "
+         "finite elements."},
     {.path = "time.end",
      .dimension = Dimension::time,
      .range = kNotNegative,

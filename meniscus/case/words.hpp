@@ -78,8 +78,9 @@ inline constexpr std::array linear_solvers{
     Word<fem::LinearSolver>{"minres", fem::LinearSolver::minres},
     Word<fem::LinearSolver>{"mumps", fem::LinearSolver::mumps}};
 
-inline constexpr std::array time_schemes{Word<TimeScheme>{"rk2", TimeScheme::rk2},
-                                         Word<TimeScheme>{"euler", TimeScheme::euler}};
+inline constexpr std::array time_schemes{
+    Word<TimeScheme>{"rk2", TimeScheme::rk2}, Word<TimeScheme>{"euler", TimeScheme::euler},
+    Word<TimeScheme>{"semi-implicit", TimeScheme::semi_implicit}};
 inline constexpr std::array step_edges{Word<StepEdges>{"interface", StepEdges::interface},
                                        Word<StepEdges>{"mesh", StepEdges::mesh}};
 

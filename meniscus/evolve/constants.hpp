@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 
 #include "meniscus/core/named_constant.hpp"
 
@@ -17,9 +18,19 @@ inline constexpr double kShiftLeft = 0.9;
 /// flow keeps volumes to about a thousandth.
 inline constexpr double kLeastVolumeKept = 0.5, kMostVolumeKept = 2.0;
 
+/// The semi-implicit scheme damps what this share of a step would change, 1 − 1/√2: short waves
+/// then vanish in a long step (docs/time-stepping.md).
+inline constexpr double kDampedShare = 1.0 - 0.5 * std::numbers::sqrt2;
+/// A shape whose turning moves it along its normals by less than the root of this, relative to the
+/// turning itself, is too round to have a spin: ellipsoids of D below 0.02.
+inline constexpr double kRoundness = 1e-3;
+
 inline constexpr std::array kEvolveConstants{
     NamedConstant{"most-shift-over-edge", kMostShiftOverEdge},
-    NamedConstant{"shift-left", kShiftLeft}, NamedConstant{"least-volume-kept", kLeastVolumeKept},
-    NamedConstant{"most-volume-kept", kMostVolumeKept}};
+    NamedConstant{"shift-left", kShiftLeft},
+    NamedConstant{"least-volume-kept", kLeastVolumeKept},
+    NamedConstant{"most-volume-kept", kMostVolumeKept},
+    NamedConstant{"damped-share", kDampedShare},
+    NamedConstant{"roundness", kRoundness}};
 
 }  // namespace meniscus

@@ -61,6 +61,8 @@ RegionSources liquid_sources(std::span<const TopologyEvent> events) {
 Evolution::Evolution(Scene scene, const EvolutionOptions& options, std::unique_ptr<FlowSolver> flow,
                      std::optional<MovingMesh> mesh)
     : options_(options), solver_(std::move(flow)) {
+  if (options_.scheme == TimeScheme::semi_implicit && !solver_->can_damp())
+    reject_input("the semi-implicit scheme needs finite elements");
   state_.scene = std::move(scene);
   state_.mesh = std::move(mesh);
   state_.start_centroid = centroid_of_drops(state_.scene);
@@ -118,16 +120,25 @@ Report Evolution::try_step(const Scene& start, double dt) {
 }
 
 StageFlow Evolution::time_scheme_step(const Scene& start, double dt) {
-  if (options_.scheme == TimeScheme::euler) return euler_step(first_);
-  return midpoint_step(first_, state_.t, dt,
-                       [&](const StageFlow& stage, double duration, const Instant& instant) {
-                         return solve_stage(start, stage, duration, instant);
-                       });
+  const Step step{start, state_.t, dt};
+  const StageSolver solve = [&](const StageFlow& stage, double duration, const Instant& instant) {
+    return solve_stage(start, stage, duration, instant);
+  };
+  switch (options_.scheme) {
+    case TimeScheme::euler:
+      return euler_step(first_);
+    case TimeScheme::rk2:
+      return midpoint_step(first_, step, solve);
+    case TimeScheme::semi_implicit:
+      break;
+  }
+  return semi_implicit_step(first_, step, solve);
 }
 
 /// The flow after the interfaces moved for `duration` from where they were at `start`.
 StageFlow Evolution::solve_stage(const Scene& start, const StageFlow& stage, double duration,
                                  const Instant& instant) {
+  if (duration == 0.0) return flow_at(instant);
   time_phase(times_, "move interfaces", [&] {
     state_.scene = start;
     move_interfaces(state_.scene, stage.motion, duration);
@@ -146,7 +157,14 @@ StageFlow Evolution::flow_at(const Instant& instant) {
                   "{} velocities of {} interfaces", stage.flow.velocity.size(),
                   state_.scene.interfaces.size());
   const PhaseTimer timer(times_, "move interfaces");
-  stage.motion = normal_motion(state_.scene, stage.flow.velocity, options_.motion_normal);
+  const InterfaceNormals normals = interface_normals(state_.scene, options_.motion_normal);
+  stage.normal_speed = normal_speeds(normals, stage.flow.velocity);
+  if (options_.scheme == TimeScheme::semi_implicit) {
+    stage.shape = shape_motion(state_.scene, normals, stage.flow.velocity);
+    stage.motion = velocity_of(stage.shape, state_.scene);
+  } else {
+    stage.motion = normal_motion(normals, stage.normal_speed);
+  }
   return stage;
 }
 

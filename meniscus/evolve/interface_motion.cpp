@@ -24,18 +24,36 @@ VertexField<Vec3> motion_normals(const SurfaceMesh& mesh, MotionNormal normal) {
 
 }  // namespace
 
+InterfaceNormals interface_normals(const Scene& scene, MotionNormal normal) {
+  InterfaceNormals normals;
+  for (const Interface& interface : scene.interfaces)
+    normals.push_back(motion_normals(interface.mesh, normal));
+  return normals;
+}
+
+NormalSpeeds normal_speeds(const InterfaceNormals& normals,
+                           std::span<const VertexField<Vec3>> velocity) {
+  MENISCUS_ASSERT(velocity.size() == normals.size(), "{} velocities of {} interfaces",
+                  velocity.size(), normals.size());
+  NormalSpeeds speeds;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    VertexField<double>& speed = speeds.emplace_back(normals[i].size());
+    for (const VertexId v : speed.ids()) speed[v] = normals[i][v].dot(velocity[i][v]);
+  }
+  return speeds;
+}
+
+InterfaceMotion normal_motion(const InterfaceNormals& normals, const NormalSpeeds& speeds) {
+  InterfaceMotion motion = normals;
+  for (std::size_t i = 0; i < motion.size(); ++i)
+    for (const VertexId v : motion[i].ids()) motion[i][v] *= speeds[i][v];
+  return motion;
+}
+
 InterfaceMotion normal_motion(const Scene& scene, std::span<const VertexField<Vec3>> velocity,
                               MotionNormal normal) {
-  MENISCUS_ASSERT(velocity.size() == scene.interfaces.size(), "{} velocities of {} interfaces",
-                  velocity.size(), scene.interfaces.size());
-  InterfaceMotion motion;
-  motion.reserve(scene.interfaces.size());
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
-    VertexField<Vec3> n = motion_normals(scene.interfaces[i].mesh, normal);
-    for (const VertexId v : n.ids()) n[v] *= n[v].dot(velocity[i][v]);
-    motion.push_back(std::move(n));
-  }
-  return motion;
+  const InterfaceNormals normals = interface_normals(scene, normal);
+  return normal_motion(normals, normal_speeds(normals, velocity));
 }
 
 void move_interfaces(Scene& scene, const InterfaceMotion& motion, double dt) {

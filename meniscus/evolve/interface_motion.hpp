@@ -11,6 +11,17 @@ namespace meniscus {
 /// The velocities of the vertices of each interface of a scene [G R0].
 using InterfaceMotion = std::vector<VertexField<Vec3>>;
 
+/// Unit normals of the vertices of each interface, and speeds along them [G R0].
+using InterfaceNormals = std::vector<VertexField<Vec3>>;
+using NormalSpeeds = std::vector<VertexField<double>>;
+[[nodiscard]] InterfaceNormals interface_normals(const Scene& scene, MotionNormal normal);
+/// n·v
+[[nodiscard]] NormalSpeeds normal_speeds(const InterfaceNormals& normals,
+                                         std::span<const VertexField<Vec3>> velocity);
+/// n n·v
+[[nodiscard]] InterfaceMotion normal_motion(const InterfaceNormals& normals,
+                                            const NormalSpeeds& speeds);
+
 /// ẋ = n n·v at every interface vertex (eq. 23 of hooper2001), n the direction of the vertex's area
 /// vector or of the paraboloid fit.
 [[nodiscard]] InterfaceMotion normal_motion(const Scene& scene,

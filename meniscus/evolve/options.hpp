@@ -5,7 +5,11 @@
 
 namespace meniscus {
 
-enum class TimeScheme { rk2, euler };  ///< eqs 22 and 21 of hooper2001
+enum class TimeScheme {
+  rk2,           ///< eq. 22 of hooper2001
+  euler,         ///< eq. 21
+  semi_implicit  ///< the midpoint rule with damped stages: stable at long steps
+};
 /// Normal with which an interface vertex moves, ẋ = n n·v (eq. 23): of the area vector A_i (keeps
 /// the faceted volume's rate of change at round-off), of the paraboloid fit (the paper's), or of
 /// the smooth surface (O(h³), where that of an area vector on an irregular mesh is O(h)).

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "meniscus/evolve/interface_motion.hpp"
+#include "meniscus/evolve/shape_motion.hpp"
 #include "meniscus/flow/flow_solver.hpp"
 
 namespace meniscus {
@@ -11,6 +12,17 @@ namespace meniscus {
 struct StageFlow : Report {
   FlowSolution flow = {};
   InterfaceMotion motion = {};
+  NormalSpeeds normal_speed = {};  ///< n·v at the vertices
+  /// What `motion` is made of; empty where the scheme moves vertices along normals alone.
+  ShapeMotion shape = {};
+  double error = 0.0;  ///< of a whole step: the estimate of `step_error`; 0 where there is none
+};
+
+/// A step of length dt from t; `start` is the scene at t.
+struct Step {
+  const Scene& start;
+  double t = 0.0;
+  double dt = 0.0;
 };
 
 /// Moves the interfaces `duration` from where the step began, with the motion of a stage and the
@@ -18,11 +30,21 @@ struct StageFlow : Report {
 using StageSolver =
     std::function<StageFlow(const StageFlow& stage, double duration, const Instant& instant)>;
 
-/// One step of length dt from t: the stage whose motion takes the interfaces from the step's
-/// beginning to its end. `first` is the flow at t.
+/// One step: the stage whose motion takes the interfaces from the step's beginning to its end.
+/// `first` is the flow at t.
 [[nodiscard]] StageFlow euler_step(const StageFlow& first);
 /// The midpoint rule (first lines of Table 1 of hooper2001).
-[[nodiscard]] StageFlow midpoint_step(const StageFlow& first, double t, double dt,
+[[nodiscard]] StageFlow midpoint_step(const StageFlow& first, const Step& step,
                                       const StageSolver& solve);
+/// The midpoint rule with damped stages, of second order whatever the damping is
+/// (docs/time-stepping.md).
+[[nodiscard]] StageFlow semi_implicit_step(const StageFlow& first, const Step& step,
+                                           const StageSolver& solve);
+
+/// max_v dt |n·v − n·v*| / l_v over all vertices, l_v the shortest edge at the vertex when the step
+/// began: how far a step of second order and one of first order take a vertex apart along its
+/// normal, in edges.
+[[nodiscard]] double step_error(const Step& step, const NormalSpeeds& second,
+                                const NormalSpeeds& first);
 
 }  // namespace meniscus

@@ -5,7 +5,7 @@
 
 #include "meniscus/flow/bem/near_field.hpp"
 #include "meniscus/flow/bem/options.hpp"
-#include "meniscus/flow/bem/rigid_motion.hpp"
+#include "meniscus/mesh/rigid_motion.hpp"
 
 namespace meniscus::bem {
 

@@ -42,8 +42,34 @@ SurfaceNodes surface_nodes(const Scene& scene, const TetMesh& mesh, const FlowSp
   return nodes;
 }
 
+/// How much stiffer than the weak form a form is between neighbouring nodes. Explicit steps with
+/// the nodal one have to be up to a tenth shorter; damping too soft by a seventh is not enough
+/// (docs/time-stepping.md).
+double relative_stiffness(CapillaryForm form) { return form == CapillaryForm::nodal ? 1.15 : 1.0; }
+
+/// Damping of all interfaces, as strong as surface tension within `duration`.
+SurfaceDamping interface_damping(const Scene& scene, const SurfaceNodes& nodes,
+                                 const NodePositions& positions, double duration) {
+  std::vector<DampedSurface> surfaces;
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+    surfaces.push_back({nodes.interfaces[i], duration * scene.interfaces[i].tension});
+  return surface_damping(surfaces, positions);
+}
+
+/// Sets the speeds that damping is about to those of rigid motions, one per interface.
+void damp_about(std::span<const RigidMotion> motions, const SurfaceNodes& nodes,
+                const NodePositions& positions, SurfaceDamping& damping) {
+  MENISCUS_ASSERT(motions.size() == nodes.interfaces.size(), "{} motions of {} interfaces",
+                  motions.size(), nodes.interfaces.size());
+  for (std::size_t k = 0; k < motions.size(); ++k)
+    for (const NodeId i : nodes.interfaces[k].face_nodes)
+      damping.speed[i] = damping.normal[i].dot(motions[k].at(positions.x[i]));
+}
+
 InstantProblem instant_problem(const Scene& scene, const TetMesh& mesh, const FlowSpace& space,
-                               NodePositions positions, CapillaryForm form, double t) {
+                               NodePositions positions, CapillaryForm form,
+                               const Instant& instant) {
+  const double t = instant.t;
   InstantProblem problem{StokesProblem(mesh, space, std::move(positions)), {}, {}};
   const NodePositions& at = problem.stokes.positions;
   const SurfaceNodes nodes = surface_nodes(scene, mesh, space);
@@ -64,6 +90,11 @@ InstantProblem instant_problem(const Scene& scene, const TetMesh& mesh, const Fl
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
     if (scene.interfaces[i].tension != 0.0)
       add_capillary_force(scene.interfaces[i], form, nodes.interfaces[i], at, problem.stokes.force);
+  if (instant.damping.is_none()) return problem;
+  problem.stokes.damping =
+      interface_damping(scene, nodes, at, relative_stiffness(form) * instant.damping.duration);
+  if (!instant.damping.about.empty())
+    damp_about(instant.damping.about, nodes, at, problem.stokes.damping);
   return problem;
 }
 
@@ -120,6 +151,7 @@ class FiniteElementFlow final : public FlowSolver {
   }
 
   FlowSolution solve(const FlowDomain& domain, const Instant& instant) override;
+  bool can_damp() const override { return true; }
   void follow(const MeshChange& change, const FlowDomain& domain) override;
 
   void save(Archive& archive, const FlowDomain& domain) const override;
@@ -132,10 +164,12 @@ class FiniteElementFlow final : public FlowSolver {
   [[nodiscard]] bool has_connectivity_of(const FlowDomain& domain) const {
     return stokes_ && connectivity_ == domain.connectivity;
   }
-  void decide_on_preconditioner(const StokesProblem& problem, const StokesReport& report,
-                                bool is_kept);
+  [[nodiscard]] InstantProblem problem_at(const FlowDomain& domain, const Instant& instant) const;
+  [[nodiscard]] bool has_preconditioner_for(double damping) const;
+  void decide_on_preconditioner(const StokesProblem& problem, double damping,
+                                const StokesReport& report, bool is_kept);
   [[nodiscard]] StokesState first_guess(const StokesProblem& problem) const;
-  void keep_guess(const StokesProblem& problem, StokesState state);
+  void keep_solution(const StokesProblem& problem, StokesState state);
   [[nodiscard]] FlowSolution solution(const FlowDomain& domain, const InstantProblem& problem,
                                       const StokesState& state);
   void restore_preconditioner(const Archive& archive, const FlowDomain& domain);
@@ -150,6 +184,9 @@ class FiniteElementFlow final : public FlowSolver {
   /// iterations of the solve that made it; none when the next is to make its own.
   std::optional<NodePositions> prepared_at_;
   int iterations_then_ = 0;
+  double damping_then_ = 0.0;  // the duration of its damping
+  /// The normal speeds that the last damped solve found; empty: there is none on this connectivity.
+  Field<NodeId, double> damped_speed_;
   PhaseTimes times_;
 };
 
@@ -159,6 +196,7 @@ void FiniteElementFlow::use_connectivity(const FlowDomain& domain) {
   stokes_.emplace(space_, options_);
   guess_.reset();
   prepared_at_.reset();
+  damped_speed_ = {};
   connectivity_ = domain.connectivity;
 }
 
@@ -181,9 +219,24 @@ StokesState FiniteElementFlow::first_guess(const StokesProblem& problem) const {
   return state;
 }
 
-void FiniteElementFlow::keep_guess(const StokesProblem& problem, StokesState state) {
+void FiniteElementFlow::keep_solution(const StokesProblem& problem, StokesState state) {
+  if (!problem.damping.is_none()) damped_speed_ = normal_speeds(problem.damping, state.v);
   for (const NodeId i : state.v.ids()) state.v[i] -= problem.undisturbed[i];
   guess_ = std::move(state);
+}
+
+InstantProblem FiniteElementFlow::problem_at(const FlowDomain& domain,
+                                             const Instant& instant) const {
+  InstantProblem problem = instant_problem(domain.scene, *domain.mesh, space_,
+                                           node_positions(domain.scene, *domain.mesh, space_),
+                                           options_.capillary, instant);
+  SurfaceDamping& damping = problem.stokes.damping;
+  if (damping.is_none() || !instant.damping.about.empty()) return problem;
+  MENISCUS_ASSERT(damped_speed_.size() == damping.speed.size(),
+                  "no damped solve on this connectivity: {} {}", damped_speed_.size(),
+                  damping.speed.size());
+  damping.speed = damped_speed_;
+  return problem;
 }
 
 FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& instant) {
@@ -195,20 +248,18 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
     if (!(signed_volume(mesh, c) > 0.0))
       return failed_flow({FaultKind::inverted_cell, "a cell of the volume mesh is inverted",
                           mesh.x[mesh.cells[c][0]]});
-  const InstantProblem problem =
-      instant_problem(domain.scene, mesh, space_, node_positions(domain.scene, mesh, space_),
-                      options_.capillary, instant.t);
+  const InstantProblem problem = problem_at(domain, instant);
   if (problem.fault) return failed_flow(*problem.fault);
   StokesState state = first_guess(problem.stokes);
-  const bool is_kept = prepared_at_.has_value();
+  const bool is_kept = has_preconditioner_for(instant.damping.duration);
   const StokesReport report = stokes_->solve(
       problem.stokes, state, is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh,
       times_);
-  decide_on_preconditioner(problem.stokes, report, is_kept);
+  decide_on_preconditioner(problem.stokes, instant.damping.duration, report, is_kept);
   if (report.ok() && !problem.stokes.has_open_boundary)
     level_pressure(mesh, space_.pressure, state.p);
   FlowSolution result = report.ok() ? solution(domain, problem, state) : failed_flow(*report.fault);
-  if (report.ok()) keep_guess(problem.stokes, std::move(state));
+  if (report.ok()) keep_solution(problem.stokes, std::move(state));
   result.iterations = report.iterations;
   if (const int straight = problem.stokes.positions.num_straightened; straight > 0)
     result.warnings.push_back(
@@ -218,9 +269,16 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
   return result;
 }
 
+/// A preconditioner suits damping like that which it was made with.
+bool FiniteElementFlow::has_preconditioner_for(double damping) const {
+  constexpr double kAlike = 2.0;
+  return prepared_at_.has_value() && damping <= kAlike * damping_then_ &&
+         damping_then_ <= kAlike * damping;
+}
+
 /// Keeps a preconditioner while the connectivity stands and it saves more than it costs: to make
 /// one takes as long as three or four iterations (docs/benchmark-stokes.md).
-void FiniteElementFlow::decide_on_preconditioner(const StokesProblem& problem,
+void FiniteElementFlow::decide_on_preconditioner(const StokesProblem& problem, double damping,
                                                  const StokesReport& report, bool is_kept) {
   constexpr int kWorthOfOne = 3;
   const bool is_own = report.ok() && report.failed_solvers.empty() && report.iterations > 0 &&
@@ -231,6 +289,7 @@ void FiniteElementFlow::decide_on_preconditioner(const StokesProblem& problem,
   if (is_kept || !is_own) return;
   prepared_at_ = problem.positions;
   iterations_then_ = report.iterations;
+  damping_then_ = damping;
 }
 
 FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const InstantProblem& problem,
@@ -263,6 +322,7 @@ void FiniteElementFlow::save(Archive& archive, const FlowDomain& domain) const {
   if (!prepared_at_) return;
   save_positions(*prepared_at_, archive, "flow/preconditioner");
   archive.integers["flow/preconditioner/iterations"] = {iterations_then_};
+  if (damping_then_ != 0.0) archive.reals["flow/preconditioner/damping"] = {damping_then_};
 }
 
 /// Makes the preconditioner that the saved run had, so that a resumed run does the same arithmetic.
@@ -274,10 +334,13 @@ void FiniteElementFlow::restore_preconditioner(const Archive& archive, const Flo
     reject_input("checkpoint: flow/preconditioner/x does not fit the volume mesh");
   iterations_then_ = static_cast<int>(
       entry_of_size(archive.integers, "flow/preconditioner/iterations", 1).front());
-  // Time and surface tension matter to the right-hand side alone.
-  stokes_->prepare(
-      instant_problem(domain.scene, *domain.mesh, space_, *prepared_at_, CapillaryForm::weak, 0.0)
-          .stokes);
+  damping_then_ = archive.reals.contains("flow/preconditioner/damping")
+                      ? entry_of_size(archive.reals, "flow/preconditioner/damping", 1).front()
+                      : 0.0;
+  // Time, forces and the speeds that damping is about matter to the right-hand side alone.
+  stokes_->prepare(instant_problem(domain.scene, *domain.mesh, space_, *prepared_at_,
+                                   options_.capillary, {.damping = {damping_then_}})
+                       .stokes);
 }
 
 void FiniteElementFlow::load(const Archive& archive, const FlowDomain& domain) {

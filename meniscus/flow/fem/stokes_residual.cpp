@@ -68,12 +68,18 @@ void add_cell_power(const StokesProblem& problem, const StokesState& state, Elem
 
 }  // namespace
 
-StokesResidual residual(const StokesProblem& problem, const StokesState& state) {
+StokesResidual undamped_residual(const StokesProblem& problem, const StokesState& state) {
   StokesResidual result{Field<NodeId, Vec3>(problem.force.size(), Vec3::Zero()),
                         std::vector<double>(state.p.size(), 0.0)};
   with_element(problem.space, problem.positions,
                [&](auto& element) { add_residual(problem, state, element, result); });
   for (const NodeId i : problem.force.ids()) result.momentum[i] -= problem.force[i];
+  return result;
+}
+
+StokesResidual residual(const StokesProblem& problem, const StokesState& state) {
+  StokesResidual result = undamped_residual(problem, state);
+  add_resistance(problem.damping, state.v, result.momentum);
   return result;
 }
 

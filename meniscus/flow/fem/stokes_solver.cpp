@@ -80,11 +80,12 @@ void add_step(StokesState& state, const StokesProblem& problem,
   for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] += step[first + i];
 }
 
-/// The residual of a velocity without pressure, once the fixed velocities are imposed.
+/// The residual of a velocity without pressure, once the fixed velocities are imposed. Damping is
+/// no part of it: it would loosen the tolerance.
 double residual_at(const StokesProblem& problem, Field<NodeId, Vec3> v) {
   StokesState state{std::move(v), std::vector<double>(problem.space.pressure.vertex.size(), 0.0)};
   problem.constraints.impose(state.v);
-  return free_norm(residual(problem, state), problem);
+  return free_norm(undamped_residual(problem, state), problem);
 }
 
 /// The residual that the data alone cause where all else rests. A boundary far away has the most of

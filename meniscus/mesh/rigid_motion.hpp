@@ -2,12 +2,14 @@
 
 #include "meniscus/mesh/surface_mesh.hpp"
 
-namespace meniscus::bem {
+namespace meniscus {
 
 /// The velocity of a rigid body, v(x) = velocity + spin × (x − center).
 struct RigidMotion {
   Vec3 center = Vec3::Zero(), velocity = Vec3::Zero(), spin = Vec3::Zero();
   [[nodiscard]] Vec3 at(const Vec3& x) const;
+  /// Where a point of the body is after `duration`, if the center is the body's own.
+  [[nodiscard]] Vec3 moved(const Vec3& x, double duration) const;
 };
 
 /// Least-squares fits of rigid motions to velocities at the vertices of one surface, weighted by
@@ -35,4 +37,4 @@ class RigidProjection {
   Mat3 inverse_inertia_;
 };
 
-}  // namespace meniscus::bem
+}  // namespace meniscus

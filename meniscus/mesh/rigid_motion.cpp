@@ -1,13 +1,20 @@
-#include "meniscus/flow/bem/rigid_motion.hpp"
+#include "meniscus/mesh/rigid_motion.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "meniscus/mesh/surface_measures.hpp"
 
-namespace meniscus::bem {
+namespace meniscus {
 
 Vec3 RigidMotion::at(const Vec3& x) const { return velocity + spin.cross(x - center); }
+
+Vec3 RigidMotion::moved(const Vec3& x, double duration) const {
+  const double rate = spin.norm();
+  const Vec3 axis = rate > 0.0 ? Vec3(spin / rate) : Vec3(Vec3::UnitX());
+  const Eigen::AngleAxisd turn(rate * duration, axis);
+  return center + duration * velocity + turn * (x - center);
+}
 
 RigidProjection::RigidProjection(const SurfaceMesh& mesh)
     : weight_(vertex_areas(mesh)), arm_(mesh.x), center_(Vec3::Zero()) {
@@ -27,4 +34,4 @@ RigidProjection::RigidProjection(const SurfaceMesh& mesh)
 
 Vec3 RigidProjection::cross(const Vec3& a, const Vec3& b) { return a.cross(b); }
 
-}  // namespace meniscus::bem
+}  // namespace meniscus

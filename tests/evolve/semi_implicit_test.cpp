@@ -1,0 +1,94 @@
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "meniscus/core/error.hpp"
+#include "prescribed_flow.hpp"
+#include "tests/evolve/damped_drop.hpp"
+
+namespace meniscus::test {
+namespace {
+
+using fem::Elements;
+
+class SemiImplicit : public testing::TestWithParam<Elements> {};
+INSTANTIATE_TEST_SUITE_P(P1AndP2, SemiImplicit, testing::Values(Elements::p1_p1, Elements::p2_p1));
+
+// Against the midpoint rule, of second order itself: what both have in common is left out.
+TEST(SemiImplicit, IsOfSecondOrderInTime) {
+  for (const double order : orders_in_relaxation(Elements::p1_p1)) EXPECT_NEAR(order, 2.0, 0.2);
+  for (const double order : orders_in_shear(Elements::p1_p1)) EXPECT_NEAR(order, 2.0, 0.2);
+}
+
+// Ten times what explicit steps bear, from an ellipsoid with noise on its vertices.
+TEST_P(SemiImplicit, IsStableAtLongSteps) {
+  const std::vector<double> excess =
+      excesses({.elements = GetParam(),
+                .num_vertices = GetParam() == Elements::p1_p1 ? 200 : 110,
+                .noise = 0.01},
+               12);
+  for (std::size_t k = 1; k < excess.size() && excess[k - 1] > 1e-3; ++k)
+    EXPECT_LT(excess[k], excess[k - 1]) << "step " << k;
+  EXPECT_LT(excess[8], 2e-3);
+}
+
+// The wind carries a drop that relaxes on the way: three eighths of its radius a step.
+TEST_P(SemiImplicit, CarriesADropWithoutLag) {
+  Evolution evolution =
+      evolution_of({.elements = GetParam(), .D = 0.2, .wind = Vec3::UnitX()}, 0.4);
+  run(evolution, 0.8);
+  EXPECT_NEAR(centroid_in(evolution).x() / evolution.t(), 1.0, 0.003);
+}
+
+// In a liquid that turns as a whole a drop turns with it, whatever its shape does.
+TEST_P(SemiImplicit, TurnsADropWithoutLag) {
+  const Mat3 turning = simple_shear().transpose() - simple_shear();
+  Evolution evolution =
+      evolution_of({.elements = GetParam(), .Ca = 20.0, .D = 1.0 / 3.0, .gradient = turning}, 0.4);
+  run(evolution, 0.8);
+  EXPECT_NEAR(angle_in(evolution) / evolution.t(), 1.0, 0.003);
+}
+
+// Off the plane of no flow the drop goes with the shear there.
+TEST(SemiImplicit, CarriesADropInShear) {
+  const DampedDrop drop{
+      .Ca = 0.2, .D = 0.0, .center = Vec3(0.0, 0.5, 0.0), .gradient = simple_shear()};
+  Evolution damped = evolution_of(drop, 0.2), short_steps = evolution_of(drop, 0.02);
+  run(damped, 0.8);
+  run(short_steps, 0.8);
+  EXPECT_GT(centroid_in(short_steps).x(), 0.3);
+  EXPECT_NEAR(centroid_in(damped).x() / centroid_in(short_steps).x(), 1.0, 0.003);
+}
+
+TEST(SemiImplicit, GoesOnFromACheckpointBitForBit) {
+  for (const Elements elements : {Elements::p1_p1, Elements::p2_p1}) {
+    const DampedDrop drop{
+        .elements = elements, .num_vertices = 60, .Ca = 0.3, .gradient = simple_shear()};
+    Evolution whole = evolution_of(drop, 0.1);
+    run(whole, 0.2);
+    Archive between;
+    whole.save(between);
+    EXPECT_TRUE(between.reals.contains("flow/preconditioner/damping"));
+    Evolution resumed = evolution_of(drop, 0.1);
+    resumed.load(between);
+    run(whole, 0.4);
+    run(resumed, 0.4);
+    EXPECT_EQ(whole.scene().interfaces[0].mesh.x, resumed.scene().interfaces[0].mesh.x);
+    Archive a, b;
+    whole.save(a);
+    resumed.save(b);
+    EXPECT_EQ(a.reals, b.reals);
+    EXPECT_EQ(a.integers, b.integers);
+  }
+}
+
+TEST(SemiImplicit, NeedsASolverThatDamps) {
+  EvolutionOptions options;
+  options.scheme = TimeScheme::semi_implicit;
+  const auto still = [](const Vec3&, double) { return Vec3(Vec3::Zero()); };
+  EXPECT_THROW(Evolution(Scene{}, options, std::make_unique<PrescribedFlow>(still)), InvalidInput);
+}
+
+}  // namespace
+}  // namespace meniscus::test
