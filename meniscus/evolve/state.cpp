@@ -7,8 +7,10 @@
 
 #include "meniscus/core/archive_entries.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/evolve/constants.hpp"
 #include "meniscus/evolve/event_archive.hpp"
 #include "meniscus/mesh/field_archive.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/carry_fields.hpp"
 
 namespace meniscus {
@@ -29,6 +31,18 @@ void save_interface(const Interface& interface, std::size_t i, Archive& archive)
   archive.reals[interface_path(i, "properties")] = {interface.tension, interface.C0,
                                                     interface.volume, interface.initial_volume};
   save(interface.fields, archive, interface_path(i, "fields"));
+}
+
+/// Throws InvalidInput unless the surface is closed and encloses about the volume saved with it, as
+/// every interface does that was saved.
+void require_sound(const Interface& interface) {
+  if (const auto fault = find_broken_connectivity(interface.mesh))
+    reject_input("checkpoint: drop {}: {}", interface.drop, fault->text);
+  const double enclosed = enclosed_volume(interface.mesh);
+  if (!(enclosed > kLeastVolumeKept * interface.volume &&
+        enclosed < kMostVolumeKept * interface.volume))
+    reject_input("checkpoint: drop {} encloses {:.4g}, and its volume is {:.4g}", interface.drop,
+                 enclosed, interface.volume);
 }
 
 Interface load_interface(const Archive& archive, std::size_t i) {
@@ -53,6 +67,7 @@ Interface load_interface(const Archive& archive, std::size_t i) {
   interface.C0 = properties[1];
   interface.volume = properties[2];
   interface.initial_volume = properties[3];
+  require_sound(interface);
   interface.fields = load_fields(archive, interface_path(i, "fields"), interface.mesh);
   return interface;
 }

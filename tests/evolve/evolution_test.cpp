@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
@@ -320,6 +321,28 @@ TEST(Evolution, SavedStateGoesOnToTheSameBits) {
   EXPECT_EQ(second.evolution.t(), whole.evolution.t());
   EXPECT_EQ(second.evolution.scene().interfaces[0].mesh,
             whole.evolution.scene().interfaces[0].mesh);
+}
+
+TEST(Evolution, RefusesACheckpointWhoseSurfaceIsNone) {
+  Archive archive;
+  make_run(one_drop(42, 1.0), {}, stretching).evolution.save(archive);
+  const auto complaint = [](const Archive& damaged) -> std::string {
+    auto run = make_run(one_drop(42, 1.0), {}, stretching);
+    try {
+      run.evolution.load(damaged);
+    } catch (const InvalidInput& fault) {
+      return fault.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(complaint(archive), "");
+  Archive far = archive, open = archive;
+  far.reals["interfaces/0/x"][0] = 1e66;
+  EXPECT_TRUE(complaint(far).starts_with("checkpoint: drop 0 encloses ")) << complaint(far);
+  std::vector<std::int64_t>& faces = open.integers["interfaces/0/faces"];
+  faces.resize(faces.size() - 3);
+  EXPECT_TRUE(complaint(open).starts_with("checkpoint: drop 0: surface is not closed at the edge "))
+      << complaint(open);
 }
 
 TEST(Evolution, SavedLiquidsKeepTheirLaws) {
