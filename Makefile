@@ -38,7 +38,7 @@ run: ## install what is missing, build, simulate a drop in simple shear
 .PHONY: test
 test: ## install what is missing, build, run every test and a short case
 	@scripts/setup.sh test
-	@$(call build,test,-DMENISCUS_LONG_TESTS=OFF)
+	@$(call build,test,-DMENISCUS_LONG_TESTS=OFF -DMENISCUS_BENCH=OFF)
 	@ctest --preset test -j $(JOBS)
 
 .PHONY: check
@@ -49,9 +49,9 @@ check: ## format, layers and citations only; nothing is compiled
 	@python3 -B tests/citations/check_citations.py .
 
 .PHONY: check-long
-check-long: ## clang-tidy, the long suites, every test and 10,000 broken inputs under the sanitizers
+check-long: ## clang-tidy, benchmarks built, the long suites, every test and 10,000 broken inputs under the sanitizers
 	@scripts/setup.sh long
-	@$(call build,test,-DMENISCUS_LONG_TESTS=ON)
+	@$(call build,test,-DMENISCUS_LONG_TESTS=ON -DMENISCUS_BENCH=ON)
 	@scripts/check_tidy.sh build/test
 	@ctest --preset test -j $(JOBS)
 	@$(call build,dev)

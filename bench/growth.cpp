@@ -40,8 +40,8 @@ double seconds(int repeats, const Function& function) {
 
 TetMesh mesh_of(const Scene& scene) {
   TetMesh mesh;
-  if (const VolumeMeshReport made = tetrahedralize(scene, {}, mesh); !made.ok)
-    throw RunFailure(made.failure);
+  if (const VolumeMeshReport made = tetrahedralize(scene, {}, mesh); !made.ok())
+    throw RunFailure(made.text());
   return mesh;
 }
 

@@ -14,7 +14,7 @@ command -v npm >/dev/null || page=(nodejs npm)
 test=(libgtest-dev clang-format-14)
 browser=(chromium)
 # clang 14, Debian's default, cannot read the ranges of libstdc++ 12.
-long=(clang-tidy-16)
+long=(clang-tidy-16 libbenchmark-dev)
 coverage=(gcovr)
 
 case "${1:-}" in

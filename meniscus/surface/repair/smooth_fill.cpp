@@ -14,6 +14,7 @@
 #include <CGAL/Polygon_mesh_processing/fair.h>
 #include <CGAL/Polygon_mesh_processing/refine.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <CGAL/assertions_behaviour.h>
 
 namespace meniscus {
 namespace {
@@ -42,9 +43,26 @@ bool has_all_faces(const CgalMesh& cgal, const SurfaceMesh& mesh) {
   return static_cast<std::int32_t>(cgal.number_of_faces()) == mesh.num_faces();
 }
 
+/// Keeps CGAL's warnings from standard error while it lives: fairing warns of a system that it
+/// could not factorise, and returns false as well.
+class QuietWarnings {
+ public:
+  QuietWarnings() : handler_(CGAL::set_warning_handler(&say_nothing)) {}
+  ~QuietWarnings() { CGAL::set_warning_handler(handler_); }
+  QuietWarnings(const QuietWarnings&) = delete;
+  QuietWarnings& operator=(const QuietWarnings&) = delete;
+
+ private:
+  static void say_nothing(const char* /*kind*/, const char* /*condition*/, const char* /*file*/,
+                          int /*line*/, const char* /*message*/) {}
+
+  CGAL::Failure_function handler_;
+};
+
 }  // namespace
 
 bool cap_holes(SurfaceMesh& mesh) {
+  const QuietWarnings quiet;
   CgalMesh cgal = to_cgal(mesh);
   if (!has_all_faces(cgal, mesh)) return false;
   std::vector<CgalMesh::Halfedge_index> holes;
@@ -63,6 +81,7 @@ bool cap_holes(SurfaceMesh& mesh) {
 bool smooth_part(SurfaceMesh& mesh, const FacePatch& part, int rings) {
   MENISCUS_ASSERT(part.size() == mesh.num_faces() && rings >= 0, "{} {} {}", part.size(),
                   mesh.num_faces(), rings);
+  const QuietWarnings quiet;
   CgalMesh cgal = to_cgal(mesh);
   if (!has_all_faces(cgal, mesh)) return false;
   std::vector<CgalMesh::Face_index> faces;
