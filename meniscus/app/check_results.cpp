@@ -46,12 +46,12 @@ std::optional<std::string> narrowest_step(const io::Table& history) {
   for (std::size_t i = 0; i < gaps.size(); ++i)
     if (std::isfinite(gaps[i]) && (!narrowest || gaps[i] < gaps[*narrowest])) narrowest = i;
   if (!narrowest) return std::nullopt;
-  return history.rows[*narrowest][history.find("step").value()];
+  return history.rows[*narrowest][history.index_of("step")];
 }
 
 /// Every k-th step, the last step and the one with the smallest gap.
 std::set<std::string> kept_steps(const io::Table& history) {
-  const std::size_t column = history.find("step").value(), count = history.rows.size();
+  const std::size_t column = history.index_of("step"), count = history.rows.size();
   const std::size_t stride =
       std::max<std::size_t>(1, (count + kRecordedSteps - 1) / kRecordedSteps);
   std::set<std::string> steps;
@@ -70,7 +70,7 @@ std::string short_number(const std::string& cell) {
 }
 
 std::string table_text(const io::Table& table, const std::set<std::string>& steps) {
-  const std::size_t column = table.find("step").value();
+  const std::size_t column = table.index_of("step");
   std::string text = fmt::format("{}\n", fmt::join(table.columns, ","));
   for (const std::vector<std::string>& row : table.rows) {
     if (!steps.contains(row[column])) continue;
@@ -136,7 +136,7 @@ void write_record(const fs::path& results, const std::string& run, const fs::pat
   write(RunFiles::history, tables.history, steps);
   if (tables.events.rows.empty()) return;
   std::set<std::string> all;
-  const std::size_t step = tables.events.find("step").value();
+  const std::size_t step = tables.events.index_of("step");
   for (const auto& row : tables.events.rows) all.insert(row[step]);
   write(RunFiles::events, tables.events, all);
 }

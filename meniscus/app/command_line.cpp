@@ -196,7 +196,7 @@ int print_error(const std::string& text, int status) {
 
 }  // namespace
 
-int run_command_line(int argc, char** argv, SetUp set_up) {
+int run_command_line(int argc, char** argv, const SetUp& set_up) {
   CLI::App app("Deforming liquid drops with a sharp, conforming interface", "meniscus");
   app.set_version_flag("--version", fmt::format("meniscus {} ({})", version_string, commit_string));
   app.require_subcommand(1);

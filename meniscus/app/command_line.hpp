@@ -9,6 +9,6 @@ namespace meniscus {
 ///
 /// A program that extends meniscus passes `set_up`, which prepares the state of each new run
 /// (`RunArguments::set_up`).
-[[nodiscard]] int run_command_line(int argc, char** argv, SetUp set_up = {});
+[[nodiscard]] int run_command_line(int argc, char** argv, const SetUp& set_up = {});
 
 }  // namespace meniscus

@@ -6,6 +6,7 @@
 #include "meniscus/app/progress.hpp"
 #include "meniscus/app/run_directory.hpp"
 #include "meniscus/case/case.hpp"
+#include "meniscus/core/error.hpp"
 #include "meniscus/evolve/evolution.hpp"
 
 namespace meniscus {
@@ -34,7 +35,10 @@ class Simulation {
 
   [[nodiscard]] const Evolution& evolution() const { return evolution_; }
   /// The run's folder. Rank 0 only.
-  [[nodiscard]] const RunDirectory& directory() const { return *directory_; }
+  [[nodiscard]] const RunDirectory& directory() const {
+    MENISCUS_ASSERT(directory_, "a rank without the run's folder");
+    return *directory_;  // NOLINT(bugprone-unchecked-optional-access): asserted
+  }
   /// Seconds by phase since this process began to simulate.
   [[nodiscard]] PhaseSeconds seconds() const;
 

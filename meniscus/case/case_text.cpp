@@ -26,7 +26,8 @@ UsedTable used_table(const Case& c, const schema::Table& table, const std::strin
     if (schema::parent_path(key.path) != table.path) continue;
     MENISCUS_ASSERT(schema::find_table(table.path) != nullptr, "no table {}", table.path);
     const std::string name(schema::leaf(key.path));
-    const auto used = c.settings.used().find(path.empty() ? name : path + "." + name);
+    const auto used =
+        c.settings.used().find(path.empty() ? name : fmt::format("{}.{}", path, name));
     if (used != c.settings.used().end()) result.values.emplace_back(name, &used->second);
   }
   return result;

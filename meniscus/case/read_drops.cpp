@@ -6,7 +6,7 @@ namespace meniscus {
 namespace {
 
 Vec3 read_axes(Settings& settings, const std::string& path) {
-  const Vec3 axes = settings.vector(path);
+  Vec3 axes = settings.vector(path);
   // The number of vertices grows as N0 times the ratio of axes. Threads in experiments are up to
   // some 300 times longer than wide.
   constexpr double kLargestRatio = 1000.0;

@@ -8,7 +8,7 @@ namespace meniscus {
 namespace {
 
 Mat3 traceless_gradient(Settings& settings, const std::string& path) {
-  const Mat3 gradient = settings.matrix(path);
+  Mat3 gradient = settings.matrix(path);
   // 1e-12: roundoff of decimal fractions. A larger trace is a mistake that would create liquid.
   if (std::abs(gradient.trace()) > 1e-12 * gradient.cwiseAbs().maxCoeff())
     settings.reject(path, "has the trace {:.6g}; the trace of a gradient must be 0 (no net inflow)",

@@ -88,6 +88,7 @@ inline constexpr std::array step_edges{Word<StepEdges>{"interface", StepEdges::i
 template <class Meaning, std::size_t N>
 std::vector<std::string_view> list(const std::array<Word<Meaning>, N>& words) {
   std::vector<std::string_view> result;
+  result.reserve(N);
   for (const Word<Meaning>& entry : words) result.push_back(entry.word);
   return result;
 }

@@ -170,13 +170,18 @@ std::optional<std::size_t> Table::find(const std::string& column) const {
   return static_cast<std::size_t>(found - columns.begin());
 }
 
-std::vector<double> Table::column(const std::string& name) const {
+std::size_t Table::index_of(const std::string& name) const {
   const std::optional<std::size_t> index = find(name);
   if (!index) reject_input("the table has no column `{}`", name);
+  return *index;
+}
+
+std::vector<double> Table::column(const std::string& name) const {
+  const std::size_t index = index_of(name);
   std::vector<double> values;
   for (const std::vector<std::string>& row : rows) {
-    MENISCUS_ASSERT(*index < row.size(), "{} cells for {} columns", row.size(), columns.size());
-    const std::string& cell = row[*index];
+    MENISCUS_ASSERT(index < row.size(), "{} cells for {} columns", row.size(), columns.size());
+    const std::string& cell = row[index];
     double value = 0.0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     const bool is_number = error == std::errc() && end == cell.data() + cell.size();

@@ -44,6 +44,8 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 
   [[nodiscard]] std::optional<std::size_t> find(const std::string& column) const;
+  /// Place of a column; throws InvalidInput if absent.
+  [[nodiscard]] std::size_t index_of(const std::string& name) const;
   [[nodiscard]] std::vector<double> column(
       const std::string& name) const;  ///< Throws InvalidInput if absent.
 };

@@ -42,6 +42,7 @@ class BoxTree {
   [[nodiscard]] double least(const Vec3& point, const Bound& bound, const Value& value) const;
 
  private:
+  // NOLINTBEGIN(readability-identifier-naming): the names that Eigen's searches call
   template <class Visit>
   struct Intersector {
     bool intersectVolume(const Box& box) const {
@@ -72,6 +73,7 @@ class BoxTree {
     const Value& value;
     double best = std::numeric_limits<double>::max();
   };
+  // NOLINTEND(readability-identifier-naming)
 
   std::vector<Box> boxes_;
   Eigen::KdBVH<double, 3, int> tree_;

@@ -63,14 +63,16 @@ std::vector<io::PvdEntry> nearest_frames(std::span<const io::PvdEntry> frames,
   const auto repeated = std::ranges::unique(chosen);
   chosen.erase(repeated.begin(), repeated.end());
   std::vector<io::PvdEntry> result;
+  result.reserve(chosen.size());
   for (const std::size_t i : chosen) result.push_back(frames[i]);
   return result;
 }
 
 std::vector<io::PvdEntry> evenly_spaced_frames(std::span<const io::PvdEntry> frames, int count) {
   if (frames.empty()) return {};
-  std::vector<double> times;
   MENISCUS_ASSERT(count > 1, "{} frames cannot be spread", count);
+  std::vector<double> times;
+  times.reserve(static_cast<std::size_t>(count));
   const double first = frames.front().t, last = frames.back().t;
   for (int k = 0; k < count; ++k) times.push_back(first + (last - first) * k / (count - 1));
   return nearest_frames(frames, times);

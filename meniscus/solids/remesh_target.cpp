@@ -88,6 +88,7 @@ TargetReport remesh_to(SurfaceMesh& mesh, const RemeshTarget& target) {
   const std::vector<Piece> given = pieces;
   const double rough_edge = remesh_rough_pieces(pieces, inner);
   std::vector<bool> is_cavity;
+  is_cavity.reserve(pieces.size());
   for (const Piece& piece : pieces) is_cavity.push_back(piece.is_cavity);
 
   Found found = rough_edge > 0.0 ? search_rough(given, pieces, inner, rough_edge)

@@ -61,6 +61,7 @@ struct Cube {
 std::vector<Cube> octants(const Cube& cube) {
   const Vec3 middle = cube.box.center();
   std::vector<Cube> parts;
+  parts.reserve(8);
   for (int i = 0; i < 8; ++i)
     parts.push_back({Box(middle).extend(cube.box.corner(static_cast<Box::CornerType>(i))), {}});
   for (const SizedPoint& p : cube.points) {

@@ -36,6 +36,7 @@ VertexField<double> mean_edge_at_vertices(const SurfaceMesh& mesh) {
 /// outer boundary (numbered after the interfaces) where it is the matrix.
 std::vector<std::size_t> containers(const Scene& scene) {
   std::vector<std::size_t> result;
+  result.reserve(scene.interfaces.size());
   for (const Interface& interface : scene.interfaces)
     result.push_back(interface.outside == RegionId{0}
                          ? scene.interfaces.size()

@@ -74,8 +74,8 @@ FlowSpace flow_space(const TetMesh& mesh, Elements elements) {
   space.pressure = pressure_space(mesh);
   const bool is_quadratic = elements == Elements::p2_p1;
   space.velocity = {mesh.num_vertices(), is_quadratic ? 10 : 4, {}};
-  space.velocity.cell_nodes.reserve(
-      static_cast<std::size_t>(mesh.num_cells() * space.velocity.nodes_per_cell));
+  space.velocity.cell_nodes.reserve(static_cast<std::size_t>(mesh.num_cells()) *
+                                    static_cast<std::size_t>(space.velocity.nodes_per_cell));
   if (is_quadratic) {
     add_edge_nodes(mesh, space);
   } else {
@@ -89,7 +89,8 @@ FaceNodeTable face_nodes(const FlowSpace& space, const TetMesh& mesh, const Surf
                          const EmbeddedSurface& embedded) {
   const bool is_quadratic = space.elements == Elements::p2_p1;
   FaceNodeTable table{is_quadratic ? 6 : 3, {}};
-  table.face_nodes.reserve(static_cast<std::size_t>(surface.num_faces() * table.nodes_per_face));
+  table.face_nodes.reserve(static_cast<std::size_t>(surface.num_faces()) *
+                           static_cast<std::size_t>(table.nodes_per_face));
   for (const FaceId f : surface.faces.ids()) {
     const CellId c = embedded.sides[f].inside;
     std::array<std::size_t, 3> local{};

@@ -23,8 +23,10 @@ class StokesSparsity {
   [[nodiscard]] const NodeGraph& coupling() const { return coupling_; }
   [[nodiscard]] const NodeGraph& pressure() const { return pressure_; }
   /// The scalar patterns; C's is its graph.
+  // NOLINTBEGIN(readability-identifier-naming): blocks of the matrix, as in docs/notation.md
   [[nodiscard]] const ScalarPattern& A() const { return A_; }
   [[nodiscard]] const ScalarPattern& B() const { return B_; }
+  // NOLINTEND(readability-identifier-naming)
 
  private:
   NodeGraph velocity_, coupling_, pressure_;

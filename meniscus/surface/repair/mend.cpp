@@ -29,6 +29,7 @@ std::vector<Remedy> remedies(const SurfaceMesh& mesh, double volume) {
   };
   const auto smooth = std::make_shared<SmoothedShapes>(mesh, edge);
   std::vector<Remedy> all;
+  all.reserve(2 * kRoundings.size() + kMargins.size() + kSmoothingLengths.size() + 1);
   for (const Rounding& rounding : kRoundings)
     all.push_back({[&mesh, rounding] { return rounded_shape(mesh, rounding); }, volume});
   all.push_back({even, 0.0, true});
@@ -62,7 +63,8 @@ MendReport remesh_or_mend(SurfaceMesh& mesh, const RemeshOptions& options) {
 
 MendReport remesh_or_mend(SurfaceMesh& mesh, const RemeshOptions& given, SurfaceFields& fields) {
   MendReport report{.remesh = remesh(mesh, given, fields)};
-  if (report.remesh.ok() || !has_shape(report.remesh.fault->kind)) return report;
+  const std::optional<Fault>& fault = report.remesh.fault;
+  if (!fault || !has_shape(fault->kind)) return report;
   RemeshOptions options = given;
   if (options.volume == 0.0) options.volume = enclosed_volume(mesh);
   const std::vector<Remedy> ladder = remedies(mesh, options.volume);
