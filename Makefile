@@ -58,6 +58,7 @@ check-long: ## clang-tidy, benchmarks built, the long suites, every test and 10,
 	@ctest --preset dev -j $(JOBS)
 	@UBSAN_OPTIONS=halt_on_error=1 ASAN_OPTIONS=detect_leaks=0 \
 	  python3 tests/end_to_end/fuzz.py build/dev/meniscus build/dev/tests/fuzz-long 10000
+	@python3 tests/end_to_end/random_steps.py build/test/meniscus build/test/tests/random-steps 300
 
 .PHONY: coverage
 coverage: ## which lines the tests reach: out/coverage/index.html

@@ -33,9 +33,15 @@ Cell difference(const HistoryRow& h) {
   return h.stress ? Cell((*h.stress)(I, I) - (*h.stress)(J, J)) : Cell();
 }
 
+/// The words of StepBound, in its order.
+constexpr std::array kBounds{"step-factor",  "error",    "stability", "slip",
+                             "displacement", "neck",     "growth",    "beginning",
+                             "jump",         "max-step", "min-step",  "refusal"};
+std::string word_for(StepBound bound) { return kBounds.at(static_cast<std::size_t>(bound)); }
+
 constexpr const char *kPower = "μ_out G² R0³", *kStress = "μ_out G", *kEnergy = "μ_out G R0³";
 
-constexpr std::array<Column<HistoryRow>, 22> kHistory{{
+constexpr std::array<Column<HistoryRow>, 24> kHistory{{
     {"step", "", [](const HistoryRow& h) { return Cell(h.step); }},
     {"t", "1/G", [](const HistoryRow& h) { return Cell(h.t); }},
     {"dt", "1/G", [](const HistoryRow& h) { return Cell(h.dt); }},
@@ -59,6 +65,9 @@ constexpr std::array<Column<HistoryRow>, 22> kHistory{{
     {"stress_yz", kStress, stress<1, 2>},
     {"N1", kStress, difference<0, 1>},
     {"N2", kStress, difference<1, 2>},
+    {"step_error", "", [](const HistoryRow& h) { return cell(h.step_error); }},
+    {"step_bound", "",
+     [](const HistoryRow& h) { return h.step_bound ? Cell(word_for(*h.step_bound)) : Cell(); }},
 }};
 
 constexpr std::array<Column<Drop>, 20> kDrops{{

@@ -41,26 +41,65 @@ SurfaceShape surface_shape(FlowMethod method, fem::Elements elements) {
   return elements == fem::Elements::p2_p1 ? SurfaceShape::splined : SurfaceShape::faceted;
 }
 
+/// A case from before there was a choice has the paper's rule and its keys.
+StepControl read_control(Settings& settings) {
+  const bool is_paper = settings.is_given("time.step-factor") ||
+                        settings.is_given("time.step-edges") ||
+                        (settings.is_given("time.scheme") &&
+                         settings.choice("time.scheme", words::time_schemes) == TimeScheme::euler);
+  StepControl suited = kDefaultStepControl;
+  if (is_paper)
+    suited = StepControl::paper;
+  else if (settings.is_given("time.tolerance"))
+    suited = StepControl::error;
+  settings.prefer("time.control", std::string(words::word_for(words::step_controls, suited)));
+  return settings.choice("time.control", words::step_controls);
+}
+
+TimeScheme read_scheme(Settings& settings, StepControl control, FlowMethod method) {
+  TimeScheme suited = TimeScheme::rk2;
+  if (control == StepControl::error)
+    suited = method == FlowMethod::boundary_integral ? TimeScheme::rkc : TimeScheme::semi_implicit;
+  settings.prefer("time.scheme", std::string(words::word_for(words::time_schemes, suited)));
+  const auto scheme = settings.choice("time.scheme", words::time_schemes);
+  if (scheme == TimeScheme::semi_implicit && method == FlowMethod::boundary_integral)
+    settings.reject("time.scheme", "needs solver.method = \"finite-element\"");
+  if (scheme == TimeScheme::euler && control == StepControl::error)
+    settings.reject("time.control",
+                    "needs another scheme than \"euler\", which estimates no error");
+  return scheme;
+}
+
+/// How steps are made, and how long they are.
+void read_steps(Settings& settings, FlowMethod method, EvolutionOptions& options) {
+  options.control = read_control(settings);
+  options.scheme = read_scheme(settings, options.control, method);
+  if (options.control == StepControl::paper) {
+    options.step_factor = settings.number("time.step-factor");
+    options.step_edges = settings.choice("time.step-edges", words::step_edges);
+    options.tolerance = kMostError;
+    options.max_step = settings.number_or("time.max-step", 0.1);
+  } else {
+    options.tolerance = settings.number("time.tolerance");
+    options.max_step = settings.number_or("time.max-step", kDefaultLongestStep);
+  }
+  options.min_step = settings.number("time.min-step");
+  if (options.min_step > options.max_step)
+    settings.reject("time.min-step", "must be at most time.max-step = {} (unit: 1/G)",
+                    options.max_step);
+}
+
 }  // namespace
 
 EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elements elements) {
   EvolutionOptions options;
   options.surface = surface_shape(method, elements);
-  options.scheme = settings.choice("time.scheme", words::time_schemes);
-  if (options.scheme == TimeScheme::semi_implicit && method == FlowMethod::boundary_integral)
-    settings.reject("time.scheme", "needs solver.method = \"finite-element\"");
   if (options.surface != SurfaceShape::faceted)
     settings.prefer("interface.motion-normal",
                     std::string(words::word_for(words::motion_normals, MotionNormal::smooth)));
   options.motion_normal = settings.choice("interface.motion-normal", words::motion_normals);
   options.end = settings.number("time.end");
-  options.step_factor = settings.number("time.step-factor");
-  options.step_edges = settings.choice("time.step-edges", words::step_edges);
-  options.max_step = settings.number("time.max-step");
-  options.min_step = settings.number("time.min-step");
-  if (options.min_step > options.max_step)
-    settings.reject("time.min-step", "must be at most time.max-step = {} (unit: 1/G)",
-                    options.max_step);
+  read_steps(settings, method, options);
   options.follows_drops = settings.choice("domain.frame", words::domain_frames);
   options.remesh_every = settings.whole("interface.remesh-every");
   options.spring_tolerance = settings.number("interface.equilibrium");

@@ -75,7 +75,10 @@ const std::vector<Table> kTables{
     {"interface", false, "How interfaces are represented, moved and remeshed."},
     {"topology", false, "Breakup and coalescence."},
     {"solver", false, "How the flow is solved."},
-    {"time", false, "Time stepping. Steps are never clipped to the end or to output times."},
+    {"time", false,
+     "Time stepping. Steps are never clipped to the end or to output times. A step that fails, or "
+     "that changes the interfaces' energy as the flow does not, is tried again at half its "
+     "length."},
     {"output", false, "What a run writes, and when."},
     {"scale", false,
      "With this table every key that has a unit is given in SI units, coordinates in surface files "
@@ -532,29 +535,46 @@ const std::vector<Key> kKeys{
     {.path = "time.scheme",
      .type = word,
      .words = words::list(words::time_schemes),
-     .value = "rk2"s,
-     .sentence =
-         "Midpoint Runge-Kutta (the paper's eq. 22), explicit Euler (eq. 21), or the midpoint "
-         "rule with surface tension damped so that long steps are stable; the last needs "
-         "finite elements."},
+     .default_note = "\"rk2\"; with control = \"error\" \"semi-implicit\", \"rkc\" with boundary "
+                     "integrals",
+     .sentence = "Midpoint Runge-Kutta (the paper's eq. 22), explicit Euler (eq. 21); the midpoint "
+                 "rule with surface tension damped so that long steps are stable, with finite "
+                 "elements; or Runge-Kutta-Chebyshev: of second order too, with as many solves of "
+                 "the flow, 3 to 24, as make the step stable."},
     {.path = "time.end",
      .dimension = Dimension::time,
      .range = kNotNegative,
      .value = 10.0,
      .sentence = "The run stops at the first step at or past this time."},
+    {.path = "time.control",
+     .type = word,
+     .words = words::list(words::step_controls),
+     .default_note = "\"error\" with tolerance, else \"paper\"",
+     .sentence =
+         "What sets the length of steps: the paper's rule, or an estimate of the error with "
+         "bounds from stability, from the flow along the interface, from the motion of "
+         "vertices and from necks."},
+    {.path = "time.tolerance",
+     .range = {.min = 0.0, .max = 1.0, .open_min = true},
+     .value = kDefaultTolerance,
+     .applies = "with control = \"error\"",
+     .sentence = "Largest estimated error of a step at any vertex, over the shortest edge there. "
+                 "The error at a given time is proportional to it, and far smaller."},
     {.path = "time.step-factor",
      .range = {.min = 0.0, .max = 10.0, .open_min = true},
      .value = 0.5,
+     .applies = "with control = \"paper\"",
      .sentence = "dt = step-factor · min(1, Ca) · (shortest edge): the paper's eq. 27."},
     {.path = "time.step-edges",
      .type = word,
      .words = words::list(words::step_edges),
      .value = "interface"s,
+     .applies = "with control = \"paper\"",
      .sentence = "Where the shortest edge is looked for; mesh is the paper's."},
     {.path = "time.max-step",
      .dimension = Dimension::time,
      .range = kPositive,
-     .value = 0.1,
+     .default_note = "0.1; 1 with control = \"error\"",
      .sentence = "No step is longer."},
     {.path = "time.min-step",
      .dimension = Dimension::time,

@@ -28,6 +28,8 @@ enum class FaultKind {
   added_area,         ///< a cut or a bridge would add area
   unlike_liquids,     ///< drops would merge that must not; no shorter step helps
   no_flow,            ///< the flow problem has no solution
+  wrong_energy,       ///< a step changed the interfaces' energy as the flow does not
+  inaccurate,         ///< a step's estimated error, or its motion, is too large
   no_step,            ///< no time step in its bounds can be taken
   not_converged,      ///< an iteration did not reach its tolerance
   unwanted            ///< refused by the caller's own test

@@ -24,6 +24,34 @@ inline constexpr double kDampedShare = 1.0 - 0.5 * std::numbers::sqrt2;
 /// A shape whose turning moves it along its normals by less than the root of this, relative to the
 /// turning itself, is too round to have a spin: ellipsoids of D below 0.02.
 inline constexpr double kRoundness = 1e-3;
+/// [shortest edge] The tolerance of the error in a step where a case does not set one.
+inline constexpr double kDefaultTolerance = 0.05;
+/// [1/G] The longest step under error control where a case does not set one.
+inline constexpr double kDefaultLongestStep = 1.0;
+/// The next step aims at this fraction of the tolerance: the estimate of a step varies that much
+/// from the last one's, as interfaces are remeshed between them.
+inline constexpr double kAimedShare = 0.6;
+/// Steps grow by no more than this factor.
+inline constexpr double kMostGrowth = 2.0;
+/// [shortest edge] Ways that a step aims at: of a vertex, which the meshes must bear, and of the
+/// shape over the mesh, where an explicit transport by linear differences is stable up to 1.
+inline constexpr double kAimedDisplacement = 0.4, kAimedSlip = 0.7;
+/// [radius] What a step takes from a neck.
+inline constexpr double kAimedNeckLoss = 0.1;
+/// [shortest edge] A step without error control is wrong where its estimated error is larger. With
+/// the paper's factor of ½ it is 0.005, with 2 it is 0.06; short waves that grow make it larger.
+inline constexpr double kMostError = 0.1;
+/// A step is refused where it exceeds what it aimed at by more than this factor.
+inline constexpr double kMostExcess = 2.0;
+/// The largest number of stages of a Runge–Kutta–Chebyshev step.
+inline constexpr int kMostStages = 24;
+/// A run begins, and goes on after an event or a jump of the flow, with this fraction of the
+/// midpoint rule's longest stable step.
+inline constexpr double kFirstShare = 0.5;
+/// The share of tension's gross power that a step's change of energy may be off by.
+inline constexpr double kMostEnergyShare = 0.02;
+/// What round-off may change of the energy, relative to it.
+inline constexpr double kEnergyRoundOff = 1e-10;
 
 inline constexpr std::array kEvolveConstants{
     NamedConstant{"most-shift-over-edge", kMostShiftOverEdge},
@@ -31,6 +59,16 @@ inline constexpr std::array kEvolveConstants{
     NamedConstant{"least-volume-kept", kLeastVolumeKept},
     NamedConstant{"most-volume-kept", kMostVolumeKept},
     NamedConstant{"damped-share", kDampedShare},
-    NamedConstant{"roundness", kRoundness}};
+    NamedConstant{"roundness", kRoundness},
+    NamedConstant{"aimed-share", kAimedShare},
+    NamedConstant{"most-growth", kMostGrowth},
+    NamedConstant{"aimed-displacement", kAimedDisplacement},
+    NamedConstant{"aimed-slip", kAimedSlip},
+    NamedConstant{"aimed-neck-loss", kAimedNeckLoss},
+    NamedConstant{"most-error", kMostError},
+    NamedConstant{"most-excess", kMostExcess},
+    NamedConstant{"most-stages", kMostStages},
+    NamedConstant{"first-share", kFirstShare},
+    NamedConstant{"most-energy-share", kMostEnergyShare}};
 
 }  // namespace meniscus

@@ -7,8 +7,9 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
+#include "meniscus/evolve/energy_check.hpp"
 #include "meniscus/evolve/remesh_interfaces.hpp"
-#include "meniscus/evolve/step_length.hpp"
+#include "meniscus/evolve/stability.hpp"
 #include "meniscus/evolve/step_start.hpp"
 #include "meniscus/evolve/time_schemes.hpp"
 #include "meniscus/evolve/topology_step.hpp"
@@ -84,15 +85,17 @@ Report Evolution::advance() {
   state_.iterations = 0;
   shift_judge_ = {};
   Report report;
-  for (double dt = step_length(); dt >= options_.min_step; dt *= 0.5) {
-    report = try_step(start.scene(), dt);
+  for (StepPlan plan = step_plan(state_, options_); plan.dt >= options_.min_step;
+       plan = shorter_plan(plan, attempt_, options_)) {
+    attempt_ = {};
+    report = try_step(start.scene(), plan.dt);
     if (report.ok()) {
-      accept_step(dt);
+      accept_step(plan);
       return report;
     }
     start.restore(state_);
     if (report.fault->kind == FaultKind::unlike_liquids) return report;
-    give_notice(RefusedStep{state_.step + 1, dt, report.text()});
+    report_refusal(plan.dt, *report.fault);
     if (const FlowSolution again = solve_flow({.t = state_.t}); !again.ok()) return again;
   }
   const Fault last = report.fault.value_or(
@@ -103,19 +106,30 @@ Report Evolution::advance() {
                 last.position}};
 }
 
-void Evolution::accept_step(double dt) {
+void Evolution::report_refusal(double dt, const Fault& fault) {
+  if (attempt_.is_excessive)
+    log::debug("step {} of length {:.3g} is refused: {}", state_.step + 1, dt, fault.text);
+  else
+    give_notice(RefusedStep{state_.step + 1, dt, fault.text});
+}
+
+void Evolution::accept_step(const StepPlan& plan) {
+  const double dt = plan.dt;
   MENISCUS_ASSERT(dt >= options_.min_step && dt <= options_.max_step, "a step of length {:g}", dt);
   if (state_.mesh) widen(state_.field_excess, state_.mesh->field_excess());
   state_.t += dt;
   state_.dt = dt;
+  state_.record = attempt_;
+  state_.record.bound = plan.bound;
   ++state_.step;
 }
 
 /// Table 1 of hooper2001 after the solve at t_k: find the mean motion of the step by the stages of
-/// the scheme, move the whole step with it, remesh.
+/// the scheme, judge it, move the whole step with it, remesh.
 Report Evolution::try_step(const Scene& start, double dt) {
   const StageFlow whole = time_scheme_step(start, dt);
   if (!whole.ok()) return whole;
+  if (Report good = judge_motion(start, whole, dt); !good.ok()) return good;
   return finish_step(start, whole, dt);
 }
 
@@ -130,9 +144,20 @@ StageFlow Evolution::time_scheme_step(const Scene& start, double dt) {
     case TimeScheme::rk2:
       return midpoint_step(first_, step, solve);
     case TimeScheme::semi_implicit:
-      break;
+      return semi_implicit_step(first_, step, solve);
+    case TimeScheme::rkc:
+      return chebyshev_step(first_, step, num_stable_stages(start, dt), solve);
   }
-  return semi_implicit_step(first_, step, solve);
+  return first_;
+}
+
+/// Records how accurate an attempt is and how far it moves vertices. A fault if it goes too far.
+Report Evolution::judge_motion(const Scene& start, const StageFlow& whole, double dt) {
+  if (options_.scheme != TimeScheme::euler) attempt_.error = whole.error;
+  attempt_.travel = vertex_travel(start, whole.motion, whole.flow.velocity, dt);
+  std::optional<Fault> excess = find_excess(attempt_, options_);
+  attempt_.is_excessive = excess && options_.control == StepControl::error;
+  return {std::move(excess)};
 }
 
 /// The flow after the interfaces moved for `duration` from where they were at `start`.
@@ -165,6 +190,7 @@ StageFlow Evolution::flow_at(const Instant& instant) {
   } else {
     stage.motion = normal_motion(normals, stage.normal_speed);
   }
+  stage.surface_rate = surface_energy_rate(state_.scene, stage.motion);
   return stage;
 }
 
@@ -176,7 +202,7 @@ Report Evolution::finish_step(const Scene& start, const StageFlow& whole, double
                   motion.size(), start.interfaces.size());
   state_.events.clear();
   state_.shift_over_edge = 0.0;
-  if (Report moved = move_whole_step(start, motion, dt); !moved.ok()) return moved;
+  if (Report moved = move_whole_step(start, whole, dt); !moved.ok()) return moved;
   if (is_remesh_due()) {
     const Scene moved = scene;
     carry_fields_of_mesh(start, whole.flow, dt);
@@ -191,12 +217,14 @@ Report Evolution::finish_step(const Scene& start, const StageFlow& whole, double
   return move_mesh(start, mean_motion(start, scene, dt), whole.flow, dt);
 }
 
-Report Evolution::move_whole_step(const Scene& start, const InterfaceMotion& motion, double dt) {
+Report Evolution::move_whole_step(const Scene& start, const StageFlow& whole, double dt) {
   const PhaseTimer timer(times_, "move interfaces");
   Scene& scene = state_.scene;
   scene = start;
-  move_interfaces(scene, motion, dt);
+  move_interfaces(scene, whole.motion, dt);
   if (auto fault = find_wild_motion(start, scene)) return {std::move(fault)};
+  if (auto fault = find_energy_fault({start, state_.t, dt}, whole, scene))
+    return {std::move(fault)};
   if (options_.follows_drops)
     translate_interfaces(scene, state_.start_centroid - centroid_of_drops(scene));
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
@@ -227,8 +255,6 @@ Report Evolution::move_mesh(const Scene& start, const InterfaceMotion& motion,
   return state_.mesh->move(start, motion, flow.bulk ? flow.bulk->v : Field<TetVertexId, Vec3>(),
                            dt);
 }
-
-double Evolution::step_length() const { return meniscus::step_length(state_, options_); }
 
 /// Returns false when an interface could not be remeshed.
 bool Evolution::remesh_interfaces() { return remesh_interfaces(all_interfaces(state_.scene)); }

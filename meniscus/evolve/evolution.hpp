@@ -12,6 +12,7 @@
 #include "meniscus/evolve/notices.hpp"
 #include "meniscus/evolve/options.hpp"
 #include "meniscus/evolve/state.hpp"
+#include "meniscus/evolve/step_control.hpp"
 #include "meniscus/evolve/time_schemes.hpp"
 #include "meniscus/evolve/volume_restoration.hpp"
 
@@ -32,7 +33,7 @@ class Evolution {
   /// Solves the flow at t_k (first line of the paper's Table 1).
   Report solve();
   /// Advances from t_k to t_{k+1} (the rest of Table 1). A failed step is undone and retried at
-  /// half its length, down to `min_step`.
+  /// half its length, or as its error asks, down to `min_step`.
   Report advance();
 
   [[nodiscard]] const State& state() const { return state_; }
@@ -53,7 +54,7 @@ class Evolution {
   [[nodiscard]] double seconds_in(const std::string& phase) const;
 
   /// The length with which the next step is tried first.
-  [[nodiscard]] double step_length() const;
+  [[nodiscard]] double step_length() const { return step_plan(state_, options_).dt; }
 
   /// The rows of history.csv and drops.csv after the last solve.
   [[nodiscard]] HistoryRow history_row() const;
@@ -75,8 +76,10 @@ class Evolution {
                         const Instant& instant);
   StageFlow flow_at(const Instant& instant);
   Report finish_step(const Scene& start, const StageFlow& whole, double dt);
-  Report move_whole_step(const Scene& start, const InterfaceMotion& motion, double dt);
-  void accept_step(double dt);
+  Report move_whole_step(const Scene& start, const StageFlow& whole, double dt);
+  Report judge_motion(const Scene& start, const StageFlow& whole, double dt);
+  void report_refusal(double dt, const Fault& fault);
+  void accept_step(const StepPlan& plan);
   void carry_fields_of_mesh(const Scene& start, const FlowSolution& flow, double dt);
   Report follow_interfaces(const RegionSources& sources = {});
   [[nodiscard]] Report move_mesh(const Scene& start, const InterfaceMotion& motion,
@@ -104,6 +107,7 @@ class Evolution {
       0;                      // largest number given so far; undone steps do not free theirs
   StageFlow first_;           // the flow and n n·v at t_k
   mutable PhaseTimes times_;  // times are not part of the state
+  StepRecord attempt_;        // of the attempt at the step from t_k
   ShiftJudge shift_judge_;    // judges the attempts at the step from t_k
   std::vector<Notice> notices_;
   NoticeListener listener_;

@@ -5,6 +5,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/evolve/drop_stress.hpp"
+#include "meniscus/mesh/sphere_radius.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
 #include "meniscus/scene/scene_gap.hpp"
 #include "meniscus/surface/smooth_surface.hpp"
@@ -19,7 +20,7 @@ namespace {
 std::optional<double> thinnest_neck(const Interface& interface, SurfaceShape faces) {
   const SurfaceMesh& mesh = interface.mesh;
   const SurfaceTree tree(mesh);
-  const double sphere = std::cbrt(0.75 * interface.volume / std::numbers::pi);
+  const double sphere = sphere_radius(interface.volume);
   const std::vector<Neck> necks =
       find_necks(mesh, tree, Side::inside, 0.5 * sphere, SurfaceMotion());
   if (necks.empty()) return std::nullopt;
@@ -45,6 +46,10 @@ HistoryRow history_row(const State& state, const FlowSolution& flow, const Inter
   row.step = state.step;
   row.t = state.t;
   row.dt = state.dt;
+  if (state.step > 0) {
+    row.step_error = state.record.error;
+    row.step_bound = state.record.bound;
+  }
   row.drops = static_cast<int>(scene.interfaces.size());
   for (const Interface& interface : scene.interfaces)
     row.surface_nodes += interface.mesh.num_vertices();

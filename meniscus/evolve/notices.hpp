@@ -9,7 +9,8 @@
 
 namespace meniscus {
 
-/// A step that was undone and is retried at half its length.
+/// A step that failed, was undone and is retried shorter. Attempts that error control refuses are
+/// no failures, and no notices.
 struct RefusedStep {
   std::int64_t step = 0;
   double dt = 0.0;

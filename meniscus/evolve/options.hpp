@@ -1,14 +1,16 @@
 #pragma once
 
+#include "meniscus/evolve/constants.hpp"
 #include "meniscus/surface/edge_middles.hpp"
 #include "meniscus/topology/apply_topology.hpp"
 
 namespace meniscus {
 
 enum class TimeScheme {
-  rk2,           ///< eq. 22 of hooper2001
-  euler,         ///< eq. 21
-  semi_implicit  ///< the midpoint rule with damped stages: stable at long steps
+  rk2,            ///< midpoint rule (eq. 22 of hooper2001)
+  euler,          ///< explicit (eq. 21)
+  semi_implicit,  ///< the midpoint rule with damped stages: stable at long steps
+  rkc             ///< Runge–Kutta–Chebyshev of second order (sommeijer1998)
 };
 /// Normal with which an interface vertex moves, ẋ = n n·v (eq. 23): of the area vector A_i (keeps
 /// the faceted volume's rate of change at round-off), of the paraboloid fit (the paper's), or of
@@ -16,12 +18,20 @@ enum class TimeScheme {
 enum class MotionNormal { area_vector, fit, smooth };
 enum class StepEdges { interface, mesh };  ///< where the step rule takes l_min from
 
+/// How the length of a step is chosen: Δt = step_factor · min(1, Ca) · l_min (eq. 27 of
+/// hooper2001), or by the estimate of the step's error and the bounds of `step_control.hpp`.
+enum class StepControl { paper, error };
+/// The control of a case that does not name one.
+inline constexpr StepControl kDefaultStepControl = StepControl::paper;
+
 struct EvolutionOptions {
   TimeScheme scheme = TimeScheme::rk2;
   MotionNormal motion_normal = MotionNormal::area_vector;
   SurfaceShape surface = SurfaceShape::faceted;
-  double end = 1.0;          ///< the run stops at the first step with t ≥ end
-  double step_factor = 0.5;  ///< Δt = step_factor · min(1, Ca) · l_min (eq. 27)
+  double end = 1.0;  ///< the run stops at the first step with t ≥ end
+  StepControl control = kDefaultStepControl;
+  double tolerance = kMostError;  ///< largest estimate of a step's error (`StageFlow::error`)
+  double step_factor = 0.5;       ///< Δt = step_factor · min(1, Ca) · l_min (eq. 27)
   StepEdges step_edges = StepEdges::interface;
   double max_step = 0.1;   ///< upper bound of Δt
   double min_step = 1e-6;  ///< a step that fails at this size ends the run

@@ -7,6 +7,7 @@
 
 #include "meniscus/core/vec.hpp"
 #include "meniscus/evolve/drop_shape.hpp"
+#include "meniscus/evolve/step_control.hpp"
 
 namespace meniscus {
 
@@ -21,7 +22,9 @@ struct HistoryRow {
   int linear_iterations = 0;                    ///< iterations of all solves since the previous row
   std::optional<double> power_in, dissipation;  ///< empty in an unbounded liquid
   double surface_rate = 0.0;
-  std::optional<Mat3> stress;  ///< empty where the matrix is not Newtonian
+  std::optional<Mat3> stress;        ///< empty where the matrix is not Newtonian
+  std::optional<double> step_error;  ///< estimate, of the step that led here [shortest edge]
+  std::optional<StepBound> step_bound;
 
   [[nodiscard]] std::optional<double> power_residual() const {
     if (!power_in || !dissipation) return std::nullopt;

@@ -120,6 +120,27 @@ Field<RegionId, Liquid> load_liquids(const Archive& archive, std::size_t num_int
   return liquids;
 }
 
+void save_record(const StepRecord& record, Archive& archive) {
+  const VertexTravel& travel = record.travel;
+  archive.reals["evolution/step-record"] = {record.error.value_or(-1.0), travel.displacement,
+                                            travel.slip, travel.neck_loss};
+  archive.integers["evolution/step-bound"] = {static_cast<std::int64_t>(record.bound)};
+}
+
+// Checkpoints of versions without step control have no record.
+StepRecord load_record(const Archive& archive) {
+  StepRecord record;
+  if (!archive.reals.contains("evolution/step-record")) return record;
+  const auto& values = entry_of_size(archive.reals, "evolution/step-record", 4);
+  const std::int64_t bound = entry_of_size(archive.integers, "evolution/step-bound", 1)[0];
+  if (bound < 0 || bound > static_cast<std::int64_t>(StepBound::refusal))
+    reject_input("checkpoint entry \"evolution/step-bound\" = {} is no bound of a step", bound);
+  record.bound = static_cast<StepBound>(bound);
+  if (values[0] >= 0.0) record.error = values[0];
+  record.travel = {values[1], values[2], values[3]};
+  return record;
+}
+
 }  // namespace
 
 void set_interface_fields(State& state, std::vector<SurfaceFields> fields) {
@@ -140,6 +161,7 @@ void save(const State& state, Archive& archive) {
                   state.volume_shift.size(), interfaces.size());
   archive.reals["evolution/time"] = {state.t, state.dt};
   archive.integers["evolution/step"] = {state.step, state.iterations};
+  save_record(state.record, archive);
   archive.integers["evolution/interfaces"] = {static_cast<std::int64_t>(interfaces.size())};
   archive.reals["evolution/corrections"] = state.volume_shift;
   archive.integers["evolution/tolerates-shift"] = {state.tolerates_shift ? 1 : 0};
@@ -160,6 +182,7 @@ void load(State& state, const Archive& archive) {
   const auto& step = entry_of_size(archive.integers, "evolution/step", 2);
   state.step = step[0];
   state.iterations = static_cast<int>(step[1]);
+  state.record = load_record(archive);
   const auto count =
       static_cast<std::size_t>(entry_of_size(archive.integers, "evolution/interfaces", 1)[0]);
   state.scene.interfaces.clear();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "meniscus/core/archive.hpp"
+#include "meniscus/evolve/step_control.hpp"
 #include "meniscus/flow/flow_solver.hpp"
 #include "meniscus/topology/events.hpp"
 
@@ -15,6 +16,7 @@ struct State {
   double t = 0.0;
   double dt = 0.0;        ///< [1/G] length of the step that led to t
   std::int64_t step = 0;  ///< number of steps to t
+  StepRecord record;      ///< of the step that led to t
   Scene scene;
   std::optional<MovingMesh> mesh;  ///< none where the flow solver needs none
   /// A number that changes whenever the connectivity of an interface or of the mesh changes.

@@ -2,24 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/evolve/chebyshev.hpp"
 #include "meniscus/evolve/constants.hpp"
+#include "meniscus/evolve/vertex_travel.hpp"
 
 namespace meniscus {
 namespace {
 
-VertexField<double> shortest_edges(const SurfaceMesh& mesh) {
-  VertexField<double> shortest(mesh.num_vertices(), std::numeric_limits<double>::infinity());
-  for (const FaceVertices& face : mesh.faces)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const VertexId a = face[k], b = face[(k + 1) % 3];
-      const double length = (mesh.x[a] - mesh.x[b]).norm();
-      shortest[a] = std::min(shortest[a], length);
-      shortest[b] = std::min(shortest[b], length);
-    }
-  return shortest;
+/// sum ← sum + factor · term.
+void add(InterfaceMotion& sum, double factor, const InterfaceMotion& term) {
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    for (const VertexId v : sum[i].ids()) sum[i][v] += factor * term[i][v];
+}
+
+/// factor · motion.
+InterfaceMotion scaled(double factor, const InterfaceMotion& motion) {
+  InterfaceMotion result = motion;
+  for (VertexField<Vec3>& field : result)
+    for (Vec3& w : field) w *= factor;
+  return result;
+}
+
+/// The stage nearest to the middle of the step; never the first, which is of first order only.
+std::size_t middle_stage(const std::vector<ChebyshevScheme::Stage>& stages) {
+  std::size_t nearest = 1;
+  for (std::size_t j = 2; j + 1 < stages.size(); ++j)
+    if (std::abs(stages[j].c - 0.5) < std::abs(stages[nearest].c - 0.5)) nearest = j;
+  return nearest;
 }
 
 }  // namespace
@@ -50,7 +61,43 @@ StageFlow semi_implicit_step(const StageFlow& first, const Step& step, const Sta
   if (!middle.ok()) return middle;
   middle.motion = mean_motion(step.start, first.shape, middle.shape, step.dt);
   middle.error = step_error(step, middle.normal_speed, start.normal_speed);
+  middle.damps_waves = true;
   return middle;
+}
+
+StageFlow chebyshev_step(const StageFlow& first, const Step& step, int num_stages,
+                         const StageSolver& solve) {
+  const ChebyshevScheme scheme(num_stages);
+  const std::size_t middle = middle_stage(scheme.stages());
+  // Displacements from the start over dt: of the last two stages, and of the middle one.
+  InterfaceMotion before = scaled(0.0, first.motion), now = before, to_middle;
+  StageFlow stage = first;
+  double middle_rate = 0.0;
+  for (std::size_t j = 0; j < scheme.stages().size(); ++j) {
+    const ChebyshevScheme::Stage& c = scheme.stages()[j];
+    InterfaceMotion next = scaled(c.mu, now);
+    add(next, c.nu, before);
+    add(next, c.mu_F, stage.motion);
+    add(next, c.gamma_F, first.motion);
+    before = std::exchange(now, std::move(next));
+    if (j + 1 == scheme.stages().size()) break;
+    stage.motion = scaled(1.0 / c.c, now);
+    stage = solve(stage, c.c * step.dt,
+                  {.t = step.t + c.c * step.dt, .dt = step.dt, .stage = Stage::middle});
+    if (!stage.ok()) return stage;
+    if (j != middle) continue;
+    to_middle = now;
+    middle_rate = stage.surface_rate;
+  }
+  const double c = scheme.stages()[middle].c;
+  const InterfaceNormals normals = interface_normals(step.start, MotionNormal::area_vector);
+  stage.error = step_error(step, normal_speeds(normals, now),
+                           normal_speeds(normals, scaled(1.0 / c, to_middle))) /
+                (1.0 - c);
+  stage.surface_rate = first.surface_rate + (middle_rate - first.surface_rate) / (2.0 * c);
+  stage.motion = std::move(now);
+  stage.damps_waves = true;
+  return stage;
 }
 
 double step_error(const Step& step, const NormalSpeeds& second, const NormalSpeeds& first) {

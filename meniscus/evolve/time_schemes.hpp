@@ -15,6 +15,11 @@ struct StageFlow : Report {
   NormalSpeeds normal_speed = {};  ///< n·v at the vertices
   /// What `motion` is made of; empty where the scheme moves vertices along normals alone.
   ShapeMotion shape = {};
+  /// Σ tension · dS/dt of the triangulations as they move at this stage; of a whole step the mean
+  /// over the step, of the order of the scheme [μ_out G² R0³].
+  double surface_rate = 0.0;
+  /// Whether the scheme damps waves faster than it resolves, so that it is stable at any step.
+  bool damps_waves = false;
   double error = 0.0;  ///< of a whole step: the estimate of `step_error`; 0 where there is none
 };
 
@@ -30,8 +35,10 @@ struct Step {
 using StageSolver =
     std::function<StageFlow(const StageFlow& stage, double duration, const Instant& instant)>;
 
-/// One step: the stage whose motion takes the interfaces from the step's beginning to its end.
-/// `first` is the flow at t.
+// One step: the stage whose motion takes the interfaces from the step's beginning to its end.
+// `first` is the flow at t.
+
+/// Explicit, of first order. There is no estimate.
 [[nodiscard]] StageFlow euler_step(const StageFlow& first);
 /// The midpoint rule (first lines of Table 1 of hooper2001).
 [[nodiscard]] StageFlow midpoint_step(const StageFlow& first, const Step& step,
@@ -40,10 +47,17 @@ using StageSolver =
 /// (docs/time-stepping.md).
 [[nodiscard]] StageFlow semi_implicit_step(const StageFlow& first, const Step& step,
                                            const StageSolver& solve);
+/// Runge–Kutta–Chebyshev with `num_stages` ≥ 3 (chebyshev.hpp). The motion of first order that the
+/// estimate takes is the line through the stage j next to the middle, at c_j of the step: its
+/// difference over 1 − c_j. Short waves, which the stages damp, enter it at no more than a few
+/// times their height.
+[[nodiscard]] StageFlow chebyshev_step(const StageFlow& first, const Step& step, int num_stages,
+                                       const StageSolver& solve);
 
 /// max_v dt |n·v − n·v*| / l_v over all vertices, l_v the shortest edge at the vertex when the step
 /// began: how far a step of second order and one of first order take a vertex apart along its
-/// normal, in edges.
+/// normal, in edges. It is Δt²|n·ẍ|/2 to leading order. The error of the step, of third order, is
+/// smaller; that at a fixed time is proportional to it.
 [[nodiscard]] double step_error(const Step& step, const NormalSpeeds& second,
                                 const NormalSpeeds& first);
 

@@ -1,11 +1,11 @@
 #include "meniscus/solids/remesh_target.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/mesh/sphere_radius.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
@@ -18,16 +18,12 @@ namespace {
 
 using By = RemeshTarget::By;
 
-double equivalent_radius(double volume) {
-  return std::cbrt(3.0 * std::abs(volume) / (4.0 * std::numbers::pi));
-}
-
 /// Scales a surface to an equivalent radius of 1, its middle at the origin.
 struct Scaling {
   Vec3 center;
   double radius;
   explicit Scaling(const SurfaceMesh& mesh)
-      : center(mean_vertex(mesh)), radius(equivalent_radius(enclosed_volume(mesh))) {
+      : center(mean_vertex(mesh)), radius(sphere_radius(enclosed_volume(mesh))) {
     MENISCUS_ASSERT(radius > 0.0, "a surface without volume");
   }
   void apply(SurfaceMesh& mesh) const {

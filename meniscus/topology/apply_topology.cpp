@@ -13,6 +13,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/box_tree.hpp"
+#include "meniscus/mesh/sphere_radius.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/isotropic_remesh.hpp"
@@ -108,7 +109,7 @@ double most_added_area(const Scene& scene, std::span<const std::size_t> parents)
   for (const std::size_t i : parents)
     volume = std::max(volume, enclosed_volume(scene.interfaces[i].mesh));
   MENISCUS_ASSERT(volume > 0.0, "parents of volume {}", volume);
-  const double radius = std::cbrt(0.75 * volume / std::numbers::pi);
+  const double radius = sphere_radius(volume);
   return kMostAddedByEvent * 4.0 * std::numbers::pi * radius * radius;
 }
 

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/mesh/sphere_radius.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
@@ -184,7 +185,7 @@ std::optional<Holes> holes(const Film& film, const std::array<VertexId, 2>& at, 
     enclosed += enclosed_film(film, before, patches[k]);
   }
   const double resolved = std::max(2.0 * options.limit, 4.0 * options.edge_floor);
-  const double radius = std::cbrt(0.75 * enclosed / std::numbers::pi);
+  const double radius = sphere_radius(enclosed);
   if ((limit > 0.0 && radius > resolved) || !are_apart(film, patches)) return std::nullopt;
   return patches;
 }

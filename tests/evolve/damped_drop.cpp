@@ -1,6 +1,7 @@
 #include "tests/evolve/damped_drop.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -90,6 +91,7 @@ Evolution evolution_of(const DampedDrop& drop, double dt) {
   evolution.surface = shape_of(drop.elements);
   evolution.motion_normal = is_quadratic ? MotionNormal::smooth : MotionNormal::area_vector;
   evolution.step_factor = 1e9;  // the bounds decide
+  evolution.tolerance = std::numeric_limits<double>::infinity();
   evolution.max_step = dt;
   evolution.min_step = 0.999 * dt;
   evolution.remesh_every = 1000000;

@@ -8,6 +8,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/boundary_conditions.hpp"
 #include "meniscus/flow/fem/capillary_force.hpp"
+#include "meniscus/flow/fem/constants.hpp"
 #include "meniscus/flow/fem/excess_stress.hpp"
 #include "meniscus/flow/fem/face_elements.hpp"
 #include "meniscus/flow/fem/interpolated_state.hpp"
@@ -15,6 +16,7 @@
 #include "meniscus/flow/fem/stokes_residual.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
 #include "meniscus/flow/fem/vertex_velocity.hpp"
+#include "meniscus/mesh/sphere_radius.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 
 namespace meniscus::fem {
@@ -52,7 +54,8 @@ SurfaceDamping interface_damping(const Scene& scene, const SurfaceNodes& nodes,
                                  const NodePositions& positions, double duration) {
   std::vector<DampedSurface> surfaces;
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
-    surfaces.push_back({nodes.interfaces[i], duration * scene.interfaces[i].tension});
+    surfaces.push_back({nodes.interfaces[i], duration * scene.interfaces[i].tension,
+                        kSphereStiffness / std::pow(sphere_radius(scene.interfaces[i].volume), 2)});
   return surface_damping(surfaces, positions);
 }
 

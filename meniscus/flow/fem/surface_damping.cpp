@@ -6,14 +6,15 @@
 namespace meniscus::fem {
 namespace {
 
-void add_face(const FacePoints& points, std::span<const NodeId> nodes, double strength,
+void add_face(const DampedSurface& surface, const FacePoints& points, std::span<const NodeId> nodes,
               SurfaceDamping& damping) {
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (std::size_t j = 0; j < nodes.size(); ++j) {
       double integral = 0.0;
       for (const FacePoint& point : points)
-        integral += point.area.norm() * point.gradient[i].dot(point.gradient[j]);
-      damping.entries.push_back({nodes[i], nodes[j], strength * integral});
+        integral += point.area.norm() * (point.gradient[i].dot(point.gradient[j]) +
+                                         surface.k * point.value[i] * point.value[j]);
+      damping.entries.push_back({nodes[i], nodes[j], surface.strength * integral});
     }
 }
 
@@ -24,14 +25,14 @@ SurfaceDamping surface_damping(std::span<const DampedSurface> surfaces,
   SurfaceDamping damping{Field<NodeId, Vec3>(positions.x.size(), Vec3::Zero()),
                          Field<NodeId, double>(positions.x.size(), 0.0),
                          {}};
-  for (const auto& [faces, strength] : surfaces)
-    for (const FaceId f : faces.faces()) {
-      const auto nodes = faces.of(f);
+  for (const DampedSurface& surface : surfaces)
+    for (const FaceId f : surface.faces.faces()) {
+      const auto nodes = surface.faces.of(f);
       const FacePoints points = face_points(positions.x, nodes);
       for (const FacePoint& point : points)
         for (std::size_t i = 0; i < nodes.size(); ++i)
           damping.normal[nodes[i]] += point.value[i] * point.value[i] * point.area;
-      if (strength != 0.0) add_face(points, nodes, strength, damping);
+      if (surface.strength != 0.0) add_face(surface, points, nodes, damping);
     }
   for (Vec3& n : damping.normal)
     if (!n.isZero(0.0)) n.normalize();

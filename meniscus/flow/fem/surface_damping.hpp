@@ -8,9 +8,10 @@
 namespace meniscus::fem {
 
 /// A force on the nodes of surfaces that resists a change of their normal speeds n_i·v_i from s_i,
-///   −n_i Σ_j K_ij (n_j·v_j − s_j),   K_ij = Σ_surfaces τσ∫∇_sφ_i·∇_sφ_j dS.
-/// For normal displacements u_i, Σ u_i K_ij u_j/τ is the second variation of σ times the area less
-/// ∫2σκ1κ2u² dS. It is never negative, and zero where u is the same everywhere.
+///   −n_i Σ_j K_ij (n_j·v_j − s_j),   K_ij = Σ_surfaces τσ∫(∇_sφ_i·∇_sφ_j + k φ_iφ_j) dS.
+/// For normal displacements u_i and k = 0, Σ u_i K_ij u_j/τ is the second variation of σ times the
+/// area less ∫2σκ1κ2u² dS. It is never negative; for k = 0 it is zero where u is the same
+/// everywhere.
 struct SurfaceDamping {
   struct Entry {
     NodeId row, column;
@@ -23,10 +24,11 @@ struct SurfaceDamping {
   [[nodiscard]] bool is_none() const { return entries.empty(); }
 };
 
-/// A surface's nodes and its τσ [μ_out R0].
+/// A surface's nodes, its τσ [μ_out R0] and its k [1/R0²].
 struct DampedSurface {
   const FaceNodeTable& faces;
   double strength;
+  double k = 0.0;
 };
 
 /// Damping of all surfaces, s = 0. Normals are those of Σ_faces ∫φ_i² n dS, which weighs the

@@ -24,12 +24,12 @@ struct DampedDrop {
   FaceNodeTable faces;
   SurfaceDamping damping;
 
-  DampedDrop(const Scene& scene, Elements elements) {
+  DampedDrop(const Scene& scene, Elements elements, double k = 0.0) {
     EXPECT_TRUE(tetrahedralize(scene, suited_volume_mesh(elements), mesh).ok());
     space = flow_space(mesh, elements);
     positions = node_positions(scene, mesh, space);
     faces = face_nodes(space, mesh, scene.interfaces[0].mesh, mesh.interfaces[0]);
-    damping = surface_damping(std::vector{DampedSurface{faces, 1.0}}, positions);
+    damping = surface_damping(std::vector{DampedSurface{faces, 1.0, k}}, positions);
   }
   /// K u by node.
   [[nodiscard]] Field<NodeId, double> stiffness_times(const Field<NodeId, double>& u) const {
@@ -100,13 +100,14 @@ TEST_P(SurfaceDampingBy, ResistsARigidMotionUnlessItIsAboutIt) {
   EXPECT_EQ(resistance().second, 0.0);
 }
 
-// ∫|∇_s P_l|² dS = l(l + 1) 4π/(2l + 1) on the unit sphere.
-double energy_error(int num_vertices, Elements elements, int l) {
+// ∫(|∇_s P_l|² + k P_l²) dS = (l(l + 1) + k) 4π/(2l + 1) on the unit sphere.
+double energy_error(int num_vertices, Elements elements, int l, double k) {
   const DampedDrop drop(
-      sphere_in_sphere({.num_vertices = num_vertices, .outer_radius = 3.0, .Ca = 1.0}), elements);
+      sphere_in_sphere({.num_vertices = num_vertices, .outer_radius = 3.0, .Ca = 1.0}), elements,
+      k);
   const Field<NodeId, double> u = drop.on_nodes(
       [&](NodeId i) { return legendre(l, drop.positions.x[i].normalized().x()).value; });
-  const double exact = l * (l + 1) * 4.0 * std::numbers::pi / (2 * l + 1);
+  const double exact = (l * (l + 1) + k) * 4.0 * std::numbers::pi / (2 * l + 1);
   for (const NodeId i : drop.faces.face_nodes)
     EXPECT_NEAR(drop.damping.normal[i].dot(drop.positions.x[i].normalized()), 1.0, 0.01);
   return std::abs(dot(u, drop.stiffness_times(u)) / exact - 1.0);
@@ -114,9 +115,10 @@ double energy_error(int num_vertices, Elements elements, int l) {
 
 // Of second order in h on flat faces, of fourth on quadratic ones; h² ~ 1/N.
 TEST_P(SurfaceDampingBy, ConvergesToTheVariationOfAreaOnASphere) {
-  for (const int l : {2, 4}) {
-    const double coarse = energy_error(200, GetParam(), l), fine = energy_error(800, GetParam(), l);
-    std::printf("l = %d: %.2e %.2e\n", l, coarse, fine);
+  for (const auto& [l, k] : {std::pair(2, 0.0), std::pair(4, 0.0), std::pair(2, 5.0)}) {
+    const double coarse = energy_error(200, GetParam(), l, k),
+                 fine = energy_error(800, GetParam(), l, k);
+    std::printf("l = %d, k = %g: %.2e %.2e\n", l, k, coarse, fine);
     EXPECT_LT(fine, GetParam() == Elements::p1_p1 ? 0.05 : 0.005);
     EXPECT_GT(std::log2(coarse / fine), GetParam() == Elements::p1_p1 ? 1.8 : 3.8);
   }

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+namespace meniscus {
+
+/// The coefficients of the Runge–Kutta–Chebyshev scheme of second order with s ≥ 3 stages
+/// (sommeijer1998, section 2). From y_0, with F_j = f(y_j) at t + c_j Δt:
+///   y_1 = y_0 + μ̃_1 Δt F_0,
+///   y_j = (1 − μ_j − ν_j) y_0 + μ_j y_{j−1} + ν_j y_{j−2} + Δt (μ̃_j F_{j−1} + γ̃_j F_0).
+/// On y' = −r y the end is y_s = P(−rΔt) y_0 with
+///   P(z) = a_s + b_s T_s(w0 + w1 z),
+/// |P| < 1 on the interval of stability, two thirds for short waves.
+class ChebyshevScheme {
+ public:
+  struct Stage {
+    double mu = 0.0, nu = 0.0, mu_F = 0.0, gamma_F = 0.0;
+    double c = 0.0;  ///< place of the stage in the step
+  };
+
+  explicit ChebyshevScheme(int num_stages);
+
+  /// The stages from y_1 to y_s.
+  [[nodiscard]] const std::vector<Stage>& stages() const { return stages_; }
+  /// P(z), from its closed form.
+  [[nodiscard]] double stability_polynomial(double z) const;
+
+  /// β(s): |P(z)| ≤ 1 for −β ≤ z ≤ 0.
+  [[nodiscard]] static double stability_interval(int num_stages);
+  /// The fewest stages, 3 or more, whose interval is at least this long.
+  [[nodiscard]] static int num_stages_for(double interval);
+
+ private:
+  std::vector<Stage> stages_;
+  double w0_ = 0.0, w1_ = 0.0, a_ = 0.0, b_ = 0.0;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,77 @@
+#include "meniscus/evolve/energy_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "meniscus/evolve/constants.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+
+namespace meniscus {
+namespace {
+
+/// Σ tension Σ_v |ẋ · ∂S/∂x_v|: the gross power of tension.
+double gross_power(const Scene& scene, const InterfaceMotion& motion) {
+  double power = 0.0;
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+    const VertexField<Vec3> gradient = area_gradient(scene.interfaces[i].mesh);
+    for (const VertexId v : gradient.ids())
+      power += scene.interfaces[i].tension * std::abs(gradient[v].dot(motion[i][v]));
+  }
+  return power;
+}
+
+bool has_moving_wall(const Scene& scene, double t) {
+  const OuterBoundary& boundary = scene.boundary;
+  if (boundary.patches.size() == 0) return false;
+  for (const FaceId f : boundary.mesh.faces.ids()) {
+    const auto* imposed =
+        std::get_if<ImposedVelocity>(&boundary.patches[boundary.patch[f]].condition);
+    if (imposed == nullptr) continue;
+    for (const VertexId v : boundary.mesh.faces[f])
+      if (!imposed->velocity(boundary.mesh.x[v], t).isZero(0.0)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+double interface_energy(const Scene& scene) {
+  double energy = 0.0;
+  for (const Interface& interface : scene.interfaces)
+    energy += interface.tension * surface_area(interface.mesh);
+  return energy;
+}
+
+bool is_driven(const Scene& scene, double t, double dt) {
+  if (std::ranges::any_of(scene.liquids,
+                          [](const Liquid& liquid) { return !liquid.body_force.isZero(0.0); }))
+    return true;
+  if (scene.is_unbounded)
+    return !scene.flow.gradient(t).isZero(0.0) || !scene.flow.gradient(t + dt).isZero(0.0);
+  return has_open_patch(scene) || has_moving_wall(scene, t) || has_moving_wall(scene, t + dt);
+}
+
+std::optional<Fault> find_energy_fault(const Step& step, const StageFlow& whole, const Scene& end) {
+  const double before = interface_energy(step.start), gain = interface_energy(end) - before,
+               predicted = step.dt * whole.surface_rate,
+               allowed = kMostEnergyShare * step.dt * gross_power(step.start, whole.motion) +
+                         kEnergyRoundOff * before;
+  const bool is_driven = meniscus::is_driven(step.start, step.t, step.dt);
+  if (!is_driven && gain > allowed)
+    return Fault{FaultKind::wrong_energy,
+                 fmt::format("the interfaces' energy rises by {:.3g} of itself, though nothing "
+                             "drives the flow",
+                             gain / before)};
+  const bool is_too_high = gain > std::max(0.0, predicted) + allowed,
+             is_off = !whole.damps_waves && std::abs(gain - predicted) > allowed;
+  if (is_too_high || is_off || !std::isfinite(gain))
+    return Fault{FaultKind::wrong_energy,
+                 fmt::format("the interfaces' energy changes by {:.3g} of itself, where the flow "
+                             "gives {:.3g}",
+                             gain / before, predicted / before)};
+  return {};
+}
+
+}  // namespace meniscus

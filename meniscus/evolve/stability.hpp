@@ -1,0 +1,24 @@
+#pragma once
+
+#include "meniscus/evolve/options.hpp"
+#include "meniscus/scene/scene.hpp"
+
+namespace meniscus {
+
+/// The fastest rate at which tension smooths a wave that the interfaces' vertices can show [G].
+/// A wave of wave number k decays at σk/(2(μ_in + μ_out)), and a triangulation of edge h shows
+/// k ≤ √6/h: the largest √6 σ/(2 (μ_in + μ_out) h) of all vertices, h the mean edge at the vertex.
+/// By power iteration the fastest wave of boundary integrals has 0.66 to 0.74 of it
+/// (tests/evolve/stability_test.cpp), which is the margin of the steps below.
+/// The viscosities are those of the liquids at rest: thinning liquids flow faster.
+[[nodiscard]] double capillary_rate(const Scene& scene);
+
+/// The longest step of a scheme for which no such wave grows; infinite where
+/// nothing has tension [1/G].
+[[nodiscard]] double longest_stable_step(const Scene& scene, TimeScheme scheme);
+
+/// The stages of a Runge–Kutta–Chebyshev step of length dt that stability takes, no more than
+/// `kMostStages`.
+[[nodiscard]] int num_stable_stages(const Scene& scene, double dt);
+
+}  // namespace meniscus

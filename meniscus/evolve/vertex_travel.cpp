@@ -1,0 +1,65 @@
+#include "meniscus/evolve/vertex_travel.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/mesh/rigid_motion.hpp"
+#include "meniscus/surface/curvature.hpp"
+
+namespace meniscus {
+namespace {
+
+/// A neck is where the surface bends this much less along than around it. A sphere has 1, a
+/// cylinder 0, the waist of a catenoid −1.
+constexpr double kMostAxialBend = 0.25;
+
+/// Largest fraction of its radius that a neck loses.
+double neck_loss(const SurfaceMesh& mesh, const VertexField<Vec3>& w, double dt) {
+  const VertexField<VertexCurvature> curvature = fitted_curvature(mesh, SurfaceTopology(mesh));
+  double loss = 0.0;
+  for (const VertexId v : w.ids()) {
+    const VertexCurvature& at = curvature[v];
+    if (at.k1 <= 0.0 || at.k2 > kMostAxialBend * at.k1) continue;
+    loss = std::max(loss, -at.n.dot(w[v]) * at.k1 * dt);
+  }
+  return loss;
+}
+
+}  // namespace
+
+VertexField<double> shortest_edges(const SurfaceMesh& mesh) {
+  VertexField<double> shortest(mesh.num_vertices(), std::numeric_limits<double>::infinity());
+  for (const FaceVertices& v : mesh.faces)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId a = v[k], b = v[(k + 1) % 3];
+      const double length = (mesh.x[a] - mesh.x[b]).norm();
+      shortest[a] = std::min(shortest[a], length);
+      shortest[b] = std::min(shortest[b], length);
+    }
+  return shortest;
+}
+
+VertexTravel vertex_travel(const Scene& start, const InterfaceMotion& motion,
+                           std::span<const VertexField<Vec3>> velocity, double dt) {
+  MENISCUS_ASSERT(motion.size() == start.interfaces.size() && velocity.size() == motion.size(),
+                  "{} motions and {} velocities of {} interfaces", motion.size(), velocity.size(),
+                  start.interfaces.size());
+  VertexTravel travel;
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const SurfaceMesh& mesh = start.interfaces[i].mesh;
+    const VertexField<Vec3>& w = motion[i];
+    const VertexField<double> edge = shortest_edges(mesh);
+    const RigidMotion rigid =
+        RigidProjection(mesh)([&](VertexId v) -> const Vec3& { return w[v]; });
+    for (const VertexId v : edge.ids()) {
+      const Vec3 rest = w[v] - rigid.at(mesh.x[v]);
+      travel.displacement = std::max(travel.displacement, rest.norm() * dt / edge[v]);
+      travel.slip = std::max(travel.slip, (velocity[i][v] - w[v]).norm() * dt / edge[v]);
+    }
+    travel.neck_loss = std::max(travel.neck_loss, neck_loss(mesh, w, dt));
+  }
+  return travel;
+}
+
+}  // namespace meniscus

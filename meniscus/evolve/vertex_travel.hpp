@@ -1,0 +1,25 @@
+#pragma once
+
+#include "meniscus/evolve/interface_motion.hpp"
+
+namespace meniscus {
+
+/// Length of the shortest edge at each vertex [R0].
+[[nodiscard]] VertexField<double> shortest_edges(const SurfaceMesh& mesh);
+
+/// How far a step moves vertices, each the largest of all vertices.
+struct VertexTravel {
+  /// Way of a vertex beyond its interface's mean rigid motion, in shortest edges at the vertex.
+  double displacement = 0.0;
+  /// Way of the liquid relative to the vertex, in shortest edges: the shape slides over the mesh.
+  double slip = 0.0;
+  /// Way inwards at a neck, in radii of the neck.
+  double neck_loss = 0.0;
+};
+
+/// The travel of a step of length dt from `start`. `velocity` is that of the liquid at the
+/// vertices.
+[[nodiscard]] VertexTravel vertex_travel(const Scene& start, const InterfaceMotion& motion,
+                                         std::span<const VertexField<Vec3>> velocity, double dt);
+
+}  // namespace meniscus
