@@ -37,7 +37,7 @@ class Simulation {
   /// The run's folder. Rank 0 only.
   [[nodiscard]] const RunDirectory& directory() const {
     MENISCUS_ASSERT(directory_, "a rank without the run's folder");
-    return *directory_;  // NOLINT(bugprone-unchecked-optional-access): asserted
+    return *directory_;
   }
   /// Seconds by phase since this process began to simulate.
   [[nodiscard]] PhaseSeconds seconds() const;

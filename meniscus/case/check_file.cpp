@@ -36,7 +36,7 @@ class Reader {
   [[nodiscard]] std::optional<T> find(std::string_view key, const char* kind) const {
     const toml::node* node = table_.get(key);
     if (node == nullptr) return std::nullopt;
-    const std::optional<T> value = node->value<T>();
+    std::optional<T> value = node->value<T>();
     if (!value) reject(*node, "{}: {} is wanted", key, kind);
     return value;
   }

@@ -87,7 +87,7 @@ std::optional<std::string> Settings::word_or_vector(const std::string& path) {
 std::filesystem::path Settings::file(const std::string& path) {
   const std::filesystem::path given = text(path);
   const bool from_here = document_.values.at(path).is_override;
-  const std::filesystem::path full = from_here ? given : document_.folder / given;
+  std::filesystem::path full = from_here ? given : document_.folder / given;
   // run.json has the absolute path, so that it can be read back from any folder.
   used_[path] = std::filesystem::absolute(full).lexically_normal().string();
   return full;

@@ -103,7 +103,7 @@ void load_laws(const Archive& archive, Field<RegionId, Liquid>& liquids) {
   const auto count = static_cast<std::size_t>(liquids.size());
   const auto& values = entry_of_size(archive.reals, "evolution/liquid-laws", 5 * count);
   for (const RegionId region : liquids.ids()) {
-    const double* row = values.data() + 5 * region.value;
+    const double* row = values.data() + std::ptrdiff_t{5} * region.value;
     ViscosityLaw& law = liquids[region].law;
     if (row[0] == 1.0) law = CarreauYasuda{row[1], row[2], row[3], row[4]};
     if (row[0] == 2.0) law = PowerLaw{row[1], row[2], row[3]};

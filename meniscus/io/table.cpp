@@ -132,12 +132,13 @@ std::string rows_before(const fs::path& path, const std::vector<std::string>& co
 
 }  // namespace
 
-TableWriter::TableWriter(fs::path path, std::vector<std::string> columns)
+TableWriter::TableWriter(fs::path path, const std::vector<std::string>& columns)
     : path_(std::move(path)), num_columns_(columns.size()), file_(path_, std::ios::binary) {
   append(header_line(columns));
 }
 
-TableWriter::TableWriter(fs::path path, std::vector<std::string> columns, std::int64_t first_step)
+TableWriter::TableWriter(fs::path path, const std::vector<std::string>& columns,
+                         std::int64_t first_step)
     : path_(std::move(path)), num_columns_(columns.size()) {
   write_file(path_, rows_before(path_, columns, first_step));
   file_.open(path_, std::ios::binary | std::ios::app);

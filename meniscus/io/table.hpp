@@ -19,11 +19,11 @@ using Cell = std::variant<std::monostate, std::int64_t, double, std::string>;
 class TableWriter {
  public:
   /// Starts a new file with its header line. Throws RunFailure when the disk refuses.
-  TableWriter(std::filesystem::path path, std::vector<std::string> columns);
+  TableWriter(std::filesystem::path path, const std::vector<std::string>& columns);
   /// Goes on with an existing file whose rows from the first one with `step` ≥ `first_step` on are
   /// dropped, and with them a last line cut short by a crash. Throws InvalidInput if the header
   /// differs, is without `step`, or a row is not ours.
-  TableWriter(std::filesystem::path path, std::vector<std::string> columns,
+  TableWriter(std::filesystem::path path, const std::vector<std::string>& columns,
               std::int64_t first_step);
 
   /// Throws RunFailure when the disk refuses the row; the file ends with the row before then.

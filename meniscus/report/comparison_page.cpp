@@ -113,6 +113,7 @@ std::string differences_html(const RunData& first, const RunData& run,
 /// The shapes at equal times, one row of pictures per run.
 std::string shapes_html(std::span<RunData> runs, std::span<const std::string> names, double end) {
   std::vector<double> times;
+  times.reserve(num_times);
   for (int k = 0; k < num_times; ++k) times.push_back(end * k / (num_times - 1));
   std::vector<std::vector<SurfaceFrame>> frames;
   std::vector<SurfaceFrame> all;

@@ -96,7 +96,7 @@ Plot overlaid_plot(const PlotSpec& spec, std::span<const RunData> runs,
   return plot;
 }
 
-std::vector<PlotGroup> plot_groups(std::vector<std::pair<std::string, Plot>> plots) {
+std::vector<PlotGroup> plot_groups(std::span<std::pair<std::string, Plot>> plots) {
   std::vector<PlotGroup> groups;
   for (auto& [group, plot] : plots) {
     if (!is_drawable(plot)) continue;
@@ -121,7 +121,7 @@ std::vector<PlotGroup> history_plots(const RunData& run) {
   std::vector<std::pair<std::string, Plot>> plots;
   for (const PlotSpec& spec : plot_catalogue())
     plots.emplace_back(spec.group, history_plot(spec, run));
-  return plot_groups(std::move(plots));
+  return plot_groups(plots);
 }
 
 std::vector<PlotGroup> overlaid_plots(std::span<const RunData> runs,
@@ -130,7 +130,7 @@ std::vector<PlotGroup> overlaid_plots(std::span<const RunData> runs,
   for (const PlotSpec& spec : plot_catalogue()) {
     plots.emplace_back(spec.group, overlaid_plot(spec, runs, names));
   }
-  return plot_groups(std::move(plots));
+  return plot_groups(plots);
 }
 
 }  // namespace meniscus::report

@@ -65,6 +65,7 @@ std::vector<T> values_in_order(const Field<VertexId, T>& values,
   MENISCUS_ASSERT(values.size() == static_cast<std::int32_t>(order.size()),
                   "{} values in an order of {}", values.size(), order.size());
   std::vector<T> result;
+  result.reserve(order.size());
   for (const VertexId v : order) result.push_back(values[v]);
   return result;
 }

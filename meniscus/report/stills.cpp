@@ -35,7 +35,9 @@ std::string draw_frames(const std::vector<SurfaceFrame>& frames, const View& vie
   std::string content;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const double x = frame_width * static_cast<double>(i % num_columns);
-    const double y = (view.height + caption_height) * static_cast<double>(i / num_columns);
+    const double y =
+        (view.height + caption_height) *
+        static_cast<double>(i / num_columns);  // NOLINT(bugprone-integer-division): a row
     content += translated_group(draw_surface(frames[i], view, range), x, y);
     content += caption(frames[i].t, x + 0.5 * frame_width, y + view.height + 12.0);
   }

@@ -26,6 +26,13 @@ struct Bounds {
   Vec3 low, high;
 };
 
+std::vector<Bounds> bounds_of(const Scene& scene) {
+  std::vector<Bounds> bounds;
+  bounds.reserve(scene.interfaces.size());
+  for (const Interface& interface : scene.interfaces) bounds.emplace_back(interface.mesh);
+  return bounds;
+}
+
 std::optional<Fault> find_not_finite(const Scene& scene) {
   for (const Interface& interface : scene.interfaces)
     if (interface.mesh.num_faces() == 0 || !is_finite(interface.mesh))
@@ -132,8 +139,7 @@ bool has_open_patch(const Scene& scene) {
 }
 
 void assign_regions(Scene& scene) {
-  std::vector<Bounds> bounds;
-  for (const Interface& interface : scene.interfaces) bounds.emplace_back(interface.mesh);
+  const std::vector<Bounds> bounds = bounds_of(scene);
   const std::vector<RegionId> surrounding = surrounding_regions(scene, bounds);
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
     scene.interfaces[i].inside = region_within(i);
@@ -143,8 +149,7 @@ void assign_regions(Scene& scene) {
 
 std::optional<Fault> find_conflict(const Scene& scene) {
   if (auto fault = find_not_finite(scene)) return fault;
-  std::vector<Bounds> bounds;
-  for (const Interface& interface : scene.interfaces) bounds.emplace_back(interface.mesh);
+  const std::vector<Bounds> bounds = bounds_of(scene);
   if (auto fault = find_touching(scene, bounds)) return fault;
   if (auto fault = find_outside(scene)) return fault;
   return find_wrong_nesting(scene, bounds);

@@ -16,6 +16,7 @@ constexpr double kRoundOff = 1.0 + 1e-12;
 
 std::vector<const SurfaceMesh*> surfaces_of(const Scene& scene) {
   std::vector<const SurfaceMesh*> surfaces;
+  surfaces.reserve(scene.interfaces.size() + 1);
   for (const Interface& interface : scene.interfaces) surfaces.push_back(&interface.mesh);
   if (!scene.is_unbounded) surfaces.push_back(&scene.boundary.mesh);
   return surfaces;

@@ -92,7 +92,7 @@ std::vector<Vec3> straight_middles(const SurfaceMesh& mesh, const SurfaceTopolog
   std::vector<Vec3> middles;
   middles.reserve(topology.edges().size());
   for (const SurfaceEdge& edge : topology.edges())
-    middles.push_back(0.5 * (mesh.x[edge.a] + mesh.x[edge.b]));
+    middles.emplace_back(0.5 * (mesh.x[edge.a] + mesh.x[edge.b]));
   return middles;
 }
 
@@ -149,7 +149,7 @@ std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh, const SurfaceTopol
     const double z = height_of_level(interpolated_level(frame, points), frame.half_sum);
     const Vec3 lift = frame.axes.x + z * frame.axes.n - 0.5 * (mesh.x[edge.a] + mesh.x[edge.b]);
     const double limit = kHighestMiddle * (mesh.x[edge.b] - mesh.x[edge.a]).norm();
-    middles.push_back(frame.axes.x + trust(lift.norm(), limit) * z * frame.axes.n);
+    middles.emplace_back(frame.axes.x + trust(lift.norm(), limit) * z * frame.axes.n);
   }
   return middles;
 }

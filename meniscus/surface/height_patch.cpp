@@ -123,7 +123,7 @@ void unroll(std::span<const Vec3> points, const HeightPatch& frame, std::vector<
     const Vec3 d = p - frame.x;
     const double z = d.dot(frame.n);
     const Vec3 flat = d - z * frame.n;
-    unrolled.push_back(frame.x + d.norm() / flat.norm() * flat + z * frame.n);
+    unrolled.emplace_back(frame.x + d.norm() / flat.norm() * flat + z * frame.n);
   }
 }
 

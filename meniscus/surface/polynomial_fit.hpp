@@ -58,7 +58,7 @@ class PolynomialFit {
 
   /// Takes in a point. Returns w m, which its value multiplies in the right side.
   Monomials add(const Monomials& m, double weight) {
-    const Monomials weighted = weight * m;
+    Monomials weighted = weight * m;
     // The lower triangle, in loops of constant bounds.
     for (int j = 0; j < Terms; ++j)
       for (int i = j; i < Terms; ++i) normal_(i, j) += m[j] * weighted[i];

@@ -245,6 +245,7 @@ std::span<const Gap> GapSearch::gaps_of(const Interface& a, const Interface& b) 
 
 std::vector<Gap> GapSearch::gaps(const Scene& scene) {
   std::vector<Box> bounds;
+  bounds.reserve(scene.interfaces.size());
   for (const Interface& interface : scene.interfaces) bounds.push_back(surface_of(interface).box());
   const BoxTree boxes(bounds);
   std::vector<Gap> gaps;

@@ -230,6 +230,7 @@ RegionSources region_sources(const Scene& scene, const Scene& after,
 std::optional<Fault> replace_interfaces(Scene& scene, InterfaceReplacement replacement,
                                         TopologyEvent& event) {
   std::vector<Interface> parents;
+  parents.reserve(replacement.parents.size());
   for (const std::size_t i : replacement.parents) parents.push_back(scene.interfaces[i]);
   const LiquidVolume volume = liquid_volume(scene, replacement.parents);
   std::vector<Child> children = children_of(scene, replacement);

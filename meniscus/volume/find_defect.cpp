@@ -140,7 +140,8 @@ std::optional<Fault> find_wrong_facet(const TetMesh& mesh, const FacetTable& fac
   };
   if (facets.overlapping().is_valid()) return fault(facets.overlapping(), "overlaps another cell");
   std::int64_t open = scene.boundary.mesh.num_faces(), between = 0;
-  for (const Interface& interface : scene.interfaces) between += 2 * interface.mesh.num_faces();
+  for (const Interface& interface : scene.interfaces)
+    between += std::int64_t{2} * interface.mesh.num_faces();
   for (const CellId c : mesh.cells.ids())
     for (const CellId next : facets.neighbours(c)) {
       if (!next.is_valid() && --open < 0) return fault(c, "has a facet open to nothing");

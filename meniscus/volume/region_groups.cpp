@@ -9,6 +9,8 @@
 namespace meniscus {
 namespace {
 
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
 std::int32_t num_regions(const TetMesh& mesh) {
   std::int32_t most = -1;
   for (const RegionId r : mesh.region) most = std::max(most, r.value);
@@ -35,7 +37,7 @@ std::vector<std::size_t> joined_regions(std::int32_t num_old, std::int32_t num_n
         reject_input("region {} takes the fields of region {}, of {} there are", r, o.value,
                      num_old);
       const std::size_t a = find_root(parent, static_cast<std::size_t>(o.value));
-      parent[find_root(parent, static_cast<std::size_t>(num_old + r))] = a;
+      parent[find_root(parent, at(num_old) + at(r))] = a;
     }
   }
   return parent;
@@ -52,7 +54,7 @@ RegionGroups group_regions(const TetMesh& before, const TetMesh& after,
   std::vector<std::int32_t> number(parent.size(), -1);
   RegionGroups groups;
   for (std::int32_t r = 0; r < num_new; ++r) {
-    std::int32_t& n = number[find_root(parent, static_cast<std::size_t>(num_old + r))];
+    std::int32_t& n = number[find_root(parent, at(num_old) + at(r))];
     if (n < 0) n = groups.num_groups++;
   }
   for (const RegionId r : before.region) {
@@ -61,7 +63,7 @@ RegionGroups group_regions(const TetMesh& before, const TetMesh& after,
     groups.before.add(n);
   }
   for (const RegionId r : after.region)
-    groups.after.add(number[find_root(parent, static_cast<std::size_t>(num_old + r.value))]);
+    groups.after.add(number[find_root(parent, at(num_old) + at(r.value))]);
   return groups;
 }
 

@@ -130,7 +130,7 @@ VolumeMoments tet_overlap(const HalfSpaceTet& a, const HalfSpaceTet& b) {
 }
 
 TetPoint closest_point(const TetCorners& tet, const Vec3& p) {
-  const TetPoint inside{p, barycentric_coordinates(tet, p)};
+  TetPoint inside{p, barycentric_coordinates(tet, p)};
   if (std::ranges::min(inside.weights) >= 0.0) return inside;
   TetPoint nearest;
   double least = std::numeric_limits<double>::infinity();

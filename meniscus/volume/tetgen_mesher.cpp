@@ -155,10 +155,11 @@ void run_phases(tetgenmesh& mesh, tetgenio& out) {
 
 void read_output(const tetgenio& out, MesherResult& result) {
   result.x.reserve(out.numberofpoints);
-  for (int i = 0; i < out.numberofpoints; ++i) result.x.add(position(out.pointlist + 3 * i));
+  for (int i = 0; i < out.numberofpoints; ++i)
+    result.x.add(position(out.pointlist + std::ptrdiff_t{3} * i));
   result.cells.reserve(out.numberoftetrahedra);
   for (int c = 0; c < out.numberoftetrahedra; ++c) {
-    const int* v = out.tetrahedronlist + c * out.numberofcorners;
+    const int* v = out.tetrahedronlist + std::ptrdiff_t{c} * out.numberofcorners;
     result.cells.add({TetVertexId{v[0]}, TetVertexId{v[1]}, TetVertexId{v[2]}, TetVertexId{v[3]}});
   }
 }

@@ -36,6 +36,7 @@ std::vector<double> traction_jump(const Scene& scene, const BoundaryGeometry& ge
 
 std::vector<bool> nonzero(const std::vector<double>& values) {
   std::vector<bool> result;
+  result.reserve(values.size());
   for (const double value : values) result.push_back(value != 0.0);
   return result;
 }
@@ -167,8 +168,7 @@ std::vector<std::size_t> IntegralEquation::outermost_first() const {
 std::vector<VertexField<Vec3>> IntegralEquation::velocity(std::span<const double> w) const {
   const std::vector<RigidMotion> rigid = rigid_parts(w);
   std::vector<VertexField<Vec3>> u(rigid.size());
-  std::vector<RigidMotion> around;  // P_m w + R_m is P_m u
-  for (std::size_t m = 0; m < rigid.size(); ++m) around.push_back(rigid[m]);
+  std::vector<RigidMotion> around(rigid.begin(), rigid.end());  // P_m w + R_m is P_m u
   for (const std::size_t k : outermost_first()) {
     const InterfaceElements& elements = geometry_.surfaces[k].elements;
     const Contrast& contrast = contrast_[k];

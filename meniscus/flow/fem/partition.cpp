@@ -111,6 +111,7 @@ LinearFunctions local_linear_functions(const FlowSpace& space, const LocalItems&
 
 std::vector<std::int32_t> velocity_counts(const std::vector<std::int32_t>& counts) {
   std::vector<std::int32_t> result;
+  result.reserve(counts.size());
   for (const std::int32_t count : counts) result.push_back(3 * count);
   return result;
 }

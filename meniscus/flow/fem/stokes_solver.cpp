@@ -41,7 +41,8 @@ void add_cost(StokesReport& report, const linear::LinearReport& linear_report) {
 std::vector<double> right_hand_side(const StokesResidual& residual, const StokesProblem& problem) {
   const OwnedCounts owned = owned_counts(problem);
   std::vector<double> values;
-  values.reserve(static_cast<std::size_t>(3 * owned.num_nodes + owned.num_pressures));
+  values.reserve(3 * static_cast<std::size_t>(owned.num_nodes) +
+                 static_cast<std::size_t>(owned.num_pressures));
   for (const NodeId i : ids<NodeId>(owned.num_nodes)) {
     const Vec3& r = residual.momentum[i];
     values.insert(values.end(), {-r[0], -r[1], -r[2]});
@@ -198,7 +199,8 @@ StokesReport StokesSolver::solve_with(LinearSolver which, const StokesProblem& p
   report.reference = reference;
   const double target = options_.rtol * reference;
   const OwnedCounts owned = owned_counts(problem);
-  std::vector<double> step(static_cast<std::size_t>(3 * owned.num_nodes + owned.num_pressures));
+  std::vector<double> step(3 * static_cast<std::size_t>(owned.num_nodes) +
+                           static_cast<std::size_t>(owned.num_pressures));
   for (; report.newton_steps <= most_newton_steps; ++report.newton_steps) {
     const StokesResidual now = residual(problem, state);
     report.residual = free_norm(now, problem);

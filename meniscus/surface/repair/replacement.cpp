@@ -21,7 +21,7 @@ std::optional<Replacement> replacement_by(const Remedy& remedy, const SurfaceMes
 }  // namespace
 
 std::optional<Replacement> sound_replacement(const SurfaceMesh& mesh, const SurfaceFields& fields,
-                                             SurfaceMesh shape, double volume) {
+                                             const SurfaceMesh& shape, double volume) {
   MENISCUS_ASSERT(volume >= 0.0, "volume = {}", volume);
   SurfaceMesh restored = shape;
   if (volume > 0.0) restore_volume(restored, volume);

@@ -19,7 +19,7 @@ struct Replacement {
 /// of the surface. None where it is unsound (`find_defect`).
 [[nodiscard]] std::optional<Replacement> sound_replacement(const SurfaceMesh& mesh,
                                                            const SurfaceFields& fields,
-                                                           SurfaceMesh shape, double volume);
+                                                           const SurfaceMesh& shape, double volume);
 
 /// One way to replace a surface that cannot be remeshed.
 struct Remedy {
