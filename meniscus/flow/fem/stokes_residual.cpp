@@ -49,6 +49,26 @@ void add_residual(const StokesProblem& problem, const StokesState& state, Elemen
 }
 
 template <class Element>
+void subtract_body_force(const StokesProblem& problem, Element& element, StokesResidual& result) {
+  for (const CellId c : problem.mesh.cells.ids()) {
+    const Vec3& f = problem.body_force[c];
+    if (f.isZero(0.0)) continue;
+    const auto nodes = problem.space.velocity.of(c);
+    for (const auto& point : element.points(c))
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        result.momentum[NodeId{nodes[i]}] -= point.weight * point.value[i] * f;
+  }
+}
+
+/// The components of vectors, side by side.
+std::span<const double> numbers(const Field<NodeId, Vec3>& vectors) {
+  return {vectors.span().front().data(), 3 * vectors.span().size()};
+}
+std::span<double> numbers(Field<NodeId, Vec3>& vectors) {
+  return {vectors.span().front().data(), 3 * vectors.span().size()};
+}
+
+template <class Element>
 void add_cell_power(const StokesProblem& problem, const StokesState& state, Element& element,
                     StokesPower& power) {
   for (const CellId c : ids<CellId>(owned_counts(problem).num_cells)) {
@@ -68,17 +88,25 @@ void add_cell_power(const StokesProblem& problem, const StokesState& state, Elem
 
 }  // namespace
 
-StokesResidual undamped_residual(const StokesProblem& problem, const StokesState& state) {
+StokesResidual undamped_residual(const StokesProblem& problem, const StokesState& state,
+                                 const StokesProduct* product) {
   StokesResidual result{Field<NodeId, Vec3>(problem.force.size(), Vec3::Zero()),
                         std::vector<double>(state.p.size(), 0.0)};
-  with_element(problem.space, problem.positions,
-               [&](auto& element) { add_residual(problem, state, element, result); });
+  with_element(problem.space, problem.positions, [&](auto& element) {
+    if (product == nullptr)
+      add_residual(problem, state, element, result);
+    else
+      subtract_body_force(problem, element, result);
+  });
+  if (product != nullptr)
+    product->add(numbers(state.v), state.p, numbers(result.momentum), result.continuity);
   for (const NodeId i : problem.force.ids()) result.momentum[i] -= problem.force[i];
   return result;
 }
 
-StokesResidual residual(const StokesProblem& problem, const StokesState& state) {
-  StokesResidual result = undamped_residual(problem, state);
+StokesResidual residual(const StokesProblem& problem, const StokesState& state,
+                        const StokesProduct* product) {
+  StokesResidual result = undamped_residual(problem, state, product);
   add_resistance(problem.damping, state.v, result.momentum);
   return result;
 }
