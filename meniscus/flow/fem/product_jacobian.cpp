@@ -26,6 +26,36 @@ NodeTable vertices_of_cells(const NodeTable& nodes, const std::vector<std::int32
   return vertices;
 }
 
+/// ∫∇b_k·∇b_l and ∫b_k b_l of a cell's barycentric coordinates.
+struct LinearIntegrals {
+  Eigen::Matrix4d gradients = Eigen::Matrix4d::Zero(), values = Eigen::Matrix4d::Zero();
+};
+
+/// ∫b_k b_l = V(1 + δ_kl)/20.
+LinearIntegrals straight_integrals(const StokesProblem& problem, CellId c) {
+  const auto nodes = problem.space.velocity.of(c);
+  const auto x = [&](std::size_t k) { return problem.positions.x[NodeId{nodes[k]}]; };
+  const LinearTetrahedron tet = linear_tetrahedron({x(0), x(1), x(2), x(3)});
+  Eigen::Matrix<double, 3, 4> gradients;
+  gradients << tet.gradient[0], tet.gradient[1], tet.gradient[2], tet.gradient[3];
+  return {tet.volume * gradients.transpose() * gradients,
+          tet.volume / 20.0 * (Eigen::Matrix4d::Ones() + Eigen::Matrix4d::Identity())};
+}
+
+LinearIntegrals curved_integrals(const StokesProblem& problem, CellId c) {
+  const auto maps = curved_maps(problem.positions.x, problem.space.velocity.of(c));
+  LinearIntegrals integrals;
+  for (std::size_t q = 0; q < maps.size(); ++q) {
+    const auto& [weight, g] = maps[q];
+    Eigen::Matrix<double, 3, 4> gradients;
+    gradients << -(g[0] + g[1] + g[2]), g[0], g[1], g[2];
+    const Eigen::Map<const Eigen::Vector4d> values(kTetrahedronRule5[q].barycentric.data());
+    integrals.gradients.noalias() += weight * gradients.transpose() * gradients;
+    integrals.values.noalias() += weight * values * values.transpose();
+  }
+  return integrals;
+}
+
 /// Where a column stands in a row of a graph; none where the two share no cell.
 std::optional<std::size_t> find_entry(const NodeGraph& graph,
                                       const std::vector<std::int32_t>& columns, std::int32_t row,
@@ -72,42 +102,24 @@ void ProductJacobian::assemble(const StokesProblem& problem, const StokesProduct
   region_weights_.update(std::span(pressure_mass_).first(at(owned_.num_pressures)));
 }
 
-/// Curved cells count as straight ones in the Laplacians, which are no more than alike to A.
 void ProductJacobian::add_cell(const StokesProblem& problem, CellId c) {
-  const auto nodes = space_.velocity.of(c), vertices = vertices_.of(c);
-  const auto x = [&](std::size_t k) { return problem.positions.x[NodeId{nodes[k]}]; };
-  const LinearTetrahedron tet = linear_tetrahedron({x(0), x(1), x(2), x(3)});
-  const double scale = problem.viscosity[c] * tet.volume;
-  for (ScalarLaplacian& laplacian : laplacians_.all())
-    for (std::size_t k = 0; k < 4; ++k)
-      for (std::size_t l = 0; l < 4; ++l) {
-        const bool is_out =
-            k != l && (laplacian.is_fixed[at(nodes[k])] || laplacian.is_fixed[at(nodes[l])]);
-        if (!is_out)
-          laplacian.values[vertex_graph_.entry(vertices[k], 16 * at(c.value) + 4 * k + l)] +=
-              scale * tet.gradient[k].dot(tet.gradient[l]);
-      }
-  add_masses(problem, c, tet.volume);
-}
-
-/// ∫ψ_kψ_l/μ, which is V(1 + δ_kl)/20μ in straight cells.
-void ProductJacobian::add_masses(const StokesProblem& problem, CellId c, double volume) {
-  Eigen::Matrix4d masses = volume / 20.0 * (Eigen::Matrix4d::Ones() + Eigen::Matrix4d::Identity());
-  if (problem.positions.is_curved[c]) {
-    masses.setZero();
-    const auto maps = curved_maps(problem.positions.x, space_.velocity.of(c));
-    for (std::size_t q = 0; q < maps.size(); ++q) {
-      const Eigen::Map<const Eigen::Vector4d> psi(kTetrahedronRule5[q].barycentric.data());
-      masses.noalias() += maps[q].weight * psi * psi.transpose();
-    }
-  }
-  masses /= problem.viscosity[c];
-  const auto pressures = space_.pressure.nodes.of(c);
+  const LinearIntegrals integrals = problem.positions.is_curved[c] ? curved_integrals(problem, c)
+                                                                   : straight_integrals(problem, c);
+  const auto nodes = space_.velocity.of(c), vertices = vertices_.of(c),
+             pressures = space_.pressure.nodes.of(c);
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t l = 0; l < 4; ++l) {
-      const double mass = masses(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l));
+      const auto row = static_cast<Eigen::Index>(k), column = static_cast<Eigen::Index>(l);
+      const std::size_t pair = 16 * at(c.value) + 4 * k + l;
+      for (ScalarLaplacian& laplacian : laplacians_.all()) {
+        const bool is_fixed = laplacian.is_fixed[at(nodes[k])] || laplacian.is_fixed[at(nodes[l])];
+        if (!is_fixed || k == l)
+          laplacian.values[vertex_graph_.entry(vertices[k], pair)] +=
+              problem.viscosity[c] * integrals.gradients(row, column);
+      }
+      const double mass = integrals.values(row, column) / problem.viscosity[c];
       pressure_mass_[at(pressures[k])] += mass;
-      consistent_mass_[pressure_graph_.entry(pressures[k], 16 * at(c.value) + 4 * k + l)] += mass;
+      consistent_mass_[pressure_graph_.entry(pressures[k], pair)] += mass;
     }
 }
 

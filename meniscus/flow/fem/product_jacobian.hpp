@@ -28,7 +28,6 @@ class ProductJacobian {
 
  private:
   void add_cell(const StokesProblem& problem, CellId c);
-  void add_masses(const StokesProblem& problem, CellId c, double volume);
   void add_damping(const StokesProblem& problem);
 
   const FlowSpace& space_;
