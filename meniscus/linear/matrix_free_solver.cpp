@@ -1,7 +1,5 @@
 #include "meniscus/linear/matrix_free_solver.hpp"
 
-#include <exception>
-
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/processor_time.hpp"
 #include "meniscus/linear/petsc_matrix.hpp"
@@ -9,39 +7,6 @@
 
 namespace meniscus::linear {
 namespace {
-
-PetscErrorCode apply_operator(Mat matrix, Vec x, Vec y) {
-  void* context = nullptr;
-  PetscInt size = 0;
-  const PetscScalar* in = nullptr;
-  PetscScalar* out = nullptr;
-  PetscErrorCode code = MatShellGetContext(matrix, &context);
-  if (code == 0) code = VecGetLocalSize(x, &size);
-  if (code == 0) code = VecGetArrayRead(x, &in);
-  if (code == 0) code = VecGetArray(y, &out);
-  if (code != 0) return code;
-  const auto count = static_cast<std::size_t>(size);
-  try {  // no exception may pass through PETSc's frames
-    (*static_cast<const LinearOperator*>(context))({in, count}, {out, count});
-  } catch (const std::exception&) {
-    code = PETSC_ERR_LIB;
-  }
-  const PetscErrorCode given_x = VecRestoreArrayRead(x, &in), given_y = VecRestoreArray(y, &out);
-  return code != 0 ? code : (given_x != 0 ? given_x : given_y);
-}
-
-Matrix shell(const LinearOperator& matrix, std::size_t size) {
-  Matrix result;
-  const auto n = static_cast<PetscInt>(size);
-  // PETSc only stores the context and returns it, so the const_cast is safe.
-  petsc_check(MatCreateShell(PETSC_COMM_SELF, n, n, n, n, const_cast<LinearOperator*>(&matrix),
-                             result.out()),
-              "MatCreateShell");
-  petsc_check(
-      MatShellSetOperation(result.get(), MATOP_MULT, reinterpret_cast<void (*)()>(apply_operator)),
-      "MatShellSetOperation");
-  return result;
-}
 
 KrylovSolver gmres(const Matrix& matrix, const MatrixFreeOptions& options) {
   KrylovSolver solver;
@@ -70,7 +35,8 @@ LinearReport solve_matrix_free(const LinearOperator& matrix,
   const double start = processor_seconds();
   try {
     start_petsc();
-    const Matrix operator_matrix = shell(matrix, solution.size());
+    const Matrix operator_matrix =
+        shell_matrix(PETSC_COMM_SELF, matrix, static_cast<PetscInt>(solution.size()));
     const Vector b = borrowed_vector(PETSC_COMM_SELF, right_hand_side),
                  x = borrowed_vector(PETSC_COMM_SELF, solution);
     const KrylovSolver solver = gmres(operator_matrix, options);

@@ -1,14 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <span>
 
 #include "meniscus/linear/saddle_solver.hpp"
 
 namespace meniscus::linear {
-
-/// A square matrix given by its action: writes A x to `result`.
-using LinearOperator = std::function<void(std::span<const double> x, std::span<double> result)>;
 
 struct MatrixFreeOptions {
   double rtol = 1e-8;  ///< relative to the norm of the right-hand side

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <memory>
 #include <type_traits>
 #include <vector>
@@ -149,6 +150,26 @@ Matrix shared_matrix(MPI_Comm comm, const CsrView& csr) {
   return matrix;
 }
 
+PetscErrorCode apply_operator(Mat matrix, Vec x, Vec y) {
+  void* context = nullptr;
+  PetscInt size = 0;
+  const PetscScalar* in = nullptr;
+  PetscScalar* out = nullptr;
+  PetscErrorCode code = MatShellGetContext(matrix, &context);
+  if (code == 0) code = VecGetLocalSize(x, &size);
+  if (code == 0) code = VecGetArrayRead(x, &in);
+  if (code == 0) code = VecGetArray(y, &out);
+  if (code != 0) return code;
+  const auto count = static_cast<std::size_t>(size);
+  try {  // no exception may pass through PETSc's frames
+    (*static_cast<const LinearOperator*>(context))({in, count}, {out, count});
+  } catch (const std::exception&) {
+    code = PETSC_ERR_LIB;
+  }
+  const PetscErrorCode given_x = VecRestoreArrayRead(x, &in), given_y = VecRestoreArray(y, &out);
+  return code != 0 ? code : (given_x != 0 ? given_x : given_y);
+}
+
 Matrix nest_of(MPI_Comm comm, std::array<Mat, 4> blocks) {
   Matrix nest;
   petsc_check(MatCreateNest(comm, 2, nullptr, 2, nullptr, blocks.data(), nest.out()),
@@ -219,6 +240,18 @@ Vector borrowed_vector(MPI_Comm comm, std::span<const double> values) {
     petsc_check(VecCreateSeqWithArray(comm, 1, size, values.data(), vector.out()),
                 "VecCreateSeqWithArray");
   return vector;
+}
+
+Matrix shell_matrix(MPI_Comm comm, const LinearOperator& action, PetscInt size) {
+  Matrix result;
+  // PETSc only stores the context and returns it, so the const_cast is safe.
+  petsc_check(MatCreateShell(comm, size, size, PETSC_DETERMINE, PETSC_DETERMINE,
+                             const_cast<LinearOperator*>(&action), result.out()),
+              "MatCreateShell");
+  petsc_check(
+      MatShellSetOperation(result.get(), MATOP_MULT, reinterpret_cast<void (*)()>(apply_operator)),
+      "MatShellSetOperation");
+  return result;
 }
 
 NestedOperator nested_operator(MPI_Comm comm, const SaddleSystem& system) {

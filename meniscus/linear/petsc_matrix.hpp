@@ -20,6 +20,9 @@ namespace meniscus::linear {
 /// A PETSc vector that borrows the caller's array. PETSc writes to it only if the vector is
 /// written.
 [[nodiscard]] Vector borrowed_vector(MPI_Comm comm, std::span<const double> values);
+/// A square PETSc matrix with so many rows on this rank that is given by its action, to which it
+/// refers.
+[[nodiscard]] Matrix shell_matrix(MPI_Comm comm, const LinearOperator& action, PetscInt size);
 /// The operator [A Bᵀ; B −C] as a nest of matrices. Each rank has its velocities, then its
 /// pressures.
 struct NestedOperator {

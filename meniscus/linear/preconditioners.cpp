@@ -7,144 +7,9 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/linear/collective.hpp"
+#include "meniscus/linear/vector_arrays.hpp"
 
 namespace meniscus::linear {
-namespace {
-
-/// Applies `action(reading, writing)` to the raw arrays of two vectors.
-template <class Action>
-void with_arrays(Vec from, Vec to, Action action) {
-  const PetscScalar* reading = nullptr;
-  PetscScalar* writing = nullptr;
-  petsc_check(VecGetArrayRead(from, &reading), "VecGetArrayRead");
-  petsc_check(VecGetArray(to, &writing), "VecGetArray");
-  action(reading, writing);
-  petsc_check(VecRestoreArray(to, &writing), "VecRestoreArray");
-  petsc_check(VecRestoreArrayRead(from, &reading), "VecRestoreArrayRead");
-}
-
-template <class Action>
-void with_array(Vec of, Action action) {
-  PetscScalar* values = nullptr;
-  petsc_check(VecGetArray(of, &values), "VecGetArray");
-  action(values);
-  petsc_check(VecRestoreArray(of, &values), "VecRestoreArray");
-}
-
-/// Number of Lanczos steps, and the factor by which the spectrum may exceed their estimate: PETSc's
-/// defaults.
-constexpr int kLanczosSteps = 10;
-constexpr double kBeyondEstimate = 1.1;
-
-/// A right-hand side D^½ξ with noise ξ, so that Lanczos on D^(−½) A D^(−½) starts from ξ.
-Vector weighted_noise(Mat matrix) {
-  Vector diagonal, noise;
-  petsc_check(MatCreateVecs(matrix, noise.out(), diagonal.out()), "MatCreateVecs");
-  petsc_check(MatGetDiagonal(matrix, diagonal.get()), "MatGetDiagonal");
-  petsc_check(VecSqrtAbs(diagonal.get()), "VecSqrtAbs");
-  petsc_check(VecSetRandom(noise.get(), nullptr), "VecSetRandom");
-  petsc_check(VecPointwiseMult(noise.get(), noise.get(), diagonal.get()), "VecPointwiseMult");
-  return noise;
-}
-
-/// An estimate of the largest eigenvalue of D⁻¹A, D = diag A, for a symmetric positive definite A.
-/// PETSc's estimate starts from D⁻¹ξ, which scales as 1/μ in a liquid of viscosity μ. If
-/// viscosities differ by 10⁴ it misses the spectrum of the more viscous liquid, and Chebyshev steps
-/// amplify the modes above the estimate.
-double largest_jacobi_eigenvalue(MPI_Comm comm, Mat matrix) {
-  KrylovSolver lanczos;
-  petsc_check(KSPCreate(comm, lanczos.out()), "KSPCreate");
-  petsc_check(KSPSetOperators(lanczos.get(), matrix, matrix), "KSPSetOperators");
-  petsc_check(KSPSetType(lanczos.get(), KSPCG), "KSPSetType");
-  PC pc = nullptr;
-  petsc_check(KSPGetPC(lanczos.get(), &pc), "KSPGetPC");
-  petsc_check(PCSetType(pc, PCJACOBI), "PCSetType");
-  petsc_check(KSPSetNormType(lanczos.get(), KSP_NORM_NONE), "KSPSetNormType");
-  petsc_check(
-      KSPSetTolerances(lanczos.get(), PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, kLanczosSteps),
-      "KSPSetTolerances");
-  petsc_check(KSPSetComputeSingularValues(lanczos.get(), PETSC_TRUE),
-              "KSPSetComputeSingularValues");
-  const Vector right = weighted_noise(matrix);
-  Vector solution;
-  petsc_check(VecDuplicate(right.get(), solution.out()), "VecDuplicate");
-  petsc_check(KSPSolve(lanczos.get(), right.get(), solution.get()), "KSPSolve");
-  PetscReal largest = 0.0, smallest = 0.0;
-  petsc_check(KSPComputeExtremeSingularValues(lanczos.get(), &largest, &smallest),
-              "KSPComputeExtremeSingularValues");
-  return largest;
-}
-
-/// Sets the bounds of the Chebyshev smoother of the finest level (options may choose another): from
-/// a tenth of the largest eigenvalue up, the part that the coarse level does not treat.
-void bound_smoother(MPI_Comm comm, PC multigrid, Mat laplacian) {
-  KSP smoother = nullptr;
-  petsc_check(PCMGGetSmoother(multigrid, 1, &smoother), "PCMGGetSmoother");
-  petsc_check(KSPSetType(smoother, KSPCHEBYSHEV), "KSPSetType");
-  const double end = largest_jacobi_eigenvalue(comm, laplacian);
-  petsc_check(KSPChebyshevSetEigenvalues(smoother, kBeyondEstimate * end, 0.1 * end),
-              "KSPChebyshevSetEigenvalues");
-}
-
-/// Sets up two levels, quadratic over linear functions. Options choose the solver of the coarse
-/// level.
-void use_interpolation(MPI_Comm comm, KSP cycle, Mat laplacian, const CsrView& interpolation) {
-  PC pc = nullptr;
-  petsc_check(KSPGetPC(cycle, &pc), "KSPGetPC");
-  petsc_check(PCSetType(pc, PCMG), "PCSetType");
-  petsc_check(PCMGSetLevels(pc, 2, nullptr), "PCMGSetLevels");
-  petsc_check(PCMGSetGalerkin(pc, PC_MG_GALERKIN_BOTH), "PCMGSetGalerkin");
-  petsc_check(PCMGSetInterpolation(pc, 1, copied_matrix(comm, interpolation).get()),
-              "PCMGSetInterpolation");
-  bound_smoother(comm, pc, laplacian);
-}
-
-KrylovSolver multigrid_cycle(MPI_Comm comm, Mat laplacian, const CsrView* interpolation) {
-  KrylovSolver cycle;
-  petsc_check(KSPCreate(comm, cycle.out()), "KSPCreate");
-  petsc_check(KSPSetOptionsPrefix(cycle.get(), "v_"), "KSPSetOptionsPrefix");
-  if (interpolation != nullptr) use_interpolation(comm, cycle.get(), laplacian, *interpolation);
-  petsc_check(KSPSetOperators(cycle.get(), laplacian, laplacian), "KSPSetOperators");
-  petsc_check(KSPSetFromOptions(cycle.get()), "KSPSetFromOptions");
-  petsc_check(KSPSetUp(cycle.get()), "KSPSetUp");
-  return cycle;
-}
-
-}  // namespace
-
-VelocityMultigrid::VelocityMultigrid(Communicator communicator, const SaddleSystem& system)
-    : num_nodes_(system.num_velocities() / 3),
-      laplacian_of_(system.laplacian_of),
-      component_r_(zero_vector(mpi_communicator(communicator), num_nodes_)),
-      component_z_(zero_vector(mpi_communicator(communicator), num_nodes_)) {
-  MENISCUS_ASSERT(
-      system.interpolations.empty() || system.interpolations.size() == system.laplacians.size(),
-      "{} interpolations, {} Laplacians", system.interpolations.size(), system.laplacians.size());
-  MPI_Comm comm = mpi_communicator(communicator);
-  for (std::size_t k = 0; k < system.laplacians.size(); ++k) {
-    MENISCUS_ASSERT(system.laplacians[k].num_rows == num_nodes_, "{} {}",
-                    system.laplacians[k].num_rows, num_nodes_);
-    Matrix copy = copied_matrix(comm, system.laplacians[k]);
-    cycles_.push_back(multigrid_cycle(
-        comm, copy.get(), system.interpolations.empty() ? nullptr : &system.interpolations[k]));
-    laplacians_.push_back(std::move(copy));
-  }
-}
-
-void VelocityMultigrid::apply(Vec r, Vec z) const {
-  const auto n = static_cast<std::size_t>(num_nodes_);
-  for (std::size_t k = 0; k < 3; ++k) {
-    with_arrays(r, component_r_.get(), [n, k](const double* from, double* to) {
-      for (std::size_t i = 0; i < n; ++i) to[i] = from[3 * i + k];
-    });
-    MENISCUS_ASSERT(std::size_t(laplacian_of_[k]) < cycles_.size(), "component {}", k);
-    const KrylovSolver& cycle = cycles_[static_cast<std::size_t>(laplacian_of_[k])];
-    petsc_check(KSPSolve(cycle.get(), component_r_.get(), component_z_.get()), "KSPSolve");
-    with_arrays(component_z_.get(), z, [n, k](const double* from, double* to) {
-      for (std::size_t i = 0; i < n; ++i) to[3 * i + k] = from[i];
-    });
-  }
-}
 
 PressureMass::PressureMass(Communicator communicator, const SaddleSystem& system)
     : communicator_(communicator), system_(system) {
@@ -185,7 +50,7 @@ void PressureMass::apply(std::span<const double> r, double s, Vec z) const {
 
 BlockPreconditioner::BlockPreconditioner(Communicator communicator, Shape shape,
                                          const SaddleSystem& system,
-                                         const VelocityMultigrid& multigrid, Mat B)
+                                         const VelocityPreconditioner& multigrid, Mat B)
     : communicator_(communicator),
       shape_(shape),
       system_(system),
@@ -195,6 +60,17 @@ BlockPreconditioner::BlockPreconditioner(Communicator communicator, Shape shape,
       velocity_(zero_vector(mpi_communicator(communicator), system.num_velocities())),
       pressure_(zero_vector(mpi_communicator(communicator), system.num_pressures())) {}
 
+void BlockPreconditioner::multiply_gradient() const {
+  if (!system_.has_products()) {
+    petsc_check(MatMultTranspose(B_, pressure_.get(), velocity_.get()), "MatMultTranspose");
+    return;
+  }
+  with_arrays(pressure_.get(), velocity_.get(), [&](const double* p, double* v) {
+    system_.products.gradient({p, std::size_t(system_.num_pressures())},
+                              {v, std::size_t(system_.num_velocities())});
+  });
+}
+
 void BlockPreconditioner::apply(Vec r, Vec z) const {
   const auto num_velocities = static_cast<std::size_t>(system_.num_velocities());
   const auto num_pressures = static_cast<std::size_t>(system_.num_pressures());
@@ -203,8 +79,7 @@ void BlockPreconditioner::apply(Vec r, Vec z) const {
   mass_.apply({residual + num_velocities, num_pressures}, shape_ == Shape::diagonal ? 1.0 : -1.0,
               pressure_.get());
   petsc_check(VecRestoreArrayRead(r, &residual), "VecRestoreArrayRead");
-  if (shape_ == Shape::upper_triangular)
-    petsc_check(MatMultTranspose(B_, pressure_.get(), velocity_.get()), "MatMultTranspose");
+  if (shape_ == Shape::upper_triangular) multiply_gradient();
   with_arrays(r, velocity_.get(), [&](const double* from, double* v) {
     const double keep = shape_ == Shape::upper_triangular ? 1.0 : 0.0;
     for (std::size_t i = 0; i < num_velocities; ++i) v[i] = from[i] - keep * v[i];
@@ -216,7 +91,7 @@ void BlockPreconditioner::apply(Vec r, Vec z) const {
     petsc_check(VecRestoreArrayRead(z, &values), "VecRestoreArrayRead");
     return part;
   }();
-  multigrid_.apply(velocity_.get(), z_velocity.get());
+  multigrid_.apply(system_, velocity_.get(), z_velocity.get());
   with_arrays(pressure_.get(), z, [&](const double* p, double* to) {
     std::copy(p, p + num_pressures, to + num_velocities);
   });

@@ -1,34 +1,14 @@
 #pragma once
 // Private header of this room.
 
-#include <array>
 #include <span>
 #include <vector>
 
-#include "meniscus/linear/petsc_matrix.hpp"
-#include "meniscus/linear/saddle_system.hpp"
+#include "meniscus/linear/velocity_multigrid.hpp"
 
 namespace meniscus::linear {
 
 // All functions are collective, like PETSc's preconditioners.
-
-/// One multigrid cycle per velocity component on a scalar μ-weighted Laplacian. By Korn's
-/// inequality it is spectrally equivalent to 2μ D:D, with a ninth of the entries. Keeps a copy of
-/// the Laplacians.
-class VelocityMultigrid {
- public:
-  VelocityMultigrid(Communicator communicator, const SaddleSystem& system);
-  /// z = M⁻¹ r for the 3n velocities, the three components of a node side by side.
-  void apply(Vec r, Vec z) const;
-  [[nodiscard]] std::int32_t num_nodes() const { return num_nodes_; }
-
- private:
-  std::int32_t num_nodes_;
-  std::array<int, 3> laplacian_of_;
-  std::vector<Matrix> laplacians_;
-  std::vector<KrylovSolver> cycles_;
-  Vector component_r_, component_z_;
-};
 
 /// An approximate solve with the pressure mass matrix, lumped or consistent.
 class PressureMass {
@@ -50,16 +30,19 @@ class PressureMass {
 class BlockPreconditioner {
  public:
   enum class Shape { upper_triangular, diagonal };
-  /// The system, its B and the multigrid must outlive this.
+  /// The system, its multigrid and its B must outlive this; B is null where there are products.
   BlockPreconditioner(Communicator communicator, Shape shape, const SaddleSystem& system,
-                      const VelocityMultigrid& multigrid, Mat B);
+                      const VelocityPreconditioner& multigrid, Mat B);
   void apply(Vec r, Vec z) const;
 
  private:
+  /// The pressure's part of the momentum, of `pressure_` into `velocity_`.
+  void multiply_gradient() const;
+
   Communicator communicator_;
   Shape shape_;
   const SaddleSystem& system_;
-  const VelocityMultigrid& multigrid_;
+  const VelocityPreconditioner& multigrid_;
   Mat B_;
   PressureMass mass_;
   Vector velocity_, pressure_;

@@ -169,7 +169,12 @@ class SaddleSolver::Implementation {
   /// Makes the operator, and those parts of the preconditioner that were not kept.
   void prepare(const SaddleSystem& system) {
     const bool is_paper = options_.method == SaddleMethod::paper_gmres;
-    if (is_paper) {
+    if (system.has_products()) {
+      MENISCUS_ASSERT(!is_paper && options_.method != SaddleMethod::mumps, "{} needs matrices",
+                      name(options_.method));
+      product_ = shell_matrix(comm(), system.products.whole, system.size());
+      operator_ = product_.get();
+    } else if (is_paper) {
       merged_ = merged_matrix(comm(), system, -1.0, 0.0);
       operator_ = merged_.handle.get();
       scaling_.emplace(operator_);
@@ -189,7 +194,7 @@ class SaddleSolver::Implementation {
       apply_ = [this](Vec r, Vec z) { factorization_->apply(r, z); };
     } else if (!is_paper) {
       if (!multigrid_ || 3 * multigrid_->num_nodes() != system.num_velocities())
-        multigrid_ = std::make_unique<VelocityMultigrid>(communicator_, system);
+        multigrid_ = make_multigrid(system);
       using Shape = BlockPreconditioner::Shape;
       block_.emplace(
           communicator_,
@@ -197,6 +202,12 @@ class SaddleSolver::Implementation {
           system, *multigrid_, nested_.B.get());
       apply_ = [this](Vec r, Vec z) { block_->apply(r, z); };
     }
+  }
+
+  [[nodiscard]] std::unique_ptr<VelocityPreconditioner> make_multigrid(
+      const SaddleSystem& system) const {
+    if (system.has_products()) return std::make_unique<MultigridByDegree>(communicator_, system);
+    return std::make_unique<VelocityMultigrid>(communicator_, system);
   }
 
   KrylovSolver make_outer_solver(double rtol) {
@@ -269,6 +280,7 @@ class SaddleSolver::Implementation {
     block_.reset();
     scaling_.reset();
     operator_ = nullptr;
+    product_ = {};
     if (communicator_.size() == 1) nested_ = {};
     merged_ = {};
   }
@@ -277,13 +289,14 @@ class SaddleSolver::Implementation {
   SaddleOptions options_;
   OptionTable table_;
   bool is_checked_ = false;  ///< whether options were checked, after a first solve
+  Matrix product_;
   NestedOperator nested_;
   MergedMatrix merged_;
-  Mat operator_ = nullptr;  ///< the nest or the merged matrix
+  Mat operator_ = nullptr;  ///< the product, the nest or the merged matrix
   Apply apply_;
   std::optional<BlockPreconditioner> block_;
   std::optional<DiagonalScaling> scaling_;
-  std::unique_ptr<VelocityMultigrid> multigrid_;
+  std::unique_ptr<VelocityPreconditioner> multigrid_;
   std::unique_ptr<Factorization> factorization_;
 };
 

@@ -25,8 +25,9 @@ struct SaddleOptions {
   bool multigrid_by_degree = false;
   /// Options as on PETSc's command line, which override the defaults of the method. Prefixes: none
   /// for the outer solver; v_ for the velocity block's multigrid; with multigrid by degree
-  /// v_mg_levels_ for the smoother and v_mg_coarse_ for the algebraic part; p_ for the consistent
-  /// pressure mass matrix; f_ for the factorisation of the direct method.
+  /// v_mg_coarse_ for the algebraic part and, where the system has matrices, v_mg_levels_ for the
+  /// smoother; p_ for the consistent pressure mass matrix; f_ for the factorisation of the direct
+  /// method.
   std::string petsc_options;
 };
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,16 @@ struct CsrView {
   std::span<const double> values;
 };
 
+/// A matrix given by its action: writes A x to `result`.
+using LinearOperator = std::function<void(std::span<const double> x, std::span<double> result)>;
+
+/// The products with a saddle system (below) whose blocks are not given as matrices. Collective.
+struct SaddleProducts {
+  LinearOperator whole;       ///< [A Bᵀ; B −C]
+  LinearOperator gradient;    ///< Bᵀ
+  LinearOperator laplacians;  ///< ∫μ∇φ·∇φ of each component, three side by side
+};
+
 /// The system of a mixed velocity-pressure problem with n nodes and m pressures,
 ///   [A  Bᵀ] [v]   [f]
 ///   [B  −C] [p] = [g],
@@ -34,7 +45,8 @@ struct SaddleSystem {
   CsrView B;  ///< m × 3n
   CsrView C;  ///< m × m, positive semi-definite
   /// Scalar n × n Laplacians ∫μ∇φ·∇φ that stand for the diagonal blocks of A, and which of them
-  /// belongs to each component (they differ only in the nodes eliminated).
+  /// belongs to each component (they differ only in the nodes eliminated). Where there are
+  /// products, the Laplacians of linear functions, to which `interpolations` lead.
   std::vector<CsrView> laplacians;
   std::array<int, 3> laplacian_of = {0, 0, 0};
   std::span<const double> pressure_mass;  ///< m, lumped ∫ψψ/μ: stands for the Schur complement
@@ -55,7 +67,11 @@ struct SaddleSystem {
   /// group r and 0 elsewhere. Empty: no groups.
   std::span<const std::int32_t> group_of_pressure = {};
   std::span<const double> group_weights = {};  ///< w_r ≥ 0
+  /// Where given, A, B and C have no entries. For the block solver and MINRES.
+  SaddleProducts products = {};
+  std::span<const double> laplacian_diagonals = {};  ///< 3n, of `products.laplacians`
 
+  [[nodiscard]] bool has_products() const { return products.whole != nullptr; }
   [[nodiscard]] std::int32_t num_velocities() const { return A.num_rows; }
   [[nodiscard]] std::int32_t num_pressures() const { return B.num_rows; }
   [[nodiscard]] std::int32_t size() const { return num_velocities() + num_pressures(); }

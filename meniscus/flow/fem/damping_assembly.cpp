@@ -4,6 +4,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/block_rows.hpp"
+#include "meniscus/flow/fem/partition.hpp"
 
 namespace meniscus::fem {
 namespace {
@@ -24,7 +25,9 @@ std::size_t entry_in_row(const NodeGraph& graph, NodeId i, std::int32_t column) 
 void add_damping(const StokesProblem& problem, const NodeGraph& graph, StokesValues& values,
                  std::span<ScalarLaplacian> laplacians) {
   const SurfaceDamping& damping = problem.damping;
+  const std::int32_t num_owned = owned_counts(problem).num_nodes;
   for (const auto& [i, j, weight] : damping.entries) {
+    if (i.value >= num_owned) continue;
     MENISCUS_ASSERT(problem.constraints.find(i) == nullptr, "a damped node {} is held", i.value);
     const std::int32_t column =
         problem.partition == nullptr ? j.value : problem.partition->node_number[at(j.value)];

@@ -105,15 +105,29 @@ std::span<const QuadraticElement::Point> QuadraticElement::straight_points(
 
 std::span<const QuadraticElement::Point> QuadraticElement::curved_points(
     std::span<const std::int32_t> nodes) {
-  const Eigen::Matrix<double, 10, 3> x = node_positions(positions_.x, nodes);
-  for (std::size_t q = 0; q < kTetrahedronRule5.size(); ++q) {
-    const Mat3 jacobian = kCurved.gradient[q] * x;  // ∂x_b/∂ξ_a at (a, b)
-    points_[q].weight = kTetrahedronRule5[q].share * jacobian.determinant() / 6.0;
+  const std::array<CurvedMap, kTetrahedronRule5.size()> maps = curved_maps(positions_.x, nodes);
+  for (std::size_t q = 0; q < maps.size(); ++q) {
+    const std::array<Vec3, 3>& g = maps[q].gradient;
+    points_[q].weight = maps[q].weight;
     points_[q].pressure = kTetrahedronRule5[q].barycentric;
     points_[q].value = kCurved.value[q];
-    points_[q].gradient = jacobian.inverse() * kCurved.gradient[q];
+    points_[q].gradient = quadratic_gradients(kTetrahedronRule5[q].barycentric,
+                                              {-(g[0] + g[1] + g[2]), g[0], g[1], g[2]});
   }
   return points_;
+}
+
+std::array<CurvedMap, kTetrahedronRule5.size()> curved_maps(const Field<NodeId, Vec3>& x,
+                                                            std::span<const std::int32_t> nodes) {
+  const Eigen::Matrix<double, 10, 3> positions = node_positions(x, nodes);
+  std::array<CurvedMap, kTetrahedronRule5.size()> maps;
+  for (std::size_t q = 0; q < maps.size(); ++q) {
+    const Mat3 jacobian = kCurved.gradient[q] * positions;  // ∂x_b/∂ξ_a at (a, b)
+    const Mat3 inverse = jacobian.inverse();
+    maps[q] = {kTetrahedronRule5[q].share * jacobian.determinant() / 6.0,
+               {inverse.col(0), inverse.col(1), inverse.col(2)}};
+  }
+  return maps;
 }
 
 double least_jacobian(const Field<NodeId, Vec3>& x, std::span<const std::int32_t> nodes) {

@@ -84,6 +84,14 @@ void with_element(const FlowSpace& space, const NodePositions& positions, Action
   return action(element);
 }
 
+/// A point of the curved rule in a quadratic tetrahedron.
+struct CurvedMap {
+  double weight = 0.0;             ///< [R0³]
+  std::array<Vec3, 3> gradient{};  ///< of the barycentric coordinates but the first [1/R0]
+};
+[[nodiscard]] std::array<CurvedMap, kTetrahedronRule5.size()> curved_maps(
+    const Field<NodeId, Vec3>& x, std::span<const std::int32_t> nodes);
+
 /// Smallest determinant of ∂x/∂ξ at the points of the curved rule and at the nodes of a quadratic
 /// tetrahedron; six times the volume where it is straight.
 [[nodiscard]] double least_jacobian(const Field<NodeId, Vec3>& x,

@@ -220,7 +220,7 @@ StokesProblem local_part(const StokesProblem& global, const Partition& partition
   return local;
 }
 
-/// The damping of the owned nodes.
+/// With the rows of ghosts, as far as their columns are known.
 SurfaceDamping local_part(const SurfaceDamping& global, const Partition& partition) {
   SurfaceDamping local;
   if (global.is_none()) return local;
@@ -231,8 +231,7 @@ SurfaceDamping local_part(const SurfaceDamping& global, const Partition& partiti
   }
   for (const auto& [row, column, weight] : global.entries) {
     const NodeId i = global_to_local[row], j = global_to_local[column];
-    if (i.is_valid() && i.value < partition.owned.num_nodes)
-      local.entries.push_back({i, j, weight});
+    if (i.is_valid() && j.is_valid()) local.entries.push_back({i, j, weight});
   }
   return local;
 }
@@ -244,18 +243,32 @@ StokesState local_part(const StokesState& global, const Partition& partition) {
   return local;
 }
 
+std::vector<double> velocities_with_ghosts(std::span<const double> owned,
+                                           const Partition& partition) {
+  const std::vector<double> all =
+      of_all_ranks(owned, velocity_counts(partition.nodes.counts), partition.communicator);
+  std::vector<double> local;
+  local.reserve(3 * partition.node_number.size());
+  for (const std::int32_t number : partition.node_number)
+    for (std::size_t k = 0; k < 3; ++k) local.push_back(all[3 * at(number) + k]);
+  return local;
+}
+
+std::vector<double> pressures_with_ghosts(std::span<const double> owned,
+                                          const Partition& partition) {
+  const std::vector<double> all =
+      of_all_ranks(owned, partition.pressures.counts, partition.communicator);
+  std::vector<double> local;
+  local.reserve(partition.pressure_number.size());
+  for (const std::int32_t number : partition.pressure_number) local.push_back(all[at(number)]);
+  return local;
+}
+
 std::vector<double> with_ghosts(std::span<const double> owned, const Partition& partition) {
   const std::size_t num_velocities = 3 * at(partition.owned.num_nodes);
-  const std::vector<double> v = of_all_ranks(owned.first(num_velocities),
-                                             velocity_counts(partition.nodes.counts),
-                                             partition.communicator),
-                            p = of_all_ranks(owned.subspan(num_velocities),
-                                             partition.pressures.counts, partition.communicator);
-  std::vector<double> local;
-  local.reserve(3 * partition.node_number.size() + partition.pressure_number.size());
-  for (const std::int32_t number : partition.node_number)
-    for (std::size_t k = 0; k < 3; ++k) local.push_back(v[3 * at(number) + k]);
-  for (const std::int32_t number : partition.pressure_number) local.push_back(p[at(number)]);
+  std::vector<double> local = velocities_with_ghosts(owned.first(num_velocities), partition);
+  const std::vector<double> p = pressures_with_ghosts(owned.subspan(num_velocities), partition);
+  local.insert(local.end(), p.begin(), p.end());
   return local;
 }
 

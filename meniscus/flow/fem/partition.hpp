@@ -69,6 +69,12 @@ struct Partition {
 /// Collective.
 [[nodiscard]] std::vector<double> with_ghosts(std::span<const double> owned,
                                               const Partition& partition);
+/// Three numbers for each local node, and one for each local pressure, from the owned ones'.
+/// Collective.
+[[nodiscard]] std::vector<double> velocities_with_ghosts(std::span<const double> owned,
+                                                         const Partition& partition);
+[[nodiscard]] std::vector<double> pressures_with_ghosts(std::span<const double> owned,
+                                                        const Partition& partition);
 /// Gathers the owned parts of all ranks' states into every rank's global state. Collective.
 void gather_state(const StokesState& local, const Partition& partition, StokesState& global);
 

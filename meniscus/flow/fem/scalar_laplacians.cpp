@@ -67,12 +67,13 @@ void ScalarLaplacians::choose(const Constraints& constraints, std::size_t num_va
   }
 }
 
-void ScalarLaplacians::put_into(linear::SaddleSystem& system, const NodeGraph& graph) const {
+void ScalarLaplacians::put_into(linear::SaddleSystem& system, const NodeGraph& graph,
+                                std::int32_t num_rows) const {
   for (const ScalarLaplacian& laplacian : laplacians_) {
     MENISCUS_ASSERT(laplacian.values.size() == graph.num_entries(), "{} {}",
                     laplacian.values.size(), graph.num_entries());
     system.laplacians.push_back(
-        {num_owned_nodes_, num_owned_nodes_, graph.row_start, graph.columns, laplacian.values});
+        {num_rows, num_rows, graph.row_start, graph.columns, laplacian.values});
     if (!coarse_.ends.empty()) system.interpolations.push_back(laplacian.from_linear.view());
   }
   system.laplacian_of = laplacian_of_;

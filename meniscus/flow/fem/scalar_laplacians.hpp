@@ -14,7 +14,7 @@ namespace meniscus::fem {
 /// A scalar Laplacian ∫μ∇φ·∇φ with the nodes eliminated where a velocity component is fixed.
 struct ScalarLaplacian {
   std::vector<bool> is_fixed;  ///< by node
-  std::vector<double> values;  ///< on the velocity's graph
+  std::vector<double> values;  ///< on the velocity's graph, or that of the vertices
   /// P2: the interpolation to it from linear functions that vanish at fixed nodes.
   linear::CsrMatrix from_linear;
 };
@@ -28,8 +28,9 @@ class ScalarLaplacians {
   /// Makes those that the constraints ask for, with room for so many values. Collective.
   void choose(const Constraints& constraints, std::size_t num_values);
   [[nodiscard]] std::span<ScalarLaplacian> all() { return laplacians_; }
-  /// Views of them; `graph` is the velocity's.
-  void put_into(linear::SaddleSystem& system, const NodeGraph& graph) const;
+  /// Views of them; `graph` is what their values are on, the velocity's or the vertices', of which
+  /// so many rows are owned.
+  void put_into(linear::SaddleSystem& system, const NodeGraph& graph, std::int32_t num_rows) const;
 
  private:
   [[nodiscard]] bool is_same(const std::vector<bool>& a, const std::vector<bool>& b) const;

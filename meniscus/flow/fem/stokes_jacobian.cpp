@@ -109,7 +109,7 @@ linear::SaddleSystem StokesJacobian::system() const {
     system.consistent_mass = system.C;
     system.consistent_mass.values = values_.consistent_mass;
   }
-  laplacians_.put_into(system, sparsity_.velocity());
+  laplacians_.put_into(system, sparsity_.velocity(), owned_.num_nodes);
   region_weights_.put_into(system);
   system.pressure_mass = std::span(values_.pressure_mass).first(at(num_pressures));
   system.constant_pressure_is_null = constant_pressure_is_null_;

@@ -1,6 +1,7 @@
 #include "meniscus/flow/fem/stokes_residual.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include "meniscus/flow/fem/cell_state.hpp"
 #include "meniscus/flow/fem/elements.hpp"
@@ -49,6 +50,31 @@ void add_residual(const StokesProblem& problem, const StokesState& state, Elemen
 }
 
 template <class Element>
+void subtract_body_force(const StokesProblem& problem, Element& element, StokesResidual& result) {
+  for (const CellId c : problem.mesh.cells.ids()) {
+    const Vec3& f = problem.body_force[c];
+    if (f.isZero(0.0)) continue;
+    const auto nodes = problem.space.velocity.of(c);
+    for (const auto& point : element.points(c))
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        result.momentum[NodeId{nodes[i]}] -= point.weight * point.value[i] * f;
+  }
+}
+
+StokesResidual residual_of_nothing(const StokesProblem& problem) {
+  return {Field<NodeId, Vec3>(problem.force.size(), Vec3::Zero()),
+          std::vector<double>(problem.space.pressure.vertex.size(), 0.0)};
+}
+
+/// The components of vectors, side by side.
+std::span<const double> numbers(const Field<NodeId, Vec3>& vectors) {
+  return {vectors.span().front().data(), 3 * vectors.span().size()};
+}
+std::span<double> numbers(Field<NodeId, Vec3>& vectors) {
+  return {vectors.span().front().data(), 3 * vectors.span().size()};
+}
+
+template <class Element>
 void add_cell_power(const StokesProblem& problem, const StokesState& state, Element& element,
                     StokesPower& power) {
   for (const CellId c : ids<CellId>(owned_counts(problem).num_cells)) {
@@ -66,19 +92,41 @@ void add_cell_power(const StokesProblem& problem, const StokesState& state, Elem
   }
 }
 
+/// ∫2μ D:D and ∫f·v, as what viscous stresses and body forces do to the test functions times the
+/// velocity.
+void add_power(const StokesProblem& problem, const StokesState& state, const StokesProduct& product,
+               StokesPower& power) {
+  const std::vector<double> no_pressure(state.p.size(), 0.0);
+  StokesResidual viscous = residual_of_nothing(problem), body = viscous;
+  product.add(numbers(state.v), no_pressure, numbers(viscous.momentum), viscous.continuity);
+  with_element(problem.space, problem.positions,
+               [&](auto& element) { subtract_body_force(problem, element, body); });
+  for (const NodeId i : ids<NodeId>(owned_counts(problem).num_nodes)) {
+    power.dissipation += viscous.momentum[i].dot(state.v[i]);
+    power.body_force -= body.momentum[i].dot(state.v[i]);
+  }
+}
+
 }  // namespace
 
-StokesResidual undamped_residual(const StokesProblem& problem, const StokesState& state) {
-  StokesResidual result{Field<NodeId, Vec3>(problem.force.size(), Vec3::Zero()),
-                        std::vector<double>(state.p.size(), 0.0)};
-  with_element(problem.space, problem.positions,
-               [&](auto& element) { add_residual(problem, state, element, result); });
+StokesResidual undamped_residual(const StokesProblem& problem, const StokesState& state,
+                                 const StokesProduct* product) {
+  StokesResidual result = residual_of_nothing(problem);
+  with_element(problem.space, problem.positions, [&](auto& element) {
+    if (product == nullptr)
+      add_residual(problem, state, element, result);
+    else
+      subtract_body_force(problem, element, result);
+  });
+  if (product != nullptr)
+    product->add(numbers(state.v), state.p, numbers(result.momentum), result.continuity);
   for (const NodeId i : problem.force.ids()) result.momentum[i] -= problem.force[i];
   return result;
 }
 
-StokesResidual residual(const StokesProblem& problem, const StokesState& state) {
-  StokesResidual result = undamped_residual(problem, state);
+StokesResidual residual(const StokesProblem& problem, const StokesState& state,
+                        const StokesProduct* product) {
+  StokesResidual result = undamped_residual(problem, state, product);
   add_resistance(problem.damping, state.v, result.momentum);
   return result;
 }
@@ -100,11 +148,17 @@ double free_norm(const StokesResidual& residual, const StokesProblem& problem) {
 
 StokesPower power(const StokesProblem& problem, const StokesState& state) {
   StokesPower power;
-  with_element(problem.space, problem.positions,
-               [&](auto& element) { add_cell_power(problem, state, element, power); });
+  std::optional<StokesProduct> product;
+  if (has_product(problem)) {
+    product.emplace(problem);
+    add_power(problem, state, *product, power);
+  } else {
+    with_element(problem.space, problem.positions,
+                 [&](auto& element) { add_cell_power(problem, state, element, power); });
+  }
   const std::int32_t num_nodes = owned_counts(problem).num_nodes;
   for (const NodeId i : ids<NodeId>(num_nodes)) power.force += problem.force[i].dot(state.v[i]);
-  const StokesResidual reaction = residual(problem, state);
+  const StokesResidual reaction = residual(problem, state, product ? &*product : nullptr);
   for (const NodeConstraint& constraint : problem.constraints.all())
     if (constraint.node.value < num_nodes)
       power.reaction +=

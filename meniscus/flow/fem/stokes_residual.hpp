@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "meniscus/flow/fem/stokes_problem.hpp"
+#include "meniscus/flow/fem/stokes_product.hpp"
 
 namespace meniscus::fem {
 
@@ -12,10 +12,13 @@ struct StokesResidual {
   Field<NodeId, Vec3> momentum;    ///< [μ_out G R0²]
   std::vector<double> continuity;  ///< [G R0³]
 };
-[[nodiscard]] StokesResidual residual(const StokesProblem& problem, const StokesState& state);
+/// By `product`, the problem's own, where it is given.
+[[nodiscard]] StokesResidual residual(const StokesProblem& problem, const StokesState& state,
+                                      const StokesProduct* product = nullptr);
 /// The residual of the same problem without its damping.
 [[nodiscard]] StokesResidual undamped_residual(const StokesProblem& problem,
-                                               const StokesState& state);
+                                               const StokesState& state,
+                                               const StokesProduct* product = nullptr);
 /// Euclidean norm of what a solution must make zero: the residual without its fixed components. The
 /// norm is the global one; collective on the ranks of a partitioned problem.
 [[nodiscard]] double free_norm(const StokesResidual& residual, const StokesProblem& problem);

@@ -83,20 +83,21 @@ void add_step(StokesState& state, const StokesProblem& problem,
 
 /// The residual of a velocity without pressure, once the fixed velocities are imposed. Damping is
 /// no part of it: it would loosen the tolerance.
-double residual_at(const StokesProblem& problem, Field<NodeId, Vec3> v) {
+double residual_at(const StokesProblem& problem, const StokesProduct* product,
+                   Field<NodeId, Vec3> v) {
   StokesState state{std::move(v), std::vector<double>(problem.space.pressure.vertex.size(), 0.0)};
   problem.constraints.impose(state.v);
-  return free_norm(undamped_residual(problem, state), problem);
+  return free_norm(undamped_residual(problem, state, product), problem);
 }
 
 /// The residual that the data alone cause where all else rests. A boundary far away has the most of
 /// it, in proportion to its distance squared: what counts is what the drops cause, the residual of
 /// the undisturbed flow, of which a boundary at 10 R0 has some 30 to 100 times as much, one at 100
 /// R0 ten thousand times.
-double reference_residual(const StokesProblem& problem) {
-  const double at_rest = residual_at(problem, state_at_rest(problem.space).v);
+double reference_residual(const StokesProblem& problem, const StokesProduct* product) {
+  const double at_rest = residual_at(problem, product, state_at_rest(problem.space).v);
   if (problem.undisturbed.empty()) return at_rest;
-  const double undisturbed = residual_at(problem, problem.undisturbed);
+  const double undisturbed = residual_at(problem, product, problem.undisturbed);
   return std::clamp(kMostOfDisturbance * undisturbed, kLeastOfRest * at_rest, at_rest);
 }
 
@@ -117,8 +118,7 @@ void check_linear_options(const Options& options) {
 StokesSolver::StokesSolver(const FlowSpace& space, const Options& options)
     : options_(options),
       space_(space),
-      partition_(make_partition(space, linear::Communicator::of(options.processes))),
-      jacobian_(partition_ ? partition_->space : space, partition_.get()) {}
+      partition_(make_partition(space, linear::Communicator::of(options.processes))) {}
 
 StokesState StokesSolver::state_at_rest() const { return fem::state_at_rest(space_); }
 
@@ -129,18 +129,41 @@ linear::SaddleSolver& StokesSolver::linear_solver(LinearSolver which) {
 }
 
 void StokesSolver::prepare(const StokesProblem& problem) {
-  jacobian_.weigh_constant_pressures(constant_pressure_shares(problem));
+  shares_ = constant_pressure_shares(problem);
+  const auto prepare_local = [&](const StokesProblem& local) {
+    use_product(local);
+    linear_solver(options_.linear).prepare(assembled_system(local, options_.linear, nullptr));
+  };
   if (partition_)
-    jacobian_.assemble(local_part(problem, *partition_));
+    prepare_local(local_part(problem, *partition_));
   else
-    jacobian_.assemble(problem);
-  linear_solver(options_.linear).prepare(jacobian_.system());
+    prepare_local(problem);
+}
+
+void StokesSolver::use_product(const StokesProblem& problem) {
+  product_.reset();
+  if (has_product(problem)) product_.emplace(problem);
+}
+
+/// The system that a linear solver takes: its products where it can do with them, else matrices.
+linear::SaddleSystem StokesSolver::assembled_system(const StokesProblem& problem,
+                                                    LinearSolver which,
+                                                    const Linearization* about) {
+  const auto assembled = [&](auto& jacobian, const auto& of) {
+    if (!jacobian) jacobian.emplace(partition_ ? partition_->space : space_, partition_.get());
+    jacobian->weigh_constant_pressures(shares_);
+    jacobian->assemble(problem, of);
+    return jacobian->system();
+  };
+  if (product_ && (which == LinearSolver::block || which == LinearSolver::minres))
+    return assembled(product_jacobian_, *product_);
+  return assembled(jacobian_, about);
 }
 
 StokesReport StokesSolver::solve(const StokesProblem& problem, StokesState& state,
                                  linear::Preconditioner preconditioner, PhaseTimes& times) {
   problem.constraints.impose(state.v);
-  jacobian_.weigh_constant_pressures(constant_pressure_shares(problem));
+  shares_ = constant_pressure_shares(problem);
   if (!partition_) return solve_local(problem, state, preconditioner, times);
   StokesState part = local_part(state, *partition_);
   StokesReport report = solve_local(local_part(problem, *partition_), part, preconditioner, times);
@@ -158,8 +181,8 @@ StokesReport StokesSolver::solve_local(const StokesProblem& problem, StokesState
   double reference = 0.0;
   {
     const PhaseTimer timer(times, "assemble");
-    reference = reference_residual(problem);
-    if (!problem.is_generalised()) jacobian_.assemble(problem);
+    use_product(problem);
+    reference = reference_residual(problem, product());
   }
   StokesReport report;
   report.reference = reference;
@@ -201,18 +224,22 @@ StokesReport StokesSolver::solve_with(LinearSolver which, const StokesProblem& p
   const OwnedCounts owned = owned_counts(problem);
   std::vector<double> step(3 * static_cast<std::size_t>(owned.num_nodes) +
                            static_cast<std::size_t>(owned.num_pressures));
+  std::optional<linear::SaddleSystem> system;
   for (; report.newton_steps <= most_newton_steps; ++report.newton_steps) {
-    const StokesResidual now = residual(problem, state);
+    const StokesResidual now = residual(problem, state, product());
     report.residual = free_norm(now, problem);
     // 2: the residual that a Krylov method updates and the true one differ by roundoff. A first
     // guess has no such excuse.
     if (report.residual <= (report.newton_steps == 0 ? 1.0 : 2.0) * target) return report;
     if (report.newton_steps == most_newton_steps) break;
+    if (!system) {
+      const PhaseTimer timer(times, "assemble");
+      system = assembled_system(problem, which, nullptr);
+    }
     const PhaseTimer timer(times, "solve");
     std::ranges::fill(step, 0.0);
-    const linear::LinearReport linear_report =
-        linear_solver(which).solve(jacobian_.system(), right_hand_side(now, problem), step,
-                                   target / report.residual, preconditioner);
+    const linear::LinearReport linear_report = linear_solver(which).solve(
+        *system, right_hand_side(now, problem), step, target / report.residual, preconditioner);
     add_cost(report, linear_report);
     report.linear_residuals = linear_report.residuals;
     if (!linear_report.converged) {
@@ -231,17 +258,17 @@ StokesReport StokesSolver::solve_with(LinearSolver which, const StokesProblem& p
 bool StokesSolver::linear_step(const StokesProblem& problem, const StokesResidual& now,
                                const Linearization* about, double rtol, PhaseTimes& times,
                                StokesState& step, StokesReport& report) {
-  {
+  const linear::SaddleSystem system = [&] {
     const PhaseTimer timer(times, "assemble");
-    jacobian_.assemble(problem, about);
-  }
+    return assembled_system(problem, options_.linear, about);
+  }();
   const PhaseTimer timer(times, "solve");
   const std::vector<double> right = right_hand_side(now, problem);
   std::vector<double> values(right.size());
   for (const LinearSolver which : solvers_in_order(report.solver, space_)) {
     std::ranges::fill(values, 0.0);
-    const linear::LinearReport linear_report = linear_solver(which).solve(
-        jacobian_.system(), right, values, rtol, linear::Preconditioner::fresh);
+    const linear::LinearReport linear_report =
+        linear_solver(which).solve(system, right, values, rtol, linear::Preconditioner::fresh);
     add_cost(report, linear_report);
     report.linear_residuals = linear_report.residuals;
     if (linear_report.converged) {

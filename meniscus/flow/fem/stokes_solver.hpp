@@ -1,11 +1,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 
 #include "meniscus/core/fault.hpp"
 #include "meniscus/core/timer.hpp"
 #include "meniscus/flow/fem/options.hpp"
 #include "meniscus/flow/fem/partition.hpp"
+#include "meniscus/flow/fem/product_jacobian.hpp"
 #include "meniscus/flow/fem/spaces.hpp"
 #include "meniscus/flow/fem/stokes_jacobian.hpp"
 #include "meniscus/flow/fem/stokes_problem.hpp"
@@ -59,6 +61,11 @@ class StokesSolver {
   [[nodiscard]] StokesPower power(const StokesProblem& problem, const StokesState& state) const;
 
  private:
+  void use_product(const StokesProblem& problem);
+  /// Null where there is none.
+  [[nodiscard]] const StokesProduct* product() const { return product_ ? &*product_ : nullptr; }
+  linear::SaddleSystem assembled_system(const StokesProblem& problem, LinearSolver which,
+                                        const Linearization* about);
   StokesReport solve_local(const StokesProblem& problem, StokesState& state,
                            linear::Preconditioner preconditioner, PhaseTimes& times);
   StokesReport solve_with(LinearSolver which, const StokesProblem& problem, StokesState& state,
@@ -76,7 +83,10 @@ class StokesSolver {
   Options options_;
   const FlowSpace& space_;
   std::unique_ptr<const Partition> partition_;  ///< this rank's; null on one rank
-  StokesJacobian jacobian_;
+  Field<RegionId, double> shares_;              ///< of the problem, as below (region_pressures.hpp)
+  std::optional<StokesProduct> product_;    ///< of the problem that is being solved, if it has one
+  std::optional<StokesJacobian> jacobian_;  ///< made when a solver first takes matrices
+  std::optional<ProductJacobian> product_jacobian_;
   std::map<LinearSolver, linear::SaddleSolver> linear_solvers_;
 };
 

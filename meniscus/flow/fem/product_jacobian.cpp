@@ -1,0 +1,165 @@
+#include "meniscus/flow/fem/product_jacobian.hpp"
+
+#include <algorithm>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/flow/fem/elements.hpp"
+
+namespace meniscus::fem {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// The nodes that are vertices, counted in their order; −1 for the others.
+std::vector<std::int32_t> count_vertices(const LinearFunctions& coarse) {
+  std::vector<std::int32_t> vertex_of;
+  std::int32_t count = 0;
+  for (const std::int32_t number : coarse.number) vertex_of.push_back(number < 0 ? -1 : count++);
+  return vertex_of;
+}
+
+NodeTable vertices_of_cells(const NodeTable& nodes, const std::vector<std::int32_t>& vertex_of) {
+  NodeTable vertices{1 + std::ranges::max(vertex_of), 4, {}};
+  for (const CellId c : ids<CellId>(nodes.num_cells()))
+    for (const std::int32_t node : nodes.of(c).first(4))
+      vertices.cell_nodes.push_back(vertex_of[at(node)]);
+  return vertices;
+}
+
+/// ∫∇b_k·∇b_l and ∫b_k b_l of a cell's barycentric coordinates.
+struct LinearIntegrals {
+  Eigen::Matrix4d gradients = Eigen::Matrix4d::Zero(), values = Eigen::Matrix4d::Zero();
+};
+
+/// ∫b_k b_l = V(1 + δ_kl)/20.
+LinearIntegrals straight_integrals(const StokesProblem& problem, CellId c) {
+  const auto nodes = problem.space.velocity.of(c);
+  const auto x = [&](std::size_t k) { return problem.positions.x[NodeId{nodes[k]}]; };
+  const LinearTetrahedron tet = linear_tetrahedron({x(0), x(1), x(2), x(3)});
+  Eigen::Matrix<double, 3, 4> gradients;
+  gradients << tet.gradient[0], tet.gradient[1], tet.gradient[2], tet.gradient[3];
+  return {tet.volume * gradients.transpose() * gradients,
+          tet.volume / 20.0 * (Eigen::Matrix4d::Ones() + Eigen::Matrix4d::Identity())};
+}
+
+LinearIntegrals curved_integrals(const StokesProblem& problem, CellId c) {
+  const auto maps = curved_maps(problem.positions.x, problem.space.velocity.of(c));
+  LinearIntegrals integrals;
+  for (std::size_t q = 0; q < maps.size(); ++q) {
+    const auto& [weight, g] = maps[q];
+    Eigen::Matrix<double, 3, 4> gradients;
+    gradients << -(g[0] + g[1] + g[2]), g[0], g[1], g[2];
+    const Eigen::Map<const Eigen::Vector4d> values(kTetrahedronRule5[q].barycentric.data());
+    integrals.gradients.noalias() += weight * gradients.transpose() * gradients;
+    integrals.values.noalias() += weight * values * values.transpose();
+  }
+  return integrals;
+}
+
+/// Where a column stands in a row of a graph; none where the two share no cell.
+std::optional<std::size_t> find_entry(const NodeGraph& graph,
+                                      const std::vector<std::int32_t>& columns, std::int32_t row,
+                                      std::int32_t column) {
+  const auto begin = columns.begin() + graph.row_start[at(row)],
+             end = columns.begin() + graph.row_start[at(row) + 1];
+  const auto found = std::find(begin, end, column);
+  if (found == end) return std::nullopt;
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+}  // namespace
+
+ProductJacobian::ProductJacobian(const FlowSpace& space, const Partition* partition)
+    : space_(space),
+      owned_(partition != nullptr ? partition->owned : all_owned(space)),
+      coarse_(partition != nullptr ? partition->coarse : linear_functions(space)),
+      vertex_of_(count_vertices(coarse_)),
+      vertices_(vertices_of_cells(space.velocity, vertex_of_)),
+      vertex_graph_(node_graph(vertices_, vertices_)),
+      pressure_graph_(node_graph(space.pressure.nodes, space.pressure.nodes)),
+      columns_of_vertices_(vertex_graph_.columns),
+      laplacians_(space, partition),
+      region_weights_(space.pressure, partition) {
+  MENISCUS_ASSERT(space.elements == Elements::p2_p1, "linear elements have matrices");
+  std::vector<std::int32_t> number;  // of a vertex
+  for (const std::int32_t each : coarse_.number)
+    if (each >= 0) number.push_back(each);
+  for (std::int32_t& column : vertex_graph_.columns) column = number[at(column)];
+  if (partition == nullptr) return;
+  for (std::int32_t& column : pressure_graph_.columns)
+    column = partition->pressure_number[at(column)];
+}
+
+void ProductJacobian::assemble(const StokesProblem& problem, const StokesProduct& product) {
+  product_.emplace(problem, product);
+  diagonals_ = product_->laplacian_diagonals();
+  constant_pressure_is_null_ = !problem.has_open_boundary;
+  laplacians_.choose(problem.constraints, vertex_graph_.num_entries());
+  pressure_mass_.assign(at(pressure_graph_.num_rows()), 0.0);
+  consistent_mass_.assign(pressure_graph_.num_entries(), 0.0);
+  for (const CellId c : problem.mesh.cells.ids()) add_cell(problem, c);
+  add_damping(problem);
+  region_weights_.update(std::span(pressure_mass_).first(at(owned_.num_pressures)));
+}
+
+void ProductJacobian::add_cell(const StokesProblem& problem, CellId c) {
+  const LinearIntegrals integrals = problem.positions.is_curved[c] ? curved_integrals(problem, c)
+                                                                   : straight_integrals(problem, c);
+  const auto nodes = space_.velocity.of(c), vertices = vertices_.of(c),
+             pressures = space_.pressure.nodes.of(c);
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t l = 0; l < 4; ++l) {
+      const auto row = static_cast<Eigen::Index>(k), column = static_cast<Eigen::Index>(l);
+      const std::size_t pair = 16 * at(c.value) + 4 * k + l;
+      for (ScalarLaplacian& laplacian : laplacians_.all()) {
+        const bool is_fixed = laplacian.is_fixed[at(nodes[k])] || laplacian.is_fixed[at(nodes[l])];
+        if (!is_fixed || k == l)
+          laplacian.values[vertex_graph_.entry(vertices[k], pair)] +=
+              problem.viscosity[c] * integrals.gradients(row, column);
+      }
+      const double mass = integrals.values(row, column) / problem.viscosity[c];
+      pressure_mass_[at(pressures[k])] += mass;
+      consistent_mass_[pressure_graph_.entry(pressures[k], pair)] += mass;
+    }
+}
+
+/// A quadratic function that is linear has at each node the mean of its ends' values.
+void ProductJacobian::add_damping(const StokesProblem& problem) {
+  const SurfaceDamping& damping = problem.damping;
+  for (const auto& [row, column, weight] : damping.entries) {
+    const double share = weight * damping.normal[row].dot(damping.normal[column]) / (3.0 * 4.0);
+    for (const std::int32_t i : coarse_.ends[at(row.value)])
+      for (const std::int32_t j : coarse_.ends[at(column.value)]) {
+        const auto k =
+            find_entry(vertex_graph_, columns_of_vertices_, vertex_of_[at(i)], vertex_of_[at(j)]);
+        for (ScalarLaplacian& laplacian : laplacians_.all())
+          if (k && !laplacian.is_fixed[at(i)] && !laplacian.is_fixed[at(j)])
+            laplacian.values[*k] += share;
+      }
+  }
+}
+
+linear::SaddleSystem ProductJacobian::system() const {
+  MENISCUS_ASSERT(product_.has_value(), "nothing was assembled");
+  const std::int32_t num_velocities = 3 * owned_.num_nodes, num_pressures = owned_.num_pressures;
+  linear::SaddleSystem system;
+  system.A = {num_velocities, num_velocities, {}, {}, {}};
+  system.B = {num_pressures, num_velocities, {}, {}, {}};
+  system.C = {num_pressures, num_pressures, {}, {}, {}};
+  using Values = std::span<const double>;
+  const FreeProduct& product = *product_;
+  system.products = {
+      [&product](Values x, std::span<double> y) { product.multiply(x, y); },
+      [&product](Values p, std::span<double> v) { product.multiply_gradient(p, v); },
+      [&product](Values v, std::span<double> r) { product.multiply_laplacians(v, r); }};
+  system.laplacian_diagonals = diagonals_;
+  laplacians_.put_into(system, vertex_graph_, coarse_.num_owned);
+  system.consistent_mass = {num_pressures, num_pressures, pressure_graph_.row_start,
+                            pressure_graph_.columns, consistent_mass_};
+  system.pressure_mass = std::span(pressure_mass_).first(at(num_pressures));
+  region_weights_.put_into(system);
+  system.constant_pressure_is_null = constant_pressure_is_null_;
+  return system;
+}
+
+}  // namespace meniscus::fem

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "meniscus/flow/fem/free_product.hpp"
+#include "meniscus/flow/fem/node_graph.hpp"
+#include "meniscus/flow/fem/region_weights.hpp"
+#include "meniscus/flow/fem/scalar_laplacians.hpp"
+
+namespace meniscus::fem {
+
+/// The Jacobian of R(u), for quadratic elements on Newtonian liquids, as a saddle system that is
+/// given by its products. Matrices are made of what preconditioners need: the mass matrix of the
+/// pressures, and the Laplacians of linear functions, the coarse level of multigrid by degree.
+class ProductJacobian {
+ public:
+  /// As `StokesJacobian`'s.
+  explicit ProductJacobian(const FlowSpace& space, const Partition* partition = nullptr);
+
+  /// The problem and the product, which is the problem's, must outlive the system.
+  void assemble(const StokesProblem& problem, const StokesProduct& product);
+  void weigh_constant_pressures(const Field<RegionId, double>& shares) {
+    region_weights_.set_shares(shares);
+  }
+  /// A view of the last assembly.
+  [[nodiscard]] linear::SaddleSystem system() const;
+
+ private:
+  void add_cell(const StokesProblem& problem, CellId c);
+  void add_damping(const StokesProblem& problem);
+
+  const FlowSpace& space_;
+  OwnedCounts owned_;
+  LinearFunctions coarse_;
+  std::vector<std::int32_t> vertex_of_;  ///< by node; −1 at the middles of edges
+  NodeTable vertices_;                   ///< of each cell
+  NodeGraph vertex_graph_, pressure_graph_;
+  std::vector<std::int32_t> columns_of_vertices_;  ///< before they are numbered
+  ScalarLaplacians laplacians_;
+  RegionWeights region_weights_;
+  std::vector<double> pressure_mass_, consistent_mass_, diagonals_;
+  std::optional<FreeProduct> product_;
+  bool constant_pressure_is_null_ = false;
+};
+
+}  // namespace meniscus::fem

@@ -1,0 +1,318 @@
+#include "meniscus/flow/fem/stokes_product.hpp"
+
+#include <algorithm>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/vector_clones.hpp"
+#include "meniscus/flow/fem/cell_lanes.hpp"
+#include "meniscus/flow/fem/elements.hpp"
+
+// GCC 12 takes elements of vectors that are set one by one for uninitialised.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+
+namespace meniscus::fem {
+
+using namespace lanes;
+
+namespace {
+
+/// s(2μ D − p I).
+struct Stress {
+  static constexpr bool has_pressure = true;
+  MENISCUS_INLINE static Tensor of(const Tensor& gradient, const Lanes& viscosity, const Lanes& p,
+                                   const Lanes& s) {
+    Tensor result;
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (std::size_t b = a; b < 3; ++b)
+        result[a][b] = result[b][a] = s * viscosity * (gradient[a][b] + gradient[b][a]);
+      result[a][a] -= s * p;
+    }
+    return result;
+  }
+};
+
+/// sμ∇v.
+struct ViscousGradient {
+  static constexpr bool has_pressure = false;
+  MENISCUS_INLINE static Tensor of(const Tensor& gradient, const Lanes& viscosity, const Lanes&,
+                                   const Lanes& s) {
+    Tensor result;
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < 3; ++b) result[a][b] = s * viscosity * gradient[a][b];
+    return result;
+  }
+};
+
+/// The derivatives d of the velocity become those that the test functions are paid with; p becomes
+/// what the continuity gets.
+template <class Flux>
+MENISCUS_INLINE void multiply(const StraightCells& cells, Derivatives& d, Corners& p) {
+  std::array<Tensor, 4> S;
+  Tensor sum = {};
+  Lanes divergence = {};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Tensor gradient = gradient_of(d[k], cells.gradient);
+    S[k] = Flux::of(gradient, cells.viscosity, p[k], cells.volume);
+    add_to(sum, S[k]);
+    p[k] = trace(gradient);
+    divergence += p[k];
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    add_to(S[k], sum);
+    d[k] = on_gradients(S[k], cells.gradient);
+    p[k] = -cells.volume * (divergence + p[k]);
+  }
+}
+
+/// Σ_k b_k of what is given by corners.
+MENISCUS_INLINE Lanes at_point(const std::array<double, 4>& b, const Corners& of) {
+  return b[0] * of[0] + b[1] * of[1] + b[2] * of[2] + b[3] * of[3];
+}
+MENISCUS_INLINE Tensor at_point(const std::array<double, 4>& b, const Derivatives& d) {
+  Tensor result;
+  for (std::size_t l = 0; l < 3; ++l)
+    for (std::size_t a = 0; a < 3; ++a)
+      result[l][a] = at_point(b, Corners{d[0][l][a], d[1][l][a], d[2][l][a], d[3][l][a]});
+  return result;
+}
+/// The transpose of `at_point`.
+MENISCUS_INLINE void add_back(const std::array<double, 4>& b, const Tensor& t, Derivatives& d) {
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t l = 0; l < 3; ++l)
+      for (std::size_t a = 0; a < 3; ++a) d[k][l][a] += b[k] * t[l][a];
+}
+
+template <class Flux>
+MENISCUS_INLINE void multiply(const CurvedCells& cells, Derivatives& d, Corners& p) {
+  Derivatives paid = {};
+  Corners continuity = {};
+  for (std::size_t q = 0; q < cells.points.size(); ++q) {
+    const auto& [g, weight] = cells.points[q];
+    const std::array<double, 4>& b = kTetrahedronRule5[q].barycentric;
+    const Tensor gradient = gradient_of(at_point(b, d), g);
+    const Tensor flux = Flux::of(gradient, cells.viscosity, at_point(b, p), weight);
+    add_back(b, on_gradients(flux, g), paid);
+    for (std::size_t k = 0; k < 4; ++k) continuity[k] -= b[k] * weight * trace(gradient);
+  }
+  d = paid;
+  p = continuity;
+}
+
+/// The pressure's part of the momentum.
+MENISCUS_INLINE void multiply_pressure(const StraightCells& cells, const Corners& p,
+                                       Derivatives& d) {
+  const Lanes sum = p[0] + p[1] + p[2] + p[3];
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t l = 0; l < 3; ++l)
+      for (std::size_t a = 0; a < 3; ++a)
+        d[k][l][a] = -cells.volume * (sum + p[k]) * cells.gradient[l][a];
+}
+MENISCUS_INLINE void multiply_pressure(const CurvedCells& cells, const Corners& p, Derivatives& d) {
+  d = {};
+  for (std::size_t q = 0; q < cells.points.size(); ++q) {
+    const auto& [g, weight] = cells.points[q];
+    const std::array<double, 4>& b = kTetrahedronRule5[q].barycentric;
+    Tensor flux;
+    for (std::size_t l = 0; l < 3; ++l)
+      for (std::size_t a = 0; a < 3; ++a) flux[l][a] = -weight * at_point(b, p) * g[l][a];
+    add_back(b, flux, d);
+  }
+}
+
+MENISCUS_INLINE Lanes dot(const Lanes3& a, const Lanes3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// ∇b_k·∇b_l of the four barycentric coordinates.
+MENISCUS_INLINE void products_of_gradients(const Tensor& g, std::array<Corners, 4>& products) {
+  Lanes3 first;
+  for (std::size_t a = 0; a < 3; ++a) first[a] = -(g[0][a] + g[1][a] + g[2][a]);
+  const std::array<Lanes3, 4> all = {first, g[0], g[1], g[2]};
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t l = k; l < 4; ++l) products[k][l] = products[l][k] = dot(all[k], all[l]);
+}
+
+/// Adds s|∇φ_i|² at a point: ∇φ = (4b_k − 1)∇b_k at a corner, 4(b_p∇b_q + b_q∇b_p) at an edge.
+MENISCUS_INLINE void add_squares(const std::array<Corners, 4>& products,
+                                 const std::array<double, 4>& b, const Lanes& s,
+                                 std::array<Lanes, 10>& diagonal) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double of_corner = 4.0 * b[k] - 1.0;
+    diagonal[k] += s * (of_corner * of_corner) * products[k][k];
+  }
+  for (std::size_t e = 0; e < 6; ++e) {
+    const auto [p, q] = kCellEdges[e];
+    diagonal[4 + e] += 16.0 * s *
+                       (b[p] * b[p] * products[q][q] + 2.0 * b[p] * b[q] * products[p][q] +
+                        b[q] * b[q] * products[p][p]);
+  }
+}
+
+MENISCUS_INLINE void find_diagonal(const StraightCells& cells, std::array<Lanes, 10>& diagonal) {
+  std::array<Corners, 4> products;
+  products_of_gradients(cells.gradient, products);
+  const Lanes scale = 20.0 * cells.volume * cells.viscosity;
+  for (const auto& [b, share] : kTetrahedronRule2)
+    add_squares(products, b, share * scale, diagonal);
+}
+MENISCUS_INLINE void find_diagonal(const CurvedCells& cells, std::array<Lanes, 10>& diagonal) {
+  for (std::size_t q = 0; q < cells.points.size(); ++q) {
+    std::array<Corners, 4> products;
+    products_of_gradients(cells.points[q].gradient, products);
+    add_squares(products, kTetrahedronRule5[q].barycentric,
+                cells.points[q].weight * cells.viscosity, diagonal);
+  }
+}
+
+template <class Batch>
+MENISCUS_INLINE void add_diagonal(std::span<const Batch> batches, double* by_node) {
+  for (const Batch& cells : batches) {
+    std::array<Lanes, 10> diagonal = {};
+    find_diagonal(cells, diagonal);
+    for (std::size_t m = 0; m < kLanes; ++m)
+      for (std::size_t i = 0; i < 10; ++i) by_node[cells.nodes[i][m]] += diagonal[i][m];
+  }
+}
+
+struct Fields {
+  const double *v, *p;
+  double *momentum, *continuity;
+};
+
+template <class Flux, class Batch>
+MENISCUS_INLINE void add_fluxes(std::span<const Batch> batches, const Fields& fields) {
+  for (const Batch& cells : batches) {
+    Nodal v;
+    Corners p = {};
+    Derivatives d;
+    take(cells.nodes, fields.v, v);
+    if constexpr (Flux::has_pressure) take(cells.pressures, fields.p, p);
+    differentiate(v, d);
+    multiply<Flux>(cells, d, p);
+    differentiate_back(d, v);
+    give(cells.nodes, v, fields.momentum);
+    if constexpr (Flux::has_pressure) give(cells.pressures, p, fields.continuity);
+  }
+}
+
+template <class Batch>
+MENISCUS_INLINE void add_pressure(std::span<const Batch> batches, const Fields& fields) {
+  for (const Batch& cells : batches) {
+    Nodal v;
+    Corners p;
+    Derivatives d;
+    take(cells.pressures, fields.p, p);
+    multiply_pressure(cells, p, d);
+    differentiate_back(d, v);
+    give(cells.nodes, v, fields.momentum);
+  }
+}
+
+}  // namespace
+
+struct StokesProduct::Cells {
+  std::vector<StraightCells> straight;
+  std::vector<CurvedCells> curved;
+};
+
+namespace {
+
+MENISCUS_VECTOR_CLONES
+void add_stresses(std::span<const StraightCells> straight, std::span<const CurvedCells> curved,
+                  const Fields& fields) {
+  add_fluxes<Stress>(straight, fields);
+  add_fluxes<Stress>(curved, fields);
+}
+MENISCUS_VECTOR_CLONES
+void add_gradients(std::span<const StraightCells> straight, std::span<const CurvedCells> curved,
+                   const Fields& fields) {
+  add_fluxes<ViscousGradient>(straight, fields);
+  add_fluxes<ViscousGradient>(curved, fields);
+}
+MENISCUS_VECTOR_CLONES
+void add_pressures(std::span<const StraightCells> straight, std::span<const CurvedCells> curved,
+                   const Fields& fields) {
+  add_pressure(straight, fields);
+  add_pressure(curved, fields);
+}
+
+MENISCUS_VECTOR_CLONES
+void add_diagonals(std::span<const StraightCells> straight, std::span<const CurvedCells> curved,
+                   double* by_node) {
+  add_diagonal(straight, by_node);
+  add_diagonal(curved, by_node);
+}
+
+void set(Tensor& to, std::size_t m, const std::array<Vec3, 3>& gradients) {
+  for (std::size_t l = 0; l < 3; ++l)
+    for (std::size_t a = 0; a < 3; ++a) to[l][a][m] = gradients[l][static_cast<Eigen::Index>(a)];
+}
+
+/// Sets lane m to a cell of a problem, whose volume counts so many times.
+void set(StraightCells& cells, std::size_t m, const StokesProblem& problem, CellId c,
+         double times) {
+  const auto nodes = problem.space.velocity.of(c);
+  const auto x = [&](std::size_t k) { return problem.positions.x[NodeId{nodes[k]}]; };
+  const LinearTetrahedron tet = linear_tetrahedron({x(0), x(1), x(2), x(3)});
+  set(cells.gradient, m, {tet.gradient[1], tet.gradient[2], tet.gradient[3]});
+  cells.volume[m] = times * tet.volume / 20.0;
+}
+void set(CurvedCells& cells, std::size_t m, const StokesProblem& problem, CellId c, double times) {
+  const std::array<CurvedMap, kTetrahedronRule5.size()> maps =
+      curved_maps(problem.positions.x, problem.space.velocity.of(c));
+  for (std::size_t q = 0; q < maps.size(); ++q) {
+    set(cells.points[q].gradient, m, maps[q].gradient);
+    cells.points[q].weight[m] = times * maps[q].weight;
+  }
+}
+
+/// The cells by eights.
+template <class Batch>
+std::vector<Batch> batches_of(const StokesProblem& problem, std::span<const CellId> cells) {
+  std::vector<Batch> batches((cells.size() + kLanes - 1) / kLanes);
+  for (std::size_t n = 0; n < kLanes * batches.size(); ++n) {
+    const CellId c = cells[std::min(n, cells.size() - 1)];
+    Batch& batch = batches[n / kLanes];
+    const std::size_t m = n % kLanes;
+    const auto nodes = problem.space.velocity.of(c), pressures = problem.space.pressure.nodes.of(c);
+    for (std::size_t i = 0; i < nodes.size(); ++i) batch.nodes[i][m] = nodes[i];
+    for (std::size_t i = 0; i < pressures.size(); ++i) batch.pressures[i][m] = pressures[i];
+    set(batch, m, problem, c, n < cells.size() ? 1.0 : 0.0);
+    batch.viscosity[m] = problem.viscosity[c];
+  }
+  return batches;
+}
+
+}  // namespace
+
+StokesProduct::StokesProduct(const StokesProblem& problem) {
+  MENISCUS_ASSERT(has_product(problem), "linear elements, or a viscosity that depends on the rate");
+  std::vector<CellId> straight, curved;
+  for (const CellId c : problem.mesh.cells.ids())
+    (problem.positions.is_curved[c] ? curved : straight).push_back(c);
+  cells_ = std::make_unique<Cells>(Cells{batches_of<StraightCells>(problem, straight),
+                                         batches_of<CurvedCells>(problem, curved)});
+}
+StokesProduct::StokesProduct(StokesProduct&&) noexcept = default;
+StokesProduct& StokesProduct::operator=(StokesProduct&&) noexcept = default;
+StokesProduct::~StokesProduct() = default;
+
+void StokesProduct::add(std::span<const double> v, std::span<const double> p,
+                        std::span<double> momentum, std::span<double> continuity) const {
+  add_stresses(cells_->straight, cells_->curved,
+               {v.data(), p.data(), momentum.data(), continuity.data()});
+}
+
+void StokesProduct::add_gradient(std::span<const double> p, std::span<double> momentum) const {
+  add_pressures(cells_->straight, cells_->curved, {nullptr, p.data(), momentum.data(), nullptr});
+}
+
+void StokesProduct::add_laplacian(std::span<const double> v, std::span<double> momentum) const {
+  add_gradients(cells_->straight, cells_->curved, {v.data(), nullptr, momentum.data(), nullptr});
+}
+
+void StokesProduct::add_laplacian_diagonal(std::span<double> by_node) const {
+  add_diagonals(cells_->straight, cells_->curved, by_node.data());
+}
+
+}  // namespace meniscus::fem

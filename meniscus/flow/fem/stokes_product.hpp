@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "meniscus/flow/fem/stokes_problem.hpp"
+
+namespace meniscus::fem {
+
+/// What the viscous, pressure and continuity terms of quadratic elements on Newtonian liquids do to
+/// a velocity and a pressure, cell by cell, without a matrix: a cell takes 150 bytes where its
+/// share of a matrix takes 3,800 (docs/benchmark-stokes.md).
+///
+/// The gradient of a quadratic function is linear in barycentric coordinates, and so given by its
+/// values at the four corners. From them the stress S follows at the corners of a straight cell, or
+/// at the points of the curved rule, and what it does to the test functions goes back the same way.
+/// On straight cells ∫b_k b_l = V (1 + δ_kl)/20 makes all integrals exact.
+///
+/// Velocities and what is tested with them have three components side by side at each node;
+/// pressures and what is tested with them are numbers.
+class StokesProduct {
+ public:
+  /// Takes from the problem what it needs. Not for linear elements or other liquids.
+  explicit StokesProduct(const StokesProblem& problem);
+  StokesProduct(StokesProduct&&) noexcept;
+  StokesProduct& operator=(StokesProduct&&) noexcept;
+  ~StokesProduct();
+
+  /// Adds ∫(2μ D(v) − p I):∇φ to `momentum`, and −∫ψ∇·v to `continuity`.
+  void add(std::span<const double> v, std::span<const double> p, std::span<double> momentum,
+           std::span<double> continuity) const;
+  /// Adds −∫p∇·φ to `momentum`.
+  void add_gradient(std::span<const double> p, std::span<double> momentum) const;
+  /// Adds ∫μ∇v:∇φ to `momentum`.
+  void add_laplacian(std::span<const double> v, std::span<double> momentum) const;
+  /// Adds ∫μ∇φ_i·∇φ_i of each node.
+  void add_laplacian_diagonal(std::span<double> by_node) const;
+
+ private:
+  struct Cells;
+  std::unique_ptr<const Cells> cells_;
+};
+
+/// Whether a problem has a product.
+[[nodiscard]] inline bool has_product(const StokesProblem& problem) {
+  return problem.space.elements == Elements::p2_p1 && !problem.is_generalised();
+}
+
+}  // namespace meniscus::fem
