@@ -22,19 +22,6 @@ double gross_power(const Scene& scene, const InterfaceMotion& motion) {
   return power;
 }
 
-bool has_moving_wall(const Scene& scene, double t) {
-  const OuterBoundary& boundary = scene.boundary;
-  if (boundary.patches.size() == 0) return false;
-  for (const FaceId f : boundary.mesh.faces.ids()) {
-    const auto* imposed =
-        std::get_if<ImposedVelocity>(&boundary.patches[boundary.patch[f]].condition);
-    if (imposed == nullptr) continue;
-    for (const VertexId v : boundary.mesh.faces[f])
-      if (!imposed->velocity(boundary.mesh.x[v], t).isZero(0.0)) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 double interface_energy(const Scene& scene) {
@@ -44,26 +31,11 @@ double interface_energy(const Scene& scene) {
   return energy;
 }
 
-bool is_driven(const Scene& scene, double t, double dt) {
-  if (std::ranges::any_of(scene.liquids,
-                          [](const Liquid& liquid) { return !liquid.body_force.isZero(0.0); }))
-    return true;
-  if (scene.is_unbounded)
-    return !scene.flow.gradient(t).isZero(0.0) || !scene.flow.gradient(t + dt).isZero(0.0);
-  return has_open_patch(scene) || has_moving_wall(scene, t) || has_moving_wall(scene, t + dt);
-}
-
 std::optional<Fault> find_energy_fault(const Step& step, const StageFlow& whole, const Scene& end) {
   const double before = interface_energy(step.start), gain = interface_energy(end) - before,
                predicted = step.dt * whole.surface_rate,
                allowed = kMostEnergyShare * step.dt * gross_power(step.start, whole.motion) +
                          kEnergyRoundOff * before;
-  const bool is_driven = meniscus::is_driven(step.start, step.t, step.dt);
-  if (!is_driven && gain > allowed)
-    return Fault{FaultKind::wrong_energy,
-                 fmt::format("the interfaces' energy rises by {:.3g} of itself, though nothing "
-                             "drives the flow",
-                             gain / before)};
   const bool is_too_high = gain > std::max(0.0, predicted) + allowed,
              is_off = !whole.damps_waves && std::abs(gain - predicted) > allowed;
   if (is_too_high || is_off || !std::isfinite(gain))

@@ -173,7 +173,7 @@ def run(program, work, *arguments):
 
 def rows(path):
     with path.open(encoding="utf-8", newline="") as file:
-        table = [{name: float(cell) for name, cell in row.items() if cell}
+        table = [{name: float(cell) for name, cell in row.items() if cell and name != "step_bound"}
                  for row in csv.DictReader(file)]
     for row in table:
         for name, value in row.items():

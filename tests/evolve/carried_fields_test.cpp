@@ -48,7 +48,6 @@ Sheared sheared_drop(double end) {
   Scene scene = in_sphere(4.0);
   add_drop(scene, 60, 1.0, Vec3::Zero());
   assign_regions(scene);
-  scene.liquids[RegionId{0}].body_force = Vec3::UnitX();  // something drives the prescribed flow
   EvolutionOptions options;
   options.end = end;
   options.max_step = 0.02;

@@ -73,30 +73,5 @@ TEST(EnergyCheck, ARunThatMayNotShortenItsStepsEndsWithWords) {
       << stopped.report.text();
 }
 
-TEST(EnergyCheck, KnowsWhatDrivesALiquid) {
-  Scene scene = build_scene(test::unbounded_case({}));
-  EXPECT_FALSE(is_driven(scene, 0.0, 1.0));
-  Scene falling = scene;
-  falling.liquids[RegionId{1}].body_force = Vec3(0.0, 0.0, -1.0);
-  EXPECT_TRUE(is_driven(falling, 0.0, 1.0));
-  Scene sheared = scene;
-  sheared.flow.add({.time = 2.0, .gradient = ImposedFlow::simple_shear()});
-  EXPECT_FALSE(is_driven(sheared, 0.5, 1.0));
-  EXPECT_TRUE(is_driven(sheared, 1.5, 1.0));
-  Scene boxed = scene;
-  boxed.is_unbounded = false;
-  boxed.boundary.mesh = scene.interfaces[0].mesh;
-  boxed.boundary.patch = FaceField<PatchId>(boxed.boundary.mesh.num_faces(), PatchId{0});
-  boxed.boundary.patches.add({"wall", ImposedVelocity{[](const Vec3&, double t) {
-                                return Vec3(t < 1.0 ? 0.0 : 1.0, 0.0, 0.0);
-                              }}});
-  EXPECT_FALSE(is_driven(boxed, 0.0, 0.5));
-  EXPECT_TRUE(is_driven(boxed, 0.0, 1.5));
-  boxed.boundary.patches[PatchId{0}].condition = ImposedTraction{};
-  EXPECT_TRUE(is_driven(boxed, 0.0, 0.5));
-  boxed.boundary.patches[PatchId{0}].condition = NoPenetration{};
-  EXPECT_FALSE(is_driven(boxed, 0.0, 0.5));
-}
-
 }  // namespace
 }  // namespace meniscus

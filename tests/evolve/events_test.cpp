@@ -195,17 +195,16 @@ Scene bent_drop() {
   return scene;
 }
 
-/// The mouth closed by force, which the scene's flow stands for, remeshed every so many steps: the
-/// surface never touches itself. Without any change of topology the last report says that it would.
+/// The mouth closed by force, remeshed every so many steps: the surface never touches itself.
+/// Without any change of topology the last report says that it would.
 Report closed_mouth(int remesh_every, double breakup_radius) {
   EvolutionOptions options;
   options.max_step = 0.02;
   options.min_step = 1e-3;
   options.remesh_every = remesh_every;
   options.topology = {.breakup_radius = breakup_radius, .coalescence = false};
-  Scene scene = bent_drop();
-  scene.flow = ImposedFlow(FlowFamily::general, ImposedFlow::simple_shear());
-  Evolution evolution(scene, options, std::make_unique<PrescribedFlow>([](const Vec3& x, double) {
+  Evolution evolution(bent_drop(), options,
+                      std::make_unique<PrescribedFlow>([](const Vec3& x, double) {
                         const double share = std::clamp(-x.x(), 0.0, 0.5);
                         return Vec3(0.0, x.y() < 0.0 ? share : -share, 0.0);
                       }));
