@@ -42,7 +42,11 @@ std::size_t keep_escapes(void* /*unused*/, MHD_Connection* /*unused*/, char* tex
   return std::strlen(text);
 }
 
-void release_shared(void* body) { delete static_cast<std::shared_ptr<const std::string>*>(body); }
+using SharedBody = std::shared_ptr<const std::string>;
+
+void release_shared(void* body) {
+  const std::unique_ptr<SharedBody> taken_back(static_cast<SharedBody*>(body));
+}
 
 MHD_Response* response_of(const WatchServer::Answer& answer) {
   if (answer.shared == nullptr) {
@@ -50,7 +54,7 @@ MHD_Response* response_of(const WatchServer::Answer& answer) {
         answer.text.size(), const_cast<char*>(answer.text.data()), MHD_RESPMEM_MUST_COPY);
   }
   // The library owns the body until the slowest reader has it.
-  auto held = std::make_unique<std::shared_ptr<const std::string>>(answer.shared);
+  auto held = std::make_unique<SharedBody>(answer.shared);
   MHD_Response* response = MHD_create_response_from_buffer_with_free_callback_cls(
       answer.shared->size(), const_cast<char*>(answer.shared->data()), release_shared, held.get());
   if (response != nullptr) (void)held.release();
@@ -111,6 +115,7 @@ WatchServer::Answer WatchServer::Impl::answer(MHD_Connection* connection, const 
   return handler(url, number);
 }
 
+// NOLINTNEXTLINE(readability-function-size): the library sets the parameters
 MHD_Result WatchServer::Impl::respond(void* self, MHD_Connection* connection, const char* url,
                                       const char* method, const char* /*version*/,
                                       const char* /*upload*/, std::size_t* upload_size,

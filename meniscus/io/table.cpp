@@ -36,13 +36,11 @@ Record parse_record(std::string_view text, std::size_t begin, int line) {
       cell += text[record.end++];
     } else if (c == '"') {
       is_quoted = !is_quoted;
-    } else if (is_quoted) {
-      cell += c;
-    } else if (c == ',') {
+    } else if (c == ',' && !is_quoted) {
       record.cells.emplace_back();
-    } else if (c == '\n') {
+    } else if (c == '\n' && !is_quoted) {
       record.is_ended = true;
-    } else if (c != '\r') {
+    } else if (c != '\r' || is_quoted) {
       cell += c;
     }
   }

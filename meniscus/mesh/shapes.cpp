@@ -107,6 +107,49 @@ class PatchBuilder {
   std::map<std::array<std::int64_t, 3>, VertexId> key_to_vertex_;
 };
 
+/// Points at equal angles about the x axis; one point where the radius is zero.
+struct Ring {
+  double x, radius;
+  int count;
+
+  [[nodiscard]] Vec3 point(int k) const {
+    const double angle = 2.0 * std::numbers::pi * (k % count) / count;
+    return {x, radius * std::cos(angle), radius * std::sin(angle)};
+  }
+};
+
+void add_cylinder_side(PatchBuilder& builder, double radius, double half_length, int around,
+                       int along) {
+  const auto ring = [&](int i) {
+    return Ring{half_length * (2.0 * i / along - 1.0), radius, around};
+  };
+  for (int i = 0; i < along; ++i)
+    for (int k = 0; k < around; ++k)
+      builder.quadrilateral(ring(i).point(k), ring(i).point(k + 1), ring(i + 1).point(k + 1),
+                            ring(i + 1).point(k), 0, (i + k) % 2 == 0);
+}
+
+/// Fills the annulus between two rings of one end (0: lower x, 1: upper) with triangles: the ring
+/// that lags behind advances.
+void stitch_rings(PatchBuilder& builder, const Ring& inner, const Ring& outer, int end) {
+  const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+    end == 1 ? builder.triangle(a, b, c, 2) : builder.triangle(a, c, b, 1);
+  };
+  int i = 0, j = 0;
+  while (j < outer.count || (inner.count > 1 && i < inner.count)) {
+    const bool advance_outer =
+        inner.count == 1 || i == inner.count ||
+        (j < outer.count && double(j + 1) / outer.count <= double(i + 1) / inner.count);
+    if (advance_outer) {
+      add(inner.point(i), outer.point(j), outer.point(j + 1));
+      ++j;
+    } else {
+      add(inner.point(i), outer.point(j), inner.point(i + 1));
+      ++i;
+    }
+  }
+}
+
 }  // namespace
 
 SurfaceMesh sphere(int num_vertices, double radius, const Vec3& center) {
@@ -165,53 +208,20 @@ TaggedSurface cylinder(int num_vertices, double radius, double half_length) {
       std::max(8, static_cast<int>(std::lround(2.0 * std::numbers::pi * radius / h)));
   const int along = std::max(2, static_cast<int>(std::lround(2.0 * half_length / h)));
   const int rings = std::max(1, static_cast<int>(std::lround(radius / h)));
-  const auto point = [&](double x, double r, int k) {
-    const double angle = 2.0 * std::numbers::pi * k / around;
-    return Vec3(x, r * std::cos(angle), r * std::sin(angle));
-  };
   PatchBuilder builder(1e-9 * std::min(radius, half_length));
-  for (int i = 0; i < along; ++i)
-    for (int k = 0; k < around; ++k) {
-      const double x0 = half_length * (2.0 * i / along - 1.0),
-                   x1 = half_length * (2.0 * (i + 1) / along - 1.0);
-      builder.quadrilateral(point(x0, radius, k), point(x0, radius, (k + 1) % around),
-                            point(x1, radius, (k + 1) % around), point(x1, radius, k), 0,
-                            (i + k) % 2 == 0);
-    }
-  // Ends: rings of vertices whose number falls with the radius, stitched by advancing the lagging
-  // ring.
-  const auto ring_count = [&](int ring) {
-    return ring == rings ? around
-                         : std::max(ring == 0 ? 1 : 5,
-                                    static_cast<int>(std::lround(double(around) * ring / rings)));
-  };
+  add_cylinder_side(builder, radius, half_length, around, along);
   for (int end = 0; end < 2; ++end) {
     const double x = end == 0 ? -half_length : half_length;
-    for (int ring = 0; ring < rings; ++ring) {
-      const int inner = ring_count(ring), outer = ring_count(ring + 1);
-      const auto ring_point = [&](int which, int count, int k) {
-        const double r = radius * which / rings,
-                     angle = 2.0 * std::numbers::pi * (k % count) / count;
-        return which == 0 ? Vec3(x, 0.0, 0.0) : Vec3(x, r * std::cos(angle), r * std::sin(angle));
-      };
-      const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-        end == 1 ? builder.triangle(a, b, c, 2) : builder.triangle(a, c, b, 1);
-      };
-      int i = 0, j = 0;
-      while (j < outer || (inner > 1 && i < inner)) {
-        const bool advance_outer = inner == 1 || i == inner ||
-                                   (j < outer && double(j + 1) / outer <= double(i + 1) / inner);
-        if (advance_outer) {
-          add(ring_point(ring, inner, i), ring_point(ring + 1, outer, j),
-              ring_point(ring + 1, outer, j + 1));
-          ++j;
-        } else {
-          add(ring_point(ring, inner, i), ring_point(ring + 1, outer, j),
-              ring_point(ring, inner, i + 1));
-          ++i;
-        }
-      }
-    }
+    const auto ring = [&](int number) {
+      const int count =
+          number == rings ? around
+          : number == 0
+              ? 1
+              : std::max(5, static_cast<int>(std::lround(double(around) * number / rings)));
+      return Ring{x, radius * number / rings, count};
+    };
+    for (int number = 0; number < rings; ++number)
+      stitch_rings(builder, ring(number), ring(number + 1), end);
   }
   return builder.take();
 }

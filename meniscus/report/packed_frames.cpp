@@ -31,6 +31,7 @@ std::vector<std::uint16_t> grid_indices(std::span<const double> values, const Gr
 template <class Points>
 std::vector<double> coordinate(const Points& points, int axis) {
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(std::ranges::distance(points)));
   for (const auto& x : points) values.push_back(x[axis]);
   return values;
 }

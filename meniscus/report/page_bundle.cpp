@@ -4,6 +4,8 @@ namespace meniscus::report {
 namespace {
 
 // cmake/PageBundle.cmake makes these two raw strings, empty where node or npm was not found.
+// They are longer than what every compiler must accept.
+#pragma GCC diagnostic ignored "-Woverlength-strings"
 const char script[] =
 #include "meniscus/report/page_script_generated.inc"
     ;

@@ -45,7 +45,8 @@ Scene scene_of(const DampedDrop& drop) {
   interface.outside = RegionId{0};
   interface.tension = 1.0 / drop.Ca;
   interface.C0 = drop.num_vertices / (4.0 * std::numbers::pi);
-  interface.volume = interface.initial_volume = enclosed_volume(interface.mesh);
+  interface.volume = interface.initial_volume =
+      ReconstructedSurface(interface.mesh, shape_of(drop.elements)).volume();
   scene.interfaces.push_back(std::move(interface));
   scene.boundary.mesh = sphere(drop.num_vertices, kWallRadius);
   scene.boundary.patch = FaceField<PatchId>(scene.boundary.mesh.num_faces(), PatchId{0});

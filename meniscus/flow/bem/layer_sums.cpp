@@ -13,6 +13,10 @@ struct Sum3 {
   double x = 0.0, y = 0.0, z = 0.0;
 };
 
+struct Point {
+  double x, y, z;
+};
+
 struct Arrays {
   const double* __restrict__ x, * __restrict__ y, * __restrict__ z;
   const double* __restrict__ ax, * __restrict__ ay, * __restrict__ az;
@@ -24,12 +28,11 @@ Arrays arrays(const SourcePoints& points, std::size_t first) {
 }
 
 MENISCUS_VECTOR_CLONES
-Sum3 single_layer(Arrays s, const double* __restrict__ q, std::size_t n, double px, double py,
-                  double pz) {
+Sum3 single_layer(Arrays s, const double* __restrict__ q, std::size_t n, Point p) {
   double x = 0.0, y = 0.0, z = 0.0;
 #pragma omp simd reduction(+ : x, y, z)
   for (std::size_t j = 0; j < n; ++j) {
-    const double rx = s.x[j] - px, ry = s.y[j] - py, rz = s.z[j] - pz;
+    const double rx = s.x[j] - p.x, ry = s.y[j] - p.y, rz = s.z[j] - p.z;
     const double squared = rx * rx + ry * ry + rz * rz;
     const double inverse = squared > 0.0 ? 1.0 / std::sqrt(squared) : 0.0;
     const double along = (rx * s.ax[j] + ry * s.ay[j] + rz * s.az[j]) * inverse * inverse;
@@ -43,11 +46,11 @@ Sum3 single_layer(Arrays s, const double* __restrict__ q, std::size_t n, double 
 
 MENISCUS_VECTOR_CLONES
 Sum3 double_layer(Arrays s, const double* __restrict__ ux, const double* __restrict__ uy,
-                  const double* __restrict__ uz, std::size_t n, double px, double py, double pz) {
+                  const double* __restrict__ uz, std::size_t n, Point p) {
   double x = 0.0, y = 0.0, z = 0.0;
 #pragma omp simd reduction(+ : x, y, z)
   for (std::size_t j = 0; j < n; ++j) {
-    const double rx = s.x[j] - px, ry = s.y[j] - py, rz = s.z[j] - pz;
+    const double rx = s.x[j] - p.x, ry = s.y[j] - p.y, rz = s.z[j] - p.z;
     const double squared = rx * rx + ry * ry + rz * rz;
     const double inverse = squared > 0.0 ? 1.0 / std::sqrt(squared) : 0.0;
     const double inverse2 = inverse * inverse;
@@ -61,11 +64,11 @@ Sum3 double_layer(Arrays s, const double* __restrict__ ux, const double* __restr
 }
 
 MENISCUS_VECTOR_CLONES
-void constant_layers(Arrays s, std::size_t n, double px, double py, double pz, double* sums) {
+void constant_layers(Arrays s, std::size_t n, Point p, double* sums) {
   double x = 0.0, y = 0.0, z = 0.0, xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
 #pragma omp simd reduction(+ : x, y, z, xx, yy, zz, xy, xz, yz)
   for (std::size_t j = 0; j < n; ++j) {
-    const double rx = s.x[j] - px, ry = s.y[j] - py, rz = s.z[j] - pz;
+    const double rx = s.x[j] - p.x, ry = s.y[j] - p.y, rz = s.z[j] - p.z;
     const double squared = rx * rx + ry * ry + rz * rz;
     const double inverse = squared > 0.0 ? 1.0 / std::sqrt(squared) : 0.0;
     const double inverse2 = inverse * inverse;
@@ -97,20 +100,20 @@ void SourcePoints::add(const Vec3& at, const Vec3& weighted_normal) {
 }
 
 Vec3 single_layer_sum(const SourcePoints& points, const std::vector<double>& q, const Vec3& p) {
-  const Sum3 sum = single_layer(arrays(points, 0), q.data(), q.size(), p.x(), p.y(), p.z());
+  const Sum3 sum = single_layer(arrays(points, 0), q.data(), q.size(), {p.x(), p.y(), p.z()});
   return {sum.x, sum.y, sum.z};
 }
 
 Vec3 double_layer_sum(const SourcePoints& points, const SourceVectors& u, const Vec3& p) {
   const Sum3 sum = double_layer(arrays(points, 0), u.x.data(), u.y.data(), u.z.data(), u.x.size(),
-                                p.x(), p.y(), p.z());
+                                {p.x(), p.y(), p.z()});
   return {sum.x, sum.y, sum.z};
 }
 
 ConstantLayers constant_layer_sums(const SourcePoints& points, SourceRange range, const Vec3& p) {
   std::array<double, 9> sums{};
   constant_layers(arrays(points, static_cast<std::size_t>(range.begin)),
-                  static_cast<std::size_t>(range.end - range.begin), p.x(), p.y(), p.z(),
+                  static_cast<std::size_t>(range.end - range.begin), {p.x(), p.y(), p.z()},
                   sums.data());
   return {.single = {sums[0], sums[1], sums[2]},
           .double_layer = {sums[3], sums[4], sums[5], sums[6], sums[7], sums[8]}};

@@ -29,6 +29,25 @@ Incidence incidence(const NodeTable& table) {
   return result;
 }
 
+/// Appends the columns of one row, in rising order: the nodes of the cells of `places`. `index_of`
+/// holds the latest place of each node in `row_columns`, -1 where it has none.
+void append_row(const NodeTable& rows, const NodeTable& columns,
+                std::span<const std::int32_t> places, std::vector<std::int32_t>& index_of,
+                std::vector<std::int32_t>& row_columns) {
+  const auto start = static_cast<std::int32_t>(row_columns.size());
+  for (const std::int32_t place : places)
+    for (const std::int32_t j : columns.of(CellId{place / rows.nodes_per_cell})) {
+      if (index_of[at(j)] >= start) continue;  // already in this row
+      index_of[at(j)] = start;
+      row_columns.push_back(j);
+    }
+  std::sort(row_columns.begin() + start, row_columns.end());
+  const std::int32_t end =
+      linear::checked_index(std::ssize(row_columns), "pairs of neighbouring nodes");
+  MENISCUS_ASSERT(end - start <= std::numeric_limits<std::uint16_t>::max(), "{}", end - start);
+  for (std::int32_t k = start; k < end; ++k) index_of[at(row_columns[at(k)])] = k;
+}
+
 }  // namespace
 
 NodeGraph node_graph(const NodeTable& rows, const NodeTable& columns) {
@@ -48,17 +67,8 @@ NodeGraph node_graph(const NodeTable& rows, const NodeTable& columns) {
     const std::span<const std::int32_t> places =
         std::span(around.place)
             .subspan(at(around.first[at(i)]), at(around.first[at(i) + 1] - around.first[at(i)]));
-    for (const std::int32_t place : places)
-      for (const std::int32_t j : columns.of(CellId{place / rows.nodes_per_cell}))
-        if (index_of[at(j)] < start) {  // not yet seen in this row
-          index_of[at(j)] = start;
-          graph.columns.push_back(j);
-        }
-    std::sort(graph.columns.begin() + start, graph.columns.end());
-    const std::int32_t end =
-        linear::checked_index(std::ssize(graph.columns), "pairs of neighbouring nodes");
-    MENISCUS_ASSERT(end - start <= std::numeric_limits<std::uint16_t>::max(), "{}", end - start);
-    for (std::int32_t k = start; k < end; ++k) index_of[at(graph.columns[at(k)])] = k;
+    append_row(rows, columns, places, index_of, graph.columns);
+    const auto end = static_cast<std::int32_t>(graph.columns.size());
     for (const std::int32_t place : places) {
       const auto nodes = columns.of(CellId{place / rows.nodes_per_cell});
       for (std::size_t b = 0; b < at(width); ++b) {

@@ -13,7 +13,7 @@ namespace {
 
 std::optional<Replacement> replacement_by(const Remedy& remedy, const SurfaceMesh& mesh,
                                           const SurfaceFields& fields, SurfaceMesh shape) {
-  if (!remedy.keeps_shape) return sound_replacement(mesh, fields, std::move(shape), remedy.volume);
+  if (!remedy.keeps_shape) return sound_replacement(mesh, fields, shape, remedy.volume);
   auto [carried, excess] = replaced_fields(fields, mesh, shape);
   return Replacement{{std::move(shape), std::move(carried)}, excess};
 }
