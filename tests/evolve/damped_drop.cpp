@@ -28,6 +28,7 @@ SurfaceMesh surface_of(const DampedDrop& drop) {
   const double longest = std::pow((1.0 + drop.D) / (1.0 - drop.D), 2.0 / 3.0);
   for (Vec3& x : mesh.x) {
     const Vec3 radial = x.normalized();
+    x *= 1.0 + drop.l4 * std::legendre(4, radial.x());
     x = x.cwiseProduct(Vec3(longest, 1.0 / std::sqrt(longest), 1.0 / std::sqrt(longest)));
     x += drop.center + drop.noise * normal(random) * radial;
   }
@@ -70,10 +71,10 @@ double difference_from_midpoint(DampedDrop drop, double dt, Measure&& measure) {
 }
 
 template <class Measure>
-std::array<double, 2> orders(const DampedDrop& drop, Measure&& measure) {
-  const double coarse = difference_from_midpoint(drop, 0.25, measure),
-               middle = difference_from_midpoint(drop, 0.125, measure),
-               fine = difference_from_midpoint(drop, 0.0625, measure);
+std::array<double, 2> orders(const DampedDrop& drop, double dt, Measure&& measure) {
+  const double coarse = difference_from_midpoint(drop, dt, measure),
+               middle = difference_from_midpoint(drop, 0.5 * dt, measure),
+               fine = difference_from_midpoint(drop, 0.25 * dt, measure);
   return {std::log2(coarse / middle), std::log2(middle / fine)};
 }
 
@@ -134,13 +135,13 @@ Mat3 simple_shear() {
 }
 
 std::array<double, 2> orders_in_relaxation(fem::Elements elements) {
-  return orders({.elements = elements, .Ca = 0.5, .D = 0.15, .rtol = 1e-9},
+  return orders({.elements = elements, .Ca = 0.5, .D = 0.0, .l4 = 0.1, .rtol = 1e-9}, 0.125,
                 [&](const Evolution& evolution) { return area_in(evolution, elements); });
 }
 
 std::array<double, 2> orders_in_shear(fem::Elements elements) {
   return orders(
-      {.elements = elements, .Ca = 0.5, .D = 0.15, .gradient = simple_shear(), .rtol = 1e-9},
+      {.elements = elements, .Ca = 0.5, .D = 0.15, .gradient = simple_shear(), .rtol = 1e-9}, 0.25,
       angle_in);
 }
 

@@ -49,13 +49,21 @@ SurfaceNodes surface_nodes(const Scene& scene, const TetMesh& mesh, const FlowSp
 /// (docs/time-stepping.md).
 double relative_stiffness(CapillaryForm form) { return form == CapillaryForm::nodal ? 1.15 : 1.0; }
 
+/// What is added to −Δ_s for a sphere's slowest mode [1/R0²]. The nodal force has a net part where
+/// there is noise; with the addition it takes a viscous drop away in long steps.
+double sphere_stiffness(CapillaryForm form, double radius) {
+  return form == CapillaryForm::nodal ? 0.0 : kSphereStiffness / (radius * radius);
+}
+
 /// Damping of all interfaces, as strong as surface tension within `duration`.
 SurfaceDamping interface_damping(const Scene& scene, const SurfaceNodes& nodes,
-                                 const NodePositions& positions, double duration) {
+                                 const NodePositions& positions, CapillaryForm form,
+                                 double duration) {
+  const double strength = relative_stiffness(form) * duration;
   std::vector<DampedSurface> surfaces;
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
-    surfaces.push_back({nodes.interfaces[i], duration * scene.interfaces[i].tension,
-                        kSphereStiffness / std::pow(sphere_radius(scene.interfaces[i].volume), 2)});
+    surfaces.push_back({nodes.interfaces[i], strength * scene.interfaces[i].tension,
+                        sphere_stiffness(form, sphere_radius(scene.interfaces[i].volume))});
   return surface_damping(surfaces, positions);
 }
 
@@ -94,8 +102,7 @@ InstantProblem instant_problem(const Scene& scene, const TetMesh& mesh, const Fl
     if (scene.interfaces[i].tension != 0.0)
       add_capillary_force(scene.interfaces[i], form, nodes.interfaces[i], at, problem.stokes.force);
   if (instant.damping.is_none()) return problem;
-  problem.stokes.damping =
-      interface_damping(scene, nodes, at, relative_stiffness(form) * instant.damping.duration);
+  problem.stokes.damping = interface_damping(scene, nodes, at, form, instant.damping.duration);
   if (!instant.damping.about.empty())
     damp_about(instant.damping.about, nodes, at, problem.stokes.damping);
   return problem;
