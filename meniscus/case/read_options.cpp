@@ -128,9 +128,13 @@ bem::Options read_boundary_integrals(Settings& settings) {
 
 fem::Options read_finite_elements(Settings& settings) {
   fem::Options options;
-  options.elements = settings.choice("solver.elements", words::elements);
   options.capillary = settings.choice("interface.surface-tension", words::capillary_forms);
   options.linear = settings.choice("solver.linear", words::linear_solvers);
+  const bool needs_linear = options.capillary == fem::CapillaryForm::nodal ||
+                            options.linear == fem::LinearSolver::paper_gmres;
+  const auto suited = needs_linear ? fem::Elements::p1_p1 : fem::Elements::p2_p1;
+  settings.prefer("solver.elements", std::string(words::word_for(words::elements, suited)));
+  options.elements = settings.choice("solver.elements", words::elements);
   options.rtol = settings.number("solver.rtol");
   options.max_iterations = settings.whole("solver.max-iterations");
   options.petsc_options = read_petsc_options(settings);

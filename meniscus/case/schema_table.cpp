@@ -503,12 +503,13 @@ const std::vector<Key> kKeys{
     {.path = "solver.elements",
      .type = word,
      .words = words::list(words::elements),
-     .value = "P1-P1"s,
+     .default_note =
+         "\"P2-P1\"; \"P1-P1\" with surface-tension = \"nodal\" or linear = \"paper-gmres\"",
      .applies = kWithElements,
      .sentence =
-         "P1-P1: linear velocity and pressure, pressure-stabilised, as in the paper. P2-P1: "
-         "quadratic velocity, curved at interfaces and round walls; a drop's volume is then "
-         "that of the curved surface."},
+         "P2-P1: quadratic velocity, linear pressure, curved at interfaces and round walls; a "
+         "drop's volume is then that of the curved surface. P1-P1: linear velocity and pressure, "
+         "pressure-stabilised, as in the paper."},
     {.path = "solver.linear",
      .type = word,
      .words = words::list(words::linear_solvers),
@@ -535,8 +536,8 @@ const std::vector<Key> kKeys{
     {.path = "time.scheme",
      .type = word,
      .words = words::list(words::time_schemes),
-     .default_note = "\"rk2\"; with control = \"error\" \"semi-implicit\", \"rkc\" with boundary "
-                     "integrals",
+     .default_note = "\"semi-implicit\", \"rkc\" with boundary integrals; \"rk2\" with control = "
+                     "\"paper\"",
      .sentence = "Midpoint Runge-Kutta (the paper's eq. 22), explicit Euler (eq. 21); the midpoint "
                  "rule with surface tension damped so that long steps are stable, with finite "
                  "elements; or Runge-Kutta-Chebyshev: of second order too, with as many solves of "
@@ -549,7 +550,7 @@ const std::vector<Key> kKeys{
     {.path = "time.control",
      .type = word,
      .words = words::list(words::step_controls),
-     .default_note = "\"error\" with tolerance, else \"paper\"",
+     .default_note = "\"paper\" with step-factor, step-edges or \"euler\", else \"error\"",
      .sentence =
          "What sets the length of steps: the paper's rule, or an estimate of the error with "
          "bounds from stability, from the flow along the interface, from the motion of "
@@ -574,7 +575,7 @@ const std::vector<Key> kKeys{
     {.path = "time.max-step",
      .dimension = Dimension::time,
      .range = kPositive,
-     .default_note = "0.1; 1 with control = \"error\"",
+     .default_note = "1; 0.1 with control = \"paper\"",
      .sentence = "No step is longer."},
     {.path = "time.min-step",
      .dimension = Dimension::time,

@@ -22,14 +22,14 @@ enum class StepEdges { interface, mesh };  ///< where the step rule takes l_min 
 /// hooper2001), or by the estimate of the step's error and the bounds of `step_control.hpp`.
 enum class StepControl { paper, error };
 /// The control of a case that does not name one.
-inline constexpr StepControl kDefaultStepControl = StepControl::paper;
+inline constexpr StepControl kDefaultStepControl = StepControl::error;
 
 struct EvolutionOptions {
   TimeScheme scheme = TimeScheme::rk2;
   MotionNormal motion_normal = MotionNormal::area_vector;
   SurfaceShape surface = SurfaceShape::faceted;
   double end = 1.0;  ///< the run stops at the first step with t ≥ end
-  StepControl control = kDefaultStepControl;
+  StepControl control = StepControl::paper;
   double tolerance = kMostError;  ///< largest estimate of a step's error (`StageFlow::error`)
   double step_factor = 0.5;       ///< Δt = step_factor · min(1, Ca) · l_min (eq. 27)
   StepEdges step_edges = StepEdges::interface;

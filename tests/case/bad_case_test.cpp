@@ -178,8 +178,8 @@ const std::vector<BadCase> kValues{
     {"PETSc value without an option", shear_with("[solver]\npetsc-options = \"-a -1 2\"\n"),
      "case.toml:7: solver.petsc-options = \"-a -1 2\" has the word \"2\", which belongs to no "
      "option (-name value …)"},
-    {"smallest step above the largest", shear_with("[time]\nmin-step = 0.5\n"),
-     "case.toml:7: time.min-step = 0.5 must be at most time.max-step = 0.1 (unit: 1/G)"},
+    {"smallest step above the largest", shear_with("[time]\nmin-step = 2.0\n"),
+     "case.toml:7: time.min-step = 2.0 must be at most time.max-step = 1 (unit: 1/G)"},
 };
 
 const std::vector<BadCase> kMeaning{

@@ -27,11 +27,11 @@ void expect_parts(const std::string& message, const std::vector<std::string>& pa
 TEST(BadScene, DropReachingBeyondItsDomainIsNamed) {
   const std::string drop = std::string(kQuiescent) + "[[drop]]\nradius = 1\n";
   expect_parts(message_of(drop + "[domain]\nhalf-width = 0.5\n"),
-               {"case.toml:6: domain.half-width = 0.5 must exceed the reach of drop 0, 1.01",
+               {"case.toml:6: domain.half-width = 0.5 must exceed the reach of drop 0, 0.99",
                 " (unit: R0)"});
   expect_parts(message_of(drop + "[domain]\nhalf-widths = [2, 2, 0.9]\n"),
                {"case.toml:6: domain.half-widths = [2.0, 2.0, 0.9] must exceed the reach of drop "
-                "0, 1.0"});
+                "0, 0.98"});
 }
 
 TEST(BadScene, DropOutsideOrTouchingTheWallIsNamed) {
@@ -43,7 +43,7 @@ TEST(BadScene, DropOutsideOrTouchingTheWallIsNamed) {
                 " from the origin, and domain.half-width is 10 by default (unit: R0)"});
   expect_parts(
       message_of(drop + "[domain]\nshape = \"cylinder\"\nradius = 3.0\nhalf-length = 0.9\n"),
-      {"case.toml:8: domain.half-length = 0.9 must exceed the reach of drop 0, 1.0"});
+      {"case.toml:8: domain.half-length = 0.9 must exceed the reach of drop 0, 0.99"});
   // Inside the sphere, but not inside its fifty-odd flat faces.
   expect_parts(message_of(drop + "center = [0.48, 0, 0]\n"
                                  "[domain]\nshape = \"sphere\"\nradius = 1.5\nnodes = 50\n"),

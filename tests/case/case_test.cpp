@@ -33,8 +33,37 @@ TEST(Case, HasTheDocumentedDefaults) {
   EXPECT_TRUE(c.output.volume);
 }
 
-TEST(Case, DefaultOptionsAreThoseOfTheRooms) {
-  const Case c = shear_case("[time]\nend = 1.0\n");
+TEST(Case, SolvesWithQuadraticElementsInStepsThatFollowTheError) {
+  const Case c = shear_case();
+  EXPECT_EQ(c.flow_solver.elements, fem::Elements::p2_p1);
+  EXPECT_EQ(c.flow_solver.capillary, fem::CapillaryForm::weak);
+  EXPECT_EQ(c.evolution.control, StepControl::error);
+  EXPECT_EQ(c.evolution.scheme, TimeScheme::semi_implicit);
+  EXPECT_EQ(c.evolution.tolerance, kDefaultTolerance);
+  EXPECT_EQ(c.evolution.max_step, kDefaultLongestStep);
+  EXPECT_EQ(c.evolution.motion_normal, MotionNormal::smooth);
+}
+
+TEST(Case, WhatLinearElementsAloneCanDoChoosesThem) {
+  const auto elements = [](const std::string& tables) {
+    return shear_case(tables).flow_solver.elements;
+  };
+  EXPECT_EQ(elements("[interface]\nsurface-tension = \"nodal\"\n"), fem::Elements::p1_p1);
+  EXPECT_EQ(elements("[solver]\nlinear = \"paper-gmres\"\n"), fem::Elements::p1_p1);
+  EXPECT_EQ(elements("[interface]\nsurface-tension = \"balanced\"\n"), fem::Elements::p2_p1);
+}
+
+TEST(Case, AStepFactorWithoutControlMeansThePapersRule) {
+  const EvolutionOptions evolution = shear_case("[time]\nstep-factor = 0.7\n").evolution;
+  EXPECT_EQ(evolution.control, StepControl::paper);
+  EXPECT_EQ(evolution.scheme, TimeScheme::rk2);
+  EXPECT_EQ(evolution.step_factor, 0.7);
+  EXPECT_EQ(evolution.max_step, 0.1);
+}
+
+TEST(Case, OptionsOfThePapersMethodAreTheDefaultsOfTheRooms) {
+  const Case c =
+      shear_case("[solver]\nelements = \"P1-P1\"\n[time]\ncontrol = \"paper\"\nend = 1.0\n");
   const EvolutionOptions evolution;
   EXPECT_EQ(c.evolution.scheme, evolution.scheme);
   EXPECT_EQ(c.evolution.motion_normal, evolution.motion_normal);
@@ -97,8 +126,8 @@ TEST(Case, WordsBecomeOptions) {
 
 TEST(Case, InterfacesAreTheSurfacesThatTheSolverIntegratesOver) {
   const auto shape = [](const std::string& solver) { return shear_case(solver).evolution.surface; };
-  EXPECT_EQ(shape(""), SurfaceShape::faceted);
-  EXPECT_EQ(shape("[solver]\nelements = \"P2-P1\"\n"), SurfaceShape::splined);
+  EXPECT_EQ(shape(""), SurfaceShape::splined);
+  EXPECT_EQ(shape("[solver]\nelements = \"P1-P1\"\n"), SurfaceShape::faceted);
 }
 
 TEST(Case, QuadraticElementsGetSmallCellsAroundTheDrops) {
@@ -233,7 +262,7 @@ TEST(Case, ScaleConvertsOnce) {
   EXPECT_DOUBLE_EQ(c.domain.half_widths.x(), 10.0);
   EXPECT_DOUBLE_EQ(c.evolution.end, 6.0);             // 3 s at 2 per second
   EXPECT_DOUBLE_EQ(c.drops[0].body_force.x(), 0.01);  // over viscosity · rate/length = 1e4 N/m³
-  EXPECT_DOUBLE_EQ(c.evolution.max_step, 0.1);        // a default stays dimensionless
+  EXPECT_DOUBLE_EQ(c.evolution.max_step, 1.0);        // a default stays dimensionless
 }
 
 TEST(Case, ScaleOfAQuiescentFlowIsTheCapillaryTime) {
@@ -271,7 +300,7 @@ TEST(Case, JsonHasEveryValueInItsPlace) {
   ASSERT_EQ(json["drop"].size(), 2u);
   EXPECT_EQ(json["drop"][1]["center"], nlohmann::json({0.0, 0.0, 3.0}));
   EXPECT_EQ(json["drop"][1]["nodes"], 110);
-  EXPECT_EQ(json["time"]["scheme"], "rk2");
+  EXPECT_EQ(json["time"]["scheme"], "semi-implicit");
   EXPECT_EQ(json["topology"]["coalescence"], "on");
   EXPECT_EQ(json["output"]["volume"], true);
   EXPECT_FALSE(json["domain"].contains("radius"));  // of another shape

@@ -11,7 +11,7 @@
 
 namespace meniscus::test {
 
-/// A drop in an unbounded liquid by boundary integrals.
+/// A drop in an unbounded liquid by boundary integrals, in steps of the paper's rule.
 struct UnboundedDrop {
   std::string flow = "quiescent";
   double Ca = 1.0;
@@ -22,11 +22,13 @@ struct UnboundedDrop {
 };
 
 inline Case unbounded_case(const UnboundedDrop& drop) {
+  const std::string control =
+      drop.more.find("[time]") == std::string::npos ? "[time]\ncontrol = \"paper\"\n" : "";
   return parse_case(
       fmt::format("[flow]\nkind = \"{}\"\ncapillary-number = {}\n[[drop]]\n{}\nviscosity-ratio = "
                   "{}\nnodes = {}\n[domain]\nshape = \"unbounded\"\n[solver]\nmethod = "
-                  "\"boundary-integral\"\nrtol = 1e-8\n[topology]\nbreakup-radius = 0\n{}",
-                  drop.flow, drop.Ca, drop.shape, drop.lambda, drop.nodes, drop.more),
+                  "\"boundary-integral\"\nrtol = 1e-8\n[topology]\nbreakup-radius = 0\n{}{}",
+                  drop.flow, drop.Ca, drop.shape, drop.lambda, drop.nodes, control, drop.more),
       "drop.toml");
 }
 

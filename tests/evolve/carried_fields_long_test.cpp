@@ -17,7 +17,7 @@ Evolution sheared_drop() {
       "[flow]\nkind = \"simple-shear\"\ncapillary-number = 0.3\n"
       "[[drop]]\nradius = 1.0\nviscosity-ratio = 1.0\nnodes = 60\n"
       "[domain]\nshape = \"box\"\nhalf-width = 4.0\nnodes = 200\n"
-      "[time]\nend = 100.0\n",
+      "[time]\nend = 100.0\ncontrol = \"paper\"\n[solver]\nelements = \"P1-P1\"\n",
       "case.toml");
   return {build_scene(c), c.evolution, make_flow_solver(c), make_moving_mesh(c)};
 }

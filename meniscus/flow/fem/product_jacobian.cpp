@@ -36,9 +36,9 @@ LinearIntegrals straight_integrals(const StokesProblem& problem, CellId c) {
   const auto nodes = problem.space.velocity.of(c);
   const auto x = [&](std::size_t k) { return problem.positions.x[NodeId{nodes[k]}]; };
   const LinearTetrahedron tet = linear_tetrahedron({x(0), x(1), x(2), x(3)});
-  Eigen::Matrix<double, 3, 4> gradients;
-  gradients << tet.gradient[0], tet.gradient[1], tet.gradient[2], tet.gradient[3];
-  return {tet.volume * gradients.transpose() * gradients,
+  Eigen::Matrix<double, 4, 3> gradients;
+  for (int k = 0; k < 4; ++k) gradients.row(k) = tet.gradient[static_cast<std::size_t>(k)];
+  return {tet.volume * gradients * gradients.transpose(),
           tet.volume / 20.0 * (Eigen::Matrix4d::Ones() + Eigen::Matrix4d::Identity())};
 }
 
@@ -47,10 +47,11 @@ LinearIntegrals curved_integrals(const StokesProblem& problem, CellId c) {
   LinearIntegrals integrals;
   for (std::size_t q = 0; q < maps.size(); ++q) {
     const auto& [weight, g] = maps[q];
-    Eigen::Matrix<double, 3, 4> gradients;
-    gradients << -(g[0] + g[1] + g[2]), g[0], g[1], g[2];
+    Eigen::Matrix<double, 4, 3> gradients;
+    gradients.row(0) = -(g[0] + g[1] + g[2]);
+    for (int k = 0; k < 3; ++k) gradients.row(k + 1) = g[static_cast<std::size_t>(k)];
     const Eigen::Map<const Eigen::Vector4d> values(kTetrahedronRule5[q].barycentric.data());
-    integrals.gradients.noalias() += weight * gradients.transpose() * gradients;
+    integrals.gradients.noalias() += weight * gradients * gradients.transpose();
     integrals.values.noalias() += weight * values * values.transpose();
   }
   return integrals;

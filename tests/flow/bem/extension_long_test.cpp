@@ -29,6 +29,7 @@ shape = "unbounded"
 [solver]
 method = "boundary-integral"
 [time]
+control = "paper"
 end = {}
 )",
                                         Ca, lambda, num_vertices, end),
