@@ -4,7 +4,9 @@
 #include <numbers>
 #include <vector>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
+#include "meniscus/evolve/constants.hpp"
 #include "meniscus/io/archive_file.hpp"
 #include "meniscus/io/run_files.hpp"
 #include "meniscus/io/surface_file.hpp"
@@ -89,13 +91,27 @@ double given_volume(const SurfaceMesh& mesh, SurfaceShape faces) {
   return ReconstructedSurface(mesh, is_smooth ? faces : SurfaceShape::faceted).volume();
 }
 
+/// Refuses a surface whose faces, curved as the solver takes them, do not enclose about what the
+/// flat ones do: it is too coarse to show what curves.
+void require_volume(const Case& c, int index, const SurfaceMesh& mesh, double curved) {
+  const double flat = enclosed_volume(mesh);
+  if (curved > kLeastVolumeKept * flat && curved < kMostVolumeKept * flat) return;
+  reject_input(
+      "{}: drop {} needs a finer surface: its faces enclose {:.4g} where they are flat, and "
+      "{:.4g} curved as the solver takes them (unit: R0³)",
+      c.settings.source(fmt::format("drop[{}]", index)), index, flat, curved);
+}
+
 /// Remeshes a surface to the vertex density of its drop and keeps its volume. With curved faces the
 /// remesher does not restore the volume of flat faces: that would move vertices off the surface,
 /// and undoing it by an even shift would thin the necks. If the remesher fails, the surface stays
 /// as given and the log says so.
-void resolve(SurfaceMesh& mesh, const DropCase& drop, SurfaceShape faces, int index) {
+void resolve(const Case& c, int index, SurfaceMesh& mesh) {
+  const DropCase& drop = c.drops[static_cast<std::size_t>(index)];
+  const SurfaceShape faces = c.evolution.surface;
   MENISCUS_ASSERT(drop.nodes >= kFewestVertices, "drop {} of {} nodes", index, drop.nodes);
   const double volume = given_volume(mesh, faces);
+  require_volume(c, index, mesh, volume);
   RemeshOptions options = sound_remeshing(drop.nodes / (4.0 * std::numbers::pi));
   options.restores_volume = faces == SurfaceShape::faceted;
   const RemeshReport report = remesh(mesh, options);
@@ -161,9 +177,10 @@ SurfaceMesh initial_surface(const Case& c, int index) {
   else
     mesh = stretched_sphere(kEllipsoidOversampling * drop.nodes,
                             std::get<EllipsoidShape>(drop.shape).axes);
-  if (!std::holds_alternative<RunShape>(drop.shape)) resolve(mesh, drop, faces, index);
+  if (!std::holds_alternative<RunShape>(drop.shape)) resolve(c, index, mesh);
   if (const auto* ellipsoid = std::get_if<EllipsoidShape>(&drop.shape))
     restore_volume(mesh, ellipsoid_volume(ellipsoid->axes), faces);
+  require_volume(c, index, mesh, ReconstructedSurface(mesh, faces).volume());
   shift(mesh, drop.center);
   return mesh;
 }

@@ -50,7 +50,9 @@ double restore_curved_volume(SurfaceMesh& mesh, double volume, SurfaceShape shap
     if (std::abs(missing) <= kCurvedTolerance * volume) return shift;
     if (step > 0 && std::abs(missing) <= kLeftToScale * first) break;
     const VertexField<Vec3> before = mesh.x;
-    const double moved = restore_flat_volume(mesh, enclosed_volume(mesh) + gain * missing);
+    const double wanted = enclosed_volume(mesh) + gain * missing;
+    if (!(wanted > 0.0)) break;  // crumpled faces
+    const double moved = restore_flat_volume(mesh, wanted);
     const double shifted = volume_of(mesh, shape), left = volume - shifted;
     if (!(std::abs(left) < std::abs(missing))) {
       mesh.x = before;

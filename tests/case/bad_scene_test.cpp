@@ -75,6 +75,15 @@ TEST(BadScene, UnclosedSurfaceIsRefused) {
                {"case.toml:4: drop.surface = \"open.stl\" is unfit: ", "closed"});
 }
 
+TEST(BadScene, SurfaceTooCoarseForCurvedFacesIsRefused) {
+  const test::TemporaryFolder folder;
+  folder.write("needle.off",
+               "OFF\n6 8 0\n1e5 0 0\n-1e-9 0 0\n0 1e-9 0\n0 -1e-9 0\n0 0 1e-9\n0 0 -1e-9\n"
+               "3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n");
+  expect_parts(message_of(file_case("needle.off"), {}, folder.path()),
+               {"case.toml:3: drop 0 needs a finer surface: its faces enclose ", "curved"});
+}
+
 TEST(BadScene, TheLaterDropOfAConflictIsNamed) {
   const std::string drop = "[[drop]]\nradius = 1\n";
   expect_parts(

@@ -14,7 +14,7 @@ import time
 from pathlib import Path
 
 SEED = 20013
-OVERRIDES = ["time.end=0.15", "output.checkpoint-every=2", "output.interval=0.05",
+OVERRIDES = ["time.end=0.15", "time.max-step=0.04", "output.checkpoint-every=2", "output.interval=0.05",
              "output.volume=true", "output.volume-interval=0.05"]
 # The surface and volume meshes of step 0, as in ranks.py: TetGen inserts other points when
 # coordinates differ in their last digit.

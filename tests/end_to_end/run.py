@@ -59,11 +59,11 @@ def main():
     shutil.rmtree(work, ignore_errors=True)
     whole, parts = work / "whole", work / "parts"
 
-    run(program, "run", case, "-o", whole, "--set", "time.end=0.3")
+    run(program, "run", case, "-o", whole, "--set", "time.end=0.3", "--set", "time.max-step=0.03")
     check_files(whole, root)
-    print(run(program, "run", case, "-o", whole, "--set", "time.end=0.3", status=2).strip())
+    print(run(program, "run", case, "-o", whole, "--set", "time.end=0.3", "--set", "time.max-step=0.03", status=2).strip())
 
-    run(program, "run", case, "-o", parts, "--set", "time.end=0.15")
+    run(program, "run", case, "-o", parts, "--set", "time.end=0.15", "--set", "time.max-step=0.03")
     run(program, "resume", parts, "--until", "0.3")
     for name in ("history.csv", "drops.csv"):
         if (whole / name).read_bytes() != (parts / name).read_bytes():
