@@ -75,11 +75,6 @@ def middle(a, b):
     return tuple(p / length for p in total)
 
 
-def enclosed_volume(faces):
-    return sum(a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
-               + a[2] * (b[0] * c[1] - b[1] * c[0]) for a, b, c in faces) / 6
-
-
 def duct(half_length, half_width, num_along, num_across):
     """A square duct along x: the triangles of its wall, of its inlet at −x, of its outlet."""
     def grid(corner, u, v, nu, nv):
@@ -142,7 +137,8 @@ def variants():
     for motion in ("lagrangian", "harmonic"):
         yield motion, case(interface={"volume-motion": motion})
     yield "euler", case(time={"scheme": "euler"})
-    yield "remesh-every-3", case(interface={"remesh-every": 3}, time={"max-step": 0.015})
+    yield "remesh-every-3", case(interface={"remesh-every": 3}, time={"max-step": 0.015},
+                                 solver={"elements": "P1-P1"})
     for form in ("nodal", "balanced"):
         yield form, case(interface={"surface-tension": form})
     for solver in ("block", "paper-gmres", "minres", "mumps"):
@@ -231,19 +227,20 @@ def check_effects(work, results):
     expect(last("schedule", "D") < 0.5 * last("base", "D"), "a reversed flow deforms as before")
     expect(last("from-run", "D") > 1.5 * last("base", "D"), "a drop goes on from a sphere")
     expect(last("quiescent", "D") < results["quiescent"][0]["D"], "a drop at rest does not relax")
-    # The inlet's peak velocity is 1 and the drop a third of the duct wide.
-    expect(0.03 < last("die", "x") < 0.105, "the drop in the duct does not move with the liquid")
+    # The parabola, zero at the corners of the square inlet, has a mean of 2/3; the developed flow in a square duct has
+    # its peak at 2.1 times the mean. The drop is a third of the duct wide.
+    expect(0.03 < last("die", "x") < 0.105 * 2.1 * 2 / 3, "the drop in the duct does not move with the liquid")
     expect(last("two-drops", "x", 0) > -1.0 and last("two-drops", "x", 1) < 1.0,
            "two drops in shear do not pass one another")
-    # Steps without remeshing (two of three) lose the third order of (normal velocity dt) alone; a
+    # Linear elements: steps without remeshing (two of three) lose the third order of (normal velocity dt) alone; a
     # unit drop's normal velocity is 1/2 at most. Euler's second order would be 35 times the bound.
     for row in results["remesh-every-3"]:
         if row["step"] % 3 != 0:
             expect(row["volume_correction"] < (0.5 * 0.015) ** 3,
                    f"step {row['step']:g} moves a drop by other volumes than the flow's")
-    volume = enclosed_volume(octasphere(2))
-    expect(abs(results["drop-surface"][0]["volume"] / volume - 1) < LARGEST_DRIFT,
-           f"the drop of volume {volume} in a file has another")
+    # Curved faces through 66 vertices on the unit sphere miss its volume by their fourth power of h; flat ones by 9 %.
+    expect(abs(results["drop-surface"][0]["volume"] / (4 / 3 * math.pi) - 1) < 2e-3,
+           "the drop in a file has another volume")
 
 
 def expect(condition, failure):
