@@ -285,6 +285,7 @@ TopologyReport apply_topology(Scene& scene, const TopologyOptions& options,
 
 std::optional<Fault> find_touching_drops(const Scene& scene) {
   std::vector<Box> bounds;
+  bounds.reserve(scene.interfaces.size());
   for (const Interface& interface : scene.interfaces)
     bounds.push_back(bounding_box(interface.mesh));
   const BoxTree boxes(bounds);

@@ -131,8 +131,10 @@ MENISCUS_INLINE void give(const Numbers<4>& numbers, const Corners& from, double
 }
 MENISCUS_INLINE void give(const Numbers<10>& nodes, const Nodal& from, double* to) {
   for (std::size_t m = 0; m < kLanes; ++m)
-    for (std::size_t i = 0; i < 10; ++i)
-      for (std::size_t a = 0; a < 3; ++a) to[3 * nodes[i][m] + a] += from[i][a][m];
+    for (std::size_t i = 0; i < 10; ++i) {
+      double* const vector = to + std::ptrdiff_t{3} * nodes[i][m];
+      for (std::size_t a = 0; a < 3; ++a) vector[a] += from[i][a][m];
+    }
 }
 
 }  // namespace meniscus::fem::lanes

@@ -70,12 +70,9 @@ NodeGraph node_graph(const NodeTable& rows, const NodeTable& columns) {
     append_row(rows, columns, places, index_of, graph.columns);
     const auto end = static_cast<std::int32_t>(graph.columns.size());
     for (const std::int32_t place : places) {
-      const auto nodes = columns.of(CellId{place / rows.nodes_per_cell});
-      for (std::size_t b = 0; b < at(width); ++b) {
-        const std::int32_t k = index_of[at(nodes[b])];
-        MENISCUS_ASSERT(start <= k && k < end, "row {}: {}", i, k);
-        graph.position[at(place) * at(width) + b] = static_cast<std::uint16_t>(k - start);
-      }
+      std::size_t b = at(place) * at(width);
+      for (const std::int32_t j : columns.of(CellId{place / rows.nodes_per_cell}))
+        graph.position[b++] = static_cast<std::uint16_t>(index_of[at(j)] - start);
     }
     graph.row_start.push_back(end);
   }

@@ -13,6 +13,7 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 /// The nodes that are vertices, counted in their order; −1 for the others.
 std::vector<std::int32_t> count_vertices(const LinearFunctions& coarse) {
   std::vector<std::int32_t> vertex_of;
+  vertex_of.reserve(std::size(coarse.number));
   std::int32_t count = 0;
   for (const std::int32_t number : coarse.number) vertex_of.push_back(number < 0 ? -1 : count++);
   return vertex_of;

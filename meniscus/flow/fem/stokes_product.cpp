@@ -8,7 +8,9 @@
 #include "meniscus/flow/fem/elements.hpp"
 
 // GCC 12 takes elements of vectors that are set one by one for uninitialised.
+#ifndef __clang__
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 
 namespace meniscus::fem {
 
