@@ -56,14 +56,11 @@ StepControl read_control(Settings& settings) {
   return settings.choice("time.control", words::step_controls);
 }
 
-TimeScheme read_scheme(Settings& settings, StepControl control, FlowMethod method) {
-  TimeScheme suited = TimeScheme::rk2;
-  if (control == StepControl::error)
-    suited = method == FlowMethod::boundary_integral ? TimeScheme::rkc : TimeScheme::semi_implicit;
+TimeScheme read_scheme(Settings& settings, StepControl control) {
+  const TimeScheme suited =
+      control == StepControl::error ? TimeScheme::semi_implicit : TimeScheme::rk2;
   settings.prefer("time.scheme", std::string(words::word_for(words::time_schemes, suited)));
   const auto scheme = settings.choice("time.scheme", words::time_schemes);
-  if (scheme == TimeScheme::semi_implicit && method == FlowMethod::boundary_integral)
-    settings.reject("time.scheme", "needs solver.method = \"finite-element\"");
   if (scheme == TimeScheme::euler && control == StepControl::error)
     settings.reject("time.control",
                     "needs another scheme than \"euler\", which estimates no error");
@@ -71,9 +68,9 @@ TimeScheme read_scheme(Settings& settings, StepControl control, FlowMethod metho
 }
 
 /// How steps are made, and how long they are.
-void read_steps(Settings& settings, FlowMethod method, EvolutionOptions& options) {
+void read_steps(Settings& settings, EvolutionOptions& options) {
   options.control = read_control(settings);
-  options.scheme = read_scheme(settings, options.control, method);
+  options.scheme = read_scheme(settings, options.control);
   if (options.control == StepControl::paper) {
     options.step_factor = settings.number("time.step-factor");
     options.step_edges = settings.choice("time.step-edges", words::step_edges);
@@ -99,7 +96,7 @@ EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elem
                     std::string(words::word_for(words::motion_normals, MotionNormal::smooth)));
   options.motion_normal = settings.choice("interface.motion-normal", words::motion_normals);
   options.end = settings.number("time.end");
-  read_steps(settings, method, options);
+  read_steps(settings, options);
   options.follows_drops = settings.choice("domain.frame", words::domain_frames);
   options.remesh_every = settings.whole("interface.remesh-every");
   options.spring_tolerance = settings.number("interface.equilibrium");

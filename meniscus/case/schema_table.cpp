@@ -536,11 +536,10 @@ const std::vector<Key> kKeys{
     {.path = "time.scheme",
      .type = word,
      .words = words::list(words::time_schemes),
-     .default_note = "\"semi-implicit\", \"rkc\" with boundary integrals; \"rk2\" with control = "
-                     "\"paper\"",
+     .default_note = "\"semi-implicit\"; \"rk2\" with control = \"paper\"",
      .sentence = "Midpoint Runge-Kutta (the paper's eq. 22), explicit Euler (eq. 21); the midpoint "
-                 "rule with surface tension damped so that long steps are stable, with finite "
-                 "elements; or Runge-Kutta-Chebyshev: of second order too, with as many solves of "
+                 "rule with surface tension damped so that long steps are stable; or "
+                 "Runge-Kutta-Chebyshev: of second order too, with as many solves of "
                  "the flow, 3 to 24, as make the step stable."},
     {.path = "time.end",
      .dimension = Dimension::time,

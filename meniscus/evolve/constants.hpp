@@ -21,6 +21,11 @@ inline constexpr double kLeastVolumeKept = 0.5, kMostVolumeKept = 2.0;
 /// The semi-implicit scheme damps what this share of a step would change, 1 − 1/√2: short waves
 /// then vanish in a long step (docs/time-stepping.md).
 inline constexpr double kDampedShare = 1.0 - 0.5 * std::numbers::sqrt2;
+/// [1/R²] What damping adds to −Δ_s, which has 6 in the slowest mode of a sphere of radius R.
+inline constexpr double kSphereStiffness = 6.0;
+/// How much more waves on flat faces are damped: where the drop is viscous, linear elements let the
+/// shortest decay up to a fifth faster than the exact flow does.
+inline constexpr double kFacetedStiffness = 1.1;
 /// A shape whose turning moves it along its normals by less than the root of this, relative to the
 /// turning itself, is too round to have a spin: ellipsoids of D below 0.02.
 inline constexpr double kRoundness = 1e-3;
@@ -59,6 +64,8 @@ inline constexpr std::array kEvolveConstants{
     NamedConstant{"least-volume-kept", kLeastVolumeKept},
     NamedConstant{"most-volume-kept", kMostVolumeKept},
     NamedConstant{"damped-share", kDampedShare},
+    NamedConstant{"sphere-stiffness", kSphereStiffness},
+    NamedConstant{"faceted-stiffness", kFacetedStiffness},
     NamedConstant{"roundness", kRoundness},
     NamedConstant{"aimed-share", kAimedShare},
     NamedConstant{"most-growth", kMostGrowth},

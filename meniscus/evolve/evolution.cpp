@@ -62,8 +62,6 @@ RegionSources liquid_sources(std::span<const TopologyEvent> events) {
 Evolution::Evolution(Scene scene, const EvolutionOptions& options, std::unique_ptr<FlowSolver> flow,
                      std::optional<MovingMesh> mesh)
     : options_(options), solver_(std::move(flow)) {
-  if (options_.scheme == TimeScheme::semi_implicit && !solver_->can_damp())
-    reject_input("the semi-implicit scheme needs finite elements");
   state_.scene = std::move(scene);
   state_.mesh = std::move(mesh);
   state_.start_centroid = centroid_of_drops(state_.scene);
@@ -144,7 +142,8 @@ StageFlow Evolution::time_scheme_step(const Scene& start, double dt) {
     case TimeScheme::rk2:
       return midpoint_step(first_, step, solve);
     case TimeScheme::semi_implicit:
-      return semi_implicit_step(first_, step, solve);
+      return semi_implicit_step(
+          first_, step, options_.surface == SurfaceShape::faceted ? kFacetedStiffness : 1.0, solve);
     case TimeScheme::rkc:
       return chebyshev_step(first_, step, num_stable_stages(start, dt), solve);
   }
@@ -182,13 +181,13 @@ StageFlow Evolution::flow_at(const Instant& instant) {
                   "{} velocities of {} interfaces", stage.flow.velocity.size(),
                   state_.scene.interfaces.size());
   const PhaseTimer timer(times_, "move interfaces");
-  const InterfaceNormals normals = interface_normals(state_.scene, options_.motion_normal);
-  stage.normal_speed = normal_speeds(normals, stage.flow.velocity);
+  stage.normals = interface_normals(state_.scene, options_.motion_normal);
+  stage.normal_speed = normal_speeds(stage.normals, stage.flow.velocity);
   if (options_.scheme == TimeScheme::semi_implicit) {
-    stage.shape = shape_motion(state_.scene, normals, stage.flow.velocity);
+    stage.shape = shape_motion(state_.scene, stage.normals, stage.flow.velocity);
     stage.motion = velocity_of(stage.shape, state_.scene);
   } else {
-    stage.motion = normal_motion(normals, stage.normal_speed);
+    stage.motion = normal_motion(stage.normals, stage.normal_speed);
   }
   stage.surface_rate = surface_energy_rate(state_.scene, stage.motion);
   return stage;

@@ -7,6 +7,7 @@
 #include "meniscus/evolve/chebyshev.hpp"
 #include "meniscus/evolve/constants.hpp"
 #include "meniscus/evolve/vertex_travel.hpp"
+#include "meniscus/evolve/wave_damping.hpp"
 
 namespace meniscus {
 namespace {
@@ -33,6 +34,30 @@ std::size_t middle_stage(const std::vector<ChebyshevScheme::Stage>& stages) {
   return nearest;
 }
 
+/// By region.
+std::vector<double> least_viscosities(const FlowSolution& flow, const Scene& scene) {
+  if (!flow.least_viscosity.empty()) return flow.least_viscosity;
+  std::vector<double> viscosities;
+  for (const Liquid& liquid : scene.liquids) viscosities.push_back(liquid.viscosity);
+  return viscosities;
+}
+
+/// Damps the normal speeds that a shape has beyond its rigid motion, about others
+/// (`damped_speeds`). A rigid motion meets no resistance of tension.
+void damp(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, double duration) {
+  const NormalSpeeds rest = normal_speeds(stage.normals, stage.shape.rest),
+                     damped = damped_speeds(scene, least_viscosities(stage.flow, scene), rest,
+                                            about, duration);
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    for (const VertexId v : rest[i].ids()) {
+      const double change = damped[i][v] - rest[i][v];
+      stage.normal_speed[i][v] += change;
+      stage.shape.rest[i][v] += change * stage.normals[i][v];
+      stage.flow.velocity[i][v] += change * stage.normals[i][v];
+    }
+  stage.surface_rate = surface_energy_rate(scene, velocity_of(stage.shape, scene));
+}
+
 }  // namespace
 
 StageFlow euler_step(const StageFlow& first) { return first; }
@@ -45,20 +70,20 @@ StageFlow midpoint_step(const StageFlow& first, const Step& step, const StageSol
   return middle;
 }
 
-StageFlow semi_implicit_step(const StageFlow& first, const Step& step, const StageSolver& solve) {
-  const double half = 0.5 * step.dt;
-  Instant instant{.t = step.t,
-                  .dt = step.dt,
-                  .stage = Stage::start,
-                  .damping = {kDampedShare * step.dt, first.shape.rigid}};
-  StageFlow start = solve(first, 0.0, instant);
-  if (!start.ok()) return start;
+StageFlow semi_implicit_step(const StageFlow& first, const Step& step, double stiffness,
+                             const StageSolver& solve) {
+  const double half = 0.5 * step.dt, damping = kDampedShare * stiffness * step.dt;
+  NormalSpeeds none = first.normal_speed;
+  for (VertexField<double>& speeds : none) std::ranges::fill(speeds, 0.0);
+  StageFlow start = first;
+  damp(start, step.start, none, damping);
   start.motion = mean_motion(step.start, first.shape, start.shape, half);
-  instant.t = step.t + half;
-  instant.stage = Stage::middle;
-  instant.damping.about.clear();  // about the normal speeds of the first stage
-  StageFlow middle = solve(start, half, instant);
+  StageFlow middle =
+      solve(start, half, {.t = step.t + half, .dt = step.dt, .stage = Stage::middle});
   if (!middle.ok()) return middle;
+  Scene scene = step.start;
+  move_interfaces(scene, start.motion, half);
+  damp(middle, scene, normal_speeds(start.normals, start.shape.rest), damping);
   middle.motion = mean_motion(step.start, first.shape, middle.shape, step.dt);
   middle.error = step_error(step, middle.normal_speed, start.normal_speed);
   middle.damps_waves = true;

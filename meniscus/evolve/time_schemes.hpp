@@ -12,6 +12,7 @@ namespace meniscus {
 struct StageFlow : Report {
   FlowSolution flow = {};
   InterfaceMotion motion = {};
+  InterfaceNormals normals = {};   ///< n at the vertices
   NormalSpeeds normal_speed = {};  ///< n·v at the vertices
   /// What `motion` is made of; empty where the scheme moves vertices along normals alone.
   ShapeMotion shape = {};
@@ -43,10 +44,11 @@ using StageSolver =
 /// The midpoint rule (first lines of Table 1 of hooper2001).
 [[nodiscard]] StageFlow midpoint_step(const StageFlow& first, const Step& step,
                                       const StageSolver& solve);
-/// The midpoint rule with damped stages, of second order whatever the damping is
-/// (docs/time-stepping.md).
+/// The midpoint rule, its normal speeds beyond rigid motions damped at both stages
+/// (`damped_speeds`): of second order whatever the damping is (docs/time-stepping.md). `stiffness`
+/// is how much more tension is damped than short waves of the exact flow ask for.
 [[nodiscard]] StageFlow semi_implicit_step(const StageFlow& first, const Step& step,
-                                           const StageSolver& solve);
+                                           double stiffness, const StageSolver& solve);
 /// Runge–Kutta–Chebyshev with `num_stages` ≥ 3 (chebyshev.hpp). The motion of first order that the
 /// estimate takes is the line through the stage j next to the middle, at c_j of the step: its
 /// difference over 1 − c_j. Short waves, which the stages damp, enter it at no more than a few

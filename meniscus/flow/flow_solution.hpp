@@ -36,6 +36,8 @@ struct [[nodiscard]] FlowSolution : Report {
   /// ∫2(μ(γ̇) − μ)D over the liquid of each region, μ its own viscosity: what a law adds to the
   /// stress in it [μ_out G R0³]. Empty where all liquids are Newtonian.
   std::vector<Mat3> excess_stress = {};
+  /// The smallest viscosity in each region [μ_out]. Empty where all liquids are Newtonian.
+  std::vector<double> least_viscosity = {};
   std::optional<BulkFlow> bulk = {};  ///< where there is a volume mesh
 };
 

@@ -15,24 +15,11 @@ namespace meniscus {
 /// Where in a step a solve stands.
 enum class Stage { start, middle };
 
-/// What a solve adds to surface tension so that long steps are stable: the change of the tension's
-/// normal force that the interfaces' normal speeds n·v, less speeds s that are known, would make
-/// within `duration`.
-struct Damping {
-  double duration = 0.0;  ///< [1/G] 0: no damping
-  /// By interface: s is the normal speed of this motion. Empty: s is the normal speed that the last
-  /// damped solve found, whose connectivity must still stand.
-  std::vector<RigidMotion> about = {};
-
-  [[nodiscard]] bool is_none() const { return duration == 0.0; }
-};
-
 /// When a flow is solved: at time t, in a step of length dt (0 where no step is known).
 struct Instant {
   double t = 0.0;
   double dt = 0.0;
   Stage stage = Stage::start;
-  Damping damping = {};
 };
 
 /// What a flow solver is lent for a solve.
@@ -52,8 +39,6 @@ class FlowSolver {
 
   /// The flow in a domain at one instant.
   virtual FlowSolution solve(const FlowDomain& domain, const Instant& instant) = 0;
-  /// Whether it knows damping. Solvers that do not are never asked for it.
-  [[nodiscard]] virtual bool can_damp() const { return false; }
 
   /// The mesh was made anew for this domain: what is kept of the last solution goes along. Only
   /// solvers that keep something on the mesh override it.

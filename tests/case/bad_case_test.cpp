@@ -104,10 +104,6 @@ const std::vector<BadCase> kValues{
      "boundary integrals describe Newtonian liquids alone"},
     {"boundary integrals in a box", shear_with("[solver]\nmethod = \"boundary-integral\"\n"),
      "case.toml:7: solver.method = \"boundary-integral\" needs domain.shape = \"unbounded\""},
-    {"semi-implicit steps of boundary integrals",
-     shear_with("[domain]\nshape = \"unbounded\"\n[solver]\nmethod = \"boundary-integral\"\n"
-                "[time]\nscheme = \"semi-implicit\"\n"),
-     "case.toml:11: time.scheme = \"semi-implicit\" needs solver.method = \"finite-element\""},
     {"unbounded domain", shear_with("[domain]\nshape = \"unbounded\"\n"),
      "case.toml:7: domain.shape = \"unbounded\" needs solver.method = \"boundary-integral\""},
     {"patch of an unbounded domain",

@@ -42,7 +42,7 @@ def between(rng, low, high):
 
 def time_table(rng, solver):
     """Any keys of [time] that fit together; of those that cost a run of hours the harmless part of the range."""
-    schemes = ["rk2", "euler"] + (["rkc"] if solver == "boundary-integral" else ["rkc", "semi-implicit"])
+    schemes = ["rk2", "euler", "rkc", "semi-implicit"]
     lines = [f"end = {END}"]
     scheme = rng.choice(schemes + [None])
     if scheme:

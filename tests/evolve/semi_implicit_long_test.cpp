@@ -25,21 +25,21 @@ INSTANTIATE_TEST_SUITE_P(ElementsAndForm, SemiImplicitBy,
                                          Way{Elements::p2_p1, CapillaryForm::weak},
                                          Way{Elements::p2_p1, CapillaryForm::balanced}));
 
-// Ten times what explicit steps bear, from an ellipsoid with noise on its vertices. It is one of a
-// hundredth of the radius, but for the nodal form at the largest viscosity: that form has a net
-// force where there is noise, which takes the drop away in so long a step.
+// Ten times what explicit steps bear, from an ellipsoid with noise of a hundredth of the radius.
+// The nodal form is left out at the largest viscosity: its net force takes a drop away whose mesh
+// is never made anew, in explicit steps as well, by a factor of 2 in 430/G.
 TEST_P(SemiImplicitBy, IsStableAtLongSteps) {
   const auto [elements, form] = GetParam();
   // The nodal force is no gradient of the area, which so is not quite what decays.
   const double least = form == CapillaryForm::nodal ? 5e-3 : 1e-3;
   for (const double viscosity_ratio : {0.01, 1.0, 100.0}) {
-    const bool drifts = form == CapillaryForm::nodal && viscosity_ratio > 1.0;
+    if (form == CapillaryForm::nodal && viscosity_ratio > 1.0) continue;
     const std::vector<double> excess =
         excesses({.elements = elements,
                   .form = form,
                   .num_vertices = elements == Elements::p1_p1 ? 200 : 110,
                   .viscosity_ratio = viscosity_ratio,
-                  .noise = drifts ? 0.002 : 0.01},
+                  .noise = 0.01},
                  16);
     for (std::size_t k = 1; k < excess.size() && excess[k - 1] > least; ++k)
       EXPECT_LT(excess[k], excess[k - 1]) << "lambda " << viscosity_ratio << ", step " << k;

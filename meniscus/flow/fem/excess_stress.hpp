@@ -6,9 +6,13 @@
 
 namespace meniscus::fem {
 
-/// ∫2(μ(γ̇) − μ)D over the liquid of each region, by region [μ_out G R0³]. Empty where
-/// all are Newtonian.
-[[nodiscard]] std::vector<Mat3> excess_stress(const StokesProblem& problem,
-                                              const StokesState& state);
+/// What generalised Newtonian liquids do that Newtonian ones of their viscosities at rest would
+/// not, by region; empty where all are Newtonian.
+struct GeneralisedLiquids {
+  std::vector<Mat3> excess_stress;      ///< ∫2(μ(γ̇) − μ)D over the region [μ_out G R0³]
+  std::vector<double> least_viscosity;  ///< the smallest μ(γ̇) in the region [μ_out]
+};
+[[nodiscard]] GeneralisedLiquids generalised_liquids(const StokesProblem& problem,
+                                                     const StokesState& state);
 
 }  // namespace meniscus::fem

@@ -8,7 +8,6 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/boundary_conditions.hpp"
 #include "meniscus/flow/fem/capillary_force.hpp"
-#include "meniscus/flow/fem/constants.hpp"
 #include "meniscus/flow/fem/excess_stress.hpp"
 #include "meniscus/flow/fem/face_elements.hpp"
 #include "meniscus/flow/fem/interpolated_state.hpp"
@@ -16,7 +15,6 @@
 #include "meniscus/flow/fem/stokes_residual.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
 #include "meniscus/flow/fem/vertex_velocity.hpp"
-#include "meniscus/mesh/sphere_radius.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 
 namespace meniscus::fem {
@@ -44,43 +42,8 @@ SurfaceNodes surface_nodes(const Scene& scene, const TetMesh& mesh, const FlowSp
   return nodes;
 }
 
-/// How much stiffer than the weak form a form is between neighbouring nodes. Explicit steps with
-/// the nodal one have to be up to a tenth shorter; damping too soft by a seventh is not enough
-/// (docs/time-stepping.md).
-double relative_stiffness(CapillaryForm form) { return form == CapillaryForm::nodal ? 1.15 : 1.0; }
-
-/// What is added to −Δ_s for a sphere's slowest mode [1/R0²]. The nodal force has a net part where
-/// there is noise; with the addition it takes a viscous drop away in long steps.
-double sphere_stiffness(CapillaryForm form, double radius) {
-  return form == CapillaryForm::nodal ? 0.0 : kSphereStiffness / (radius * radius);
-}
-
-/// Damping of all interfaces, as strong as surface tension within `duration`.
-SurfaceDamping interface_damping(const Scene& scene, const SurfaceNodes& nodes,
-                                 const NodePositions& positions, CapillaryForm form,
-                                 double duration) {
-  const double strength = relative_stiffness(form) * duration;
-  std::vector<DampedSurface> surfaces;
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
-    surfaces.push_back({nodes.interfaces[i], strength * scene.interfaces[i].tension,
-                        sphere_stiffness(form, sphere_radius(scene.interfaces[i].volume))});
-  return surface_damping(surfaces, positions);
-}
-
-/// Sets the speeds that damping is about to those of rigid motions, one per interface.
-void damp_about(std::span<const RigidMotion> motions, const SurfaceNodes& nodes,
-                const NodePositions& positions, SurfaceDamping& damping) {
-  MENISCUS_ASSERT(motions.size() == nodes.interfaces.size(), "{} motions of {} interfaces",
-                  motions.size(), nodes.interfaces.size());
-  for (std::size_t k = 0; k < motions.size(); ++k)
-    for (const NodeId i : nodes.interfaces[k].face_nodes)
-      damping.speed[i] = damping.normal[i].dot(motions[k].at(positions.x[i]));
-}
-
 InstantProblem instant_problem(const Scene& scene, const TetMesh& mesh, const FlowSpace& space,
-                               NodePositions positions, CapillaryForm form,
-                               const Instant& instant) {
-  const double t = instant.t;
+                               NodePositions positions, CapillaryForm form, double t) {
   InstantProblem problem{StokesProblem(mesh, space, std::move(positions)), {}, {}};
   const NodePositions& at = problem.stokes.positions;
   const SurfaceNodes nodes = surface_nodes(scene, mesh, space);
@@ -101,10 +64,6 @@ InstantProblem instant_problem(const Scene& scene, const TetMesh& mesh, const Fl
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
     if (scene.interfaces[i].tension != 0.0)
       add_capillary_force(scene.interfaces[i], form, nodes.interfaces[i], at, problem.stokes.force);
-  if (instant.damping.is_none()) return problem;
-  problem.stokes.damping = interface_damping(scene, nodes, at, form, instant.damping.duration);
-  if (!instant.damping.about.empty())
-    damp_about(instant.damping.about, nodes, at, problem.stokes.damping);
   return problem;
 }
 
@@ -161,7 +120,6 @@ class FiniteElementFlow final : public FlowSolver {
   }
 
   FlowSolution solve(const FlowDomain& domain, const Instant& instant) override;
-  bool can_damp() const override { return true; }
   void follow(const MeshChange& change, const FlowDomain& domain) override;
 
   void save(Archive& archive, const FlowDomain& domain) const override;
@@ -174,10 +132,8 @@ class FiniteElementFlow final : public FlowSolver {
   [[nodiscard]] bool has_connectivity_of(const FlowDomain& domain) const {
     return stokes_ && connectivity_ == domain.connectivity;
   }
-  [[nodiscard]] InstantProblem problem_at(const FlowDomain& domain, const Instant& instant) const;
-  [[nodiscard]] bool has_preconditioner_for(double damping) const;
-  void decide_on_preconditioner(const StokesProblem& problem, double damping,
-                                const StokesReport& report, bool is_kept);
+  void decide_on_preconditioner(const StokesProblem& problem, const StokesReport& report,
+                                bool is_kept);
   [[nodiscard]] StokesState first_guess(const StokesProblem& problem) const;
   void keep_solution(const StokesProblem& problem, StokesState state);
   [[nodiscard]] FlowSolution solution(const FlowDomain& domain, const InstantProblem& problem,
@@ -194,9 +150,6 @@ class FiniteElementFlow final : public FlowSolver {
   /// iterations of the solve that made it; none when the next is to make its own.
   std::optional<NodePositions> prepared_at_;
   int iterations_then_ = 0;
-  double damping_then_ = 0.0;  // the duration of its damping
-  /// The normal speeds that the last damped solve found; empty: there is none on this connectivity.
-  Field<NodeId, double> damped_speed_;
   PhaseTimes times_;
 };
 
@@ -206,7 +159,6 @@ void FiniteElementFlow::use_connectivity(const FlowDomain& domain) {
   stokes_.emplace(space_, options_);
   guess_.reset();
   prepared_at_.reset();
-  damped_speed_ = {};
   connectivity_ = domain.connectivity;
 }
 
@@ -230,23 +182,8 @@ StokesState FiniteElementFlow::first_guess(const StokesProblem& problem) const {
 }
 
 void FiniteElementFlow::keep_solution(const StokesProblem& problem, StokesState state) {
-  if (!problem.damping.is_none()) damped_speed_ = normal_speeds(problem.damping, state.v);
   for (const NodeId i : state.v.ids()) state.v[i] -= problem.undisturbed[i];
   guess_ = std::move(state);
-}
-
-InstantProblem FiniteElementFlow::problem_at(const FlowDomain& domain,
-                                             const Instant& instant) const {
-  InstantProblem problem = instant_problem(domain.scene, *domain.mesh, space_,
-                                           node_positions(domain.scene, *domain.mesh, space_),
-                                           options_.capillary, instant);
-  SurfaceDamping& damping = problem.stokes.damping;
-  if (damping.is_none() || !instant.damping.about.empty()) return problem;
-  MENISCUS_ASSERT(damped_speed_.size() == damping.speed.size(),
-                  "no damped solve on this connectivity: {} {}", damped_speed_.size(),
-                  damping.speed.size());
-  damping.speed = damped_speed_;
-  return problem;
 }
 
 FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& instant) {
@@ -258,14 +195,16 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
     if (!(signed_volume(mesh, c) > 0.0))
       return failed_flow({FaultKind::inverted_cell, "a cell of the volume mesh is inverted",
                           mesh.x[mesh.cells[c][0]]});
-  const InstantProblem problem = problem_at(domain, instant);
+  const InstantProblem problem =
+      instant_problem(domain.scene, mesh, space_, node_positions(domain.scene, mesh, space_),
+                      options_.capillary, instant.t);
   if (problem.fault) return failed_flow(*problem.fault);
   StokesState state = first_guess(problem.stokes);
-  const bool is_kept = has_preconditioner_for(instant.damping.duration);
+  const bool is_kept = prepared_at_.has_value();
   const StokesReport report = stokes_->solve(
       problem.stokes, state, is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh,
       times_);
-  decide_on_preconditioner(problem.stokes, instant.damping.duration, report, is_kept);
+  decide_on_preconditioner(problem.stokes, report, is_kept);
   if (report.ok() && !problem.stokes.has_open_boundary)
     level_pressure(mesh, space_.pressure, state.p);
   FlowSolution result = report.ok() ? solution(domain, problem, state) : failed_flow(*report.fault);
@@ -279,16 +218,9 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
   return result;
 }
 
-/// A preconditioner suits damping like that which it was made with.
-bool FiniteElementFlow::has_preconditioner_for(double damping) const {
-  constexpr double kAlike = 2.0;
-  return prepared_at_.has_value() && damping <= kAlike * damping_then_ &&
-         damping_then_ <= kAlike * damping;
-}
-
 /// Keeps a preconditioner while the connectivity stands and it saves more than it costs: to make
 /// one takes as long as three or four iterations (docs/benchmark-stokes.md).
-void FiniteElementFlow::decide_on_preconditioner(const StokesProblem& problem, double damping,
+void FiniteElementFlow::decide_on_preconditioner(const StokesProblem& problem,
                                                  const StokesReport& report, bool is_kept) {
   constexpr int kWorthOfOne = 3;
   const bool is_own = report.ok() && report.failed_solvers.empty() && report.iterations > 0 &&
@@ -299,7 +231,6 @@ void FiniteElementFlow::decide_on_preconditioner(const StokesProblem& problem, d
   if (is_kept || !is_own) return;
   prepared_at_ = problem.positions;
   iterations_then_ = report.iterations;
-  damping_then_ = damping;
 }
 
 FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const InstantProblem& problem,
@@ -318,7 +249,9 @@ FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const Instant
   double traction = 0.0;
   for (const NodeId i : problem.traction.ids()) traction += problem.traction[i].dot(state.v[i]);
   result.power = {power.reaction + traction + power.body_force, power.dissipation};
-  result.excess_stress = fem::excess_stress(problem.stokes, state);
+  GeneralisedLiquids liquids = generalised_liquids(problem.stokes, state);
+  result.excess_stress = std::move(liquids.excess_stress);
+  result.least_viscosity = std::move(liquids.least_viscosity);
   BulkFlow bulk{at_vertices(state.v, mesh.num_vertices()), {}};
   for (const std::int32_t node : space_.pressure.nodes.cell_nodes)
     bulk.corner_pressure.push_back(state.p[static_cast<std::size_t>(node)]);
@@ -332,7 +265,6 @@ void FiniteElementFlow::save(Archive& archive, const FlowDomain& domain) const {
   if (!prepared_at_) return;
   save_positions(*prepared_at_, archive, "flow/preconditioner");
   archive.integers["flow/preconditioner/iterations"] = {iterations_then_};
-  if (damping_then_ != 0.0) archive.reals["flow/preconditioner/damping"] = {damping_then_};
 }
 
 /// Makes the preconditioner that the saved run had, so that a resumed run does the same arithmetic.
@@ -344,13 +276,10 @@ void FiniteElementFlow::restore_preconditioner(const Archive& archive, const Flo
     reject_input("checkpoint: flow/preconditioner/x does not fit the volume mesh");
   iterations_then_ = static_cast<int>(
       entry_of_size(archive.integers, "flow/preconditioner/iterations", 1).front());
-  damping_then_ = archive.reals.contains("flow/preconditioner/damping")
-                      ? entry_of_size(archive.reals, "flow/preconditioner/damping", 1).front()
-                      : 0.0;
-  // Time, forces and the speeds that damping is about matter to the right-hand side alone.
-  stokes_->prepare(instant_problem(domain.scene, *domain.mesh, space_, *prepared_at_,
-                                   options_.capillary, {.damping = {damping_then_}})
-                       .stokes);
+  // Time and forces matter to the right-hand side alone.
+  stokes_->prepare(
+      instant_problem(domain.scene, *domain.mesh, space_, *prepared_at_, options_.capillary, 0.0)
+          .stokes);
 }
 
 void FiniteElementFlow::load(const Archive& archive, const FlowDomain& domain) {

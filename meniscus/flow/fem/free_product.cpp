@@ -31,13 +31,6 @@ std::vector<double> local_pressures(const StokesProblem& problem, std::span<cons
   return {owned.begin(), owned.end()};
 }
 
-/// n_i Σ_j K_ij n_j·v_j.
-void add_damping(const SurfaceDamping& damping, std::span<double> v, std::span<double> momentum) {
-  for (const auto& [row, column, weight] : damping.entries)
-    vector_at(momentum, row) +=
-        weight * damping.normal[column].dot(vector_at(v, column)) * damping.normal[row];
-}
-
 /// Calls `action` with the fixed unknowns of the first so many nodes.
 template <class Action>
 void for_each_fixed(const Constraints& constraints, std::int32_t num_nodes, Action action) {
@@ -59,7 +52,6 @@ void FreeProduct::multiply(std::span<const double> x, std::span<double> y) const
   }
   std::vector<double> momentum(v.size()), continuity(p.size());
   product_.add(v, p, momentum, continuity);
-  add_damping(problem_.damping, v, momentum);
   constrain(momentum);
   for_each_fixed(problem_.constraints, owned.num_nodes, [&](std::size_t i) { momentum[i] = x[i]; });
   std::copy_n(momentum.begin(), num_velocities, y.begin());
@@ -79,10 +71,6 @@ void FreeProduct::multiply_laplacians(std::span<const double> x, std::span<doubl
   std::vector<double> v = local_velocities(problem_, x), result(v.size());
   for_each_fixed(problem_.constraints, num_nodes, [&](std::size_t i) { v[i] = 0.0; });
   product_.add_laplacian(v, result);
-  const SurfaceDamping& damping = problem_.damping;
-  for (const auto& [row, column, weight] : damping.entries)
-    vector_at(result, row) +=
-        weight * damping.normal[row].dot(damping.normal[column]) / 3.0 * vector_at(v, column);
   for_each_fixed(problem_.constraints, owned_counts(problem_).num_nodes,
                  [&](std::size_t i) { result[i] = x[i]; });
   std::copy_n(result.begin(), r.size(), r.begin());
@@ -92,8 +80,6 @@ std::vector<double> FreeProduct::laplacian_diagonals() const {
   const std::int32_t num_owned = owned_counts(problem_).num_nodes;
   std::vector<double> by_node(at(problem_.space.velocity.num_nodes));
   product_.add_laplacian_diagonal(by_node);
-  for (const auto& [row, column, weight] : problem_.damping.entries)
-    if (row == column) by_node[at(row.value)] += weight / 3.0;
   std::vector<double> diagonals;
   diagonals.reserve(3 * at(num_owned));
   for (std::size_t i = 0; i < at(num_owned); ++i) diagonals.insert(diagonals.end(), 3, by_node[i]);

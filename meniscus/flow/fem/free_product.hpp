@@ -4,7 +4,7 @@
 
 namespace meniscus::fem {
 
-/// The Jacobian of R(u) by its products: those of the cells, with damping, for the unknowns that
+/// The Jacobian of R(u) by its products: those of the cells for the unknowns that
 /// `StokesJacobian` has. At constrained nodes these are in the constraint's frame, and fixed ones
 /// have an equation of their own. On several ranks vectors hold the owned unknowns, and all
 /// products are collective.
@@ -18,8 +18,7 @@ class FreeProduct {
   void multiply(std::span<const double> x, std::span<double> y) const;
   /// v = Bᵀ p.
   void multiply_gradient(std::span<const double> p, std::span<double> v) const;
-  /// r = the Laplacians of the three components, that stand for A's diagonal blocks. Damping counts
-  /// with a third of its trace.
+  /// r = the Laplacians of the three components, that stand for A's diagonal blocks.
   void multiply_laplacians(std::span<const double> x, std::span<double> r) const;
   /// Their diagonals at the owned nodes.
   [[nodiscard]] std::vector<double> laplacian_diagonals() const;

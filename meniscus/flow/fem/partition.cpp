@@ -207,7 +207,6 @@ StokesProblem local_part(const StokesProblem& global, const Partition& partition
     local.viscosity[c] = global.viscosity[partition.global_cell[at(c.value)]];
     local.body_force[c] = global.body_force[partition.global_cell[at(c.value)]];
   }
-  local.damping = local_part(global.damping, partition);
   if (!global.undisturbed.empty())
     for (const NodeId i_global : partition.global_node)
       local.undisturbed.add(global.undisturbed[i_global]);
@@ -216,22 +215,6 @@ StokesProblem local_part(const StokesProblem& global, const Partition& partition
     local.force[i] = global.force[i_global];
     if (const NodeConstraint* constraint = global.constraints.find(i_global))
       local.constraints.copy(i, *constraint);
-  }
-  return local;
-}
-
-/// With the rows of ghosts, as far as their columns are known.
-SurfaceDamping local_part(const SurfaceDamping& global, const Partition& partition) {
-  SurfaceDamping local;
-  if (global.is_none()) return local;
-  Field<NodeId, NodeId> global_to_local(global.normal.size());
-  for (const NodeId i_global : partition.global_node) {
-    global_to_local[i_global] = local.normal.add(global.normal[i_global]);
-    local.speed.add(global.speed[i_global]);
-  }
-  for (const auto& [row, column, weight] : global.entries) {
-    const NodeId i = global_to_local[row], j = global_to_local[column];
-    if (i.is_valid() && j.is_valid()) local.entries.push_back({i, j, weight});
   }
   return local;
 }

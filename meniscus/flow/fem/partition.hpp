@@ -61,9 +61,8 @@ struct Partition {
   return problem.partition == nullptr ? all_owned(problem.space) : problem.partition->owned;
 }
 
-/// A global problem, its damping or its state as one rank sees it.
+/// A global problem or its state as one rank sees it.
 [[nodiscard]] StokesProblem local_part(const StokesProblem& global, const Partition& partition);
-[[nodiscard]] SurfaceDamping local_part(const SurfaceDamping& global, const Partition& partition);
 [[nodiscard]] StokesState local_part(const StokesState& global, const Partition& partition);
 /// The unknowns of all local nodes, velocities before pressures, from those of the owned ones.
 /// Collective.

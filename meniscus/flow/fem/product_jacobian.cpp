@@ -58,17 +58,6 @@ LinearIntegrals curved_integrals(const StokesProblem& problem, CellId c) {
   return integrals;
 }
 
-/// Where a column stands in a row of a graph; none where the two share no cell.
-std::optional<std::size_t> find_entry(const NodeGraph& graph,
-                                      const std::vector<std::int32_t>& columns, std::int32_t row,
-                                      std::int32_t column) {
-  const auto begin = columns.begin() + graph.row_start[at(row)],
-             end = columns.begin() + graph.row_start[at(row) + 1];
-  const auto found = std::find(begin, end, column);
-  if (found == end) return std::nullopt;
-  return static_cast<std::size_t>(found - columns.begin());
-}
-
 }  // namespace
 
 ProductJacobian::ProductJacobian(const FlowSpace& space, const Partition* partition)
@@ -79,7 +68,6 @@ ProductJacobian::ProductJacobian(const FlowSpace& space, const Partition* partit
       vertices_(vertices_of_cells(space.velocity, vertex_of_)),
       vertex_graph_(node_graph(vertices_, vertices_)),
       pressure_graph_(node_graph(space.pressure.nodes, space.pressure.nodes)),
-      columns_of_vertices_(vertex_graph_.columns),
       laplacians_(space, partition),
       region_weights_(space.pressure, partition) {
   MENISCUS_ASSERT(space.elements == Elements::p2_p1, "linear elements have matrices");
@@ -100,7 +88,6 @@ void ProductJacobian::assemble(const StokesProblem& problem, const StokesProduct
   pressure_mass_.assign(at(pressure_graph_.num_rows()), 0.0);
   consistent_mass_.assign(pressure_graph_.num_entries(), 0.0);
   for (const CellId c : problem.mesh.cells.ids()) add_cell(problem, c);
-  add_damping(problem);
   region_weights_.update(std::span(pressure_mass_).first(at(owned_.num_pressures)));
 }
 
@@ -123,22 +110,6 @@ void ProductJacobian::add_cell(const StokesProblem& problem, CellId c) {
       pressure_mass_[at(pressures[k])] += mass;
       consistent_mass_[pressure_graph_.entry(pressures[k], pair)] += mass;
     }
-}
-
-/// A quadratic function that is linear has at each node the mean of its ends' values.
-void ProductJacobian::add_damping(const StokesProblem& problem) {
-  const SurfaceDamping& damping = problem.damping;
-  for (const auto& [row, column, weight] : damping.entries) {
-    const double share = weight * damping.normal[row].dot(damping.normal[column]) / (3.0 * 4.0);
-    for (const std::int32_t i : coarse_.ends[at(row.value)])
-      for (const std::int32_t j : coarse_.ends[at(column.value)]) {
-        const auto k =
-            find_entry(vertex_graph_, columns_of_vertices_, vertex_of_[at(i)], vertex_of_[at(j)]);
-        for (ScalarLaplacian& laplacian : laplacians_.all())
-          if (k && !laplacian.is_fixed[at(i)] && !laplacian.is_fixed[at(j)])
-            laplacian.values[*k] += share;
-      }
-  }
 }
 
 linear::SaddleSystem ProductJacobian::system() const {

@@ -28,7 +28,6 @@ class ProductJacobian {
 
  private:
   void add_cell(const StokesProblem& problem, CellId c);
-  void add_damping(const StokesProblem& problem);
 
   const FlowSpace& space_;
   OwnedCounts owned_;
@@ -36,7 +35,6 @@ class ProductJacobian {
   std::vector<std::int32_t> vertex_of_;  ///< by node; −1 at the middles of edges
   NodeTable vertices_;                   ///< of each cell
   NodeGraph vertex_graph_, pressure_graph_;
-  std::vector<std::int32_t> columns_of_vertices_;  ///< before they are numbered
   ScalarLaplacians laplacians_;
   RegionWeights region_weights_;
   std::vector<double> pressure_mass_, consistent_mass_, diagonals_;

@@ -4,7 +4,6 @@
 #include <type_traits>
 
 #include "meniscus/core/error.hpp"
-#include "meniscus/flow/fem/damping_assembly.hpp"
 #include "meniscus/flow/fem/straight_quadratic_matrices.hpp"
 
 namespace meniscus::fem {
@@ -68,7 +67,6 @@ void StokesJacobian::assemble(const StokesProblem& problem, const Linearization*
   CellAssembly assembly(space_, sparsity_, problem.constraints, values_, laplacians_.all());
   with_element(space_, problem.positions,
                [&](auto& element) { add_cells(problem, about, others, element, assembly); });
-  add_damping(problem, sparsity_.velocity(), values_, laplacians_.all());
   region_weights_.update(std::span(values_.pressure_mass).first(at(owned_.num_pressures)));
 }
 

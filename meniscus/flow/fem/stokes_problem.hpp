@@ -5,7 +5,6 @@
 
 #include "meniscus/flow/fem/constraints.hpp"
 #include "meniscus/flow/fem/node_positions.hpp"
-#include "meniscus/flow/fem/surface_damping.hpp"
 #include "meniscus/scene/viscosity.hpp"
 
 namespace meniscus::fem {
@@ -33,9 +32,8 @@ struct StokesProblem {
   CellField<double> viscosity;  ///< [μ_out]; constant in each region on linear elements
   /// How the viscosity depends on the rate of shear, by region; empty: all are Newtonian.
   Field<RegionId, ViscosityLaw> laws;
-  CellField<Vec3> body_force;   ///< f [μ_out G / R0]
-  Field<NodeId, Vec3> force;    ///< F: further forces on the fluid, by node [μ_out G R0²]
-  SurfaceDamping damping = {};  ///< adds a force that is linear in v
+  CellField<Vec3> body_force;  ///< f [μ_out G / R0]
+  Field<NodeId, Vec3> force;   ///< F: further forces on the fluid, by node [μ_out G R0²]
   Constraints constraints;
   /// The flow without drops, every liquid being the outer one; empty: not known.
   Field<NodeId, Vec3> undisturbed = {};

@@ -109,8 +109,8 @@ void add_power(const StokesProblem& problem, const StokesState& state, const Sto
 
 }  // namespace
 
-StokesResidual undamped_residual(const StokesProblem& problem, const StokesState& state,
-                                 const StokesProduct* product) {
+StokesResidual residual(const StokesProblem& problem, const StokesState& state,
+                        const StokesProduct* product) {
   StokesResidual result = residual_of_nothing(problem);
   with_element(problem.space, problem.positions, [&](auto& element) {
     if (product == nullptr)
@@ -121,13 +121,6 @@ StokesResidual undamped_residual(const StokesProblem& problem, const StokesState
   if (product != nullptr)
     product->add(numbers(state.v), state.p, numbers(result.momentum), result.continuity);
   for (const NodeId i : problem.force.ids()) result.momentum[i] -= problem.force[i];
-  return result;
-}
-
-StokesResidual residual(const StokesProblem& problem, const StokesState& state,
-                        const StokesProduct* product) {
-  StokesResidual result = undamped_residual(problem, state, product);
-  add_resistance(problem.damping, state.v, result.momentum);
   return result;
 }
 

@@ -15,16 +15,12 @@ struct StokesResidual {
 /// By `product`, the problem's own, where it is given.
 [[nodiscard]] StokesResidual residual(const StokesProblem& problem, const StokesState& state,
                                       const StokesProduct* product = nullptr);
-/// The residual of the same problem without its damping.
-[[nodiscard]] StokesResidual undamped_residual(const StokesProblem& problem,
-                                               const StokesState& state,
-                                               const StokesProduct* product = nullptr);
 /// Euclidean norm of what a solution must make zero: the residual without its fixed components. The
 /// norm is the global one; collective on the ranks of a partitioned problem.
 [[nodiscard]] double free_norm(const StokesResidual& residual, const StokesProblem& problem);
 
 /// The terms of the energy balance of a solution [μ_out G² R0³]. Exactly, up to the solver's
-/// residual, reaction + body_force + force = dissipation where nothing is damped.
+/// residual, reaction + body_force + force = dissipation.
 struct StokesPower {
   double reaction = 0.0;     ///< of the fixed velocity components
   double body_force = 0.0;   ///< ∫f·v

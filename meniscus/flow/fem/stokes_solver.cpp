@@ -81,13 +81,12 @@ void add_step(StokesState& state, const StokesProblem& problem,
   for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] += step[first + i];
 }
 
-/// The residual of a velocity without pressure, once the fixed velocities are imposed. Damping is
-/// no part of it: it would loosen the tolerance.
+/// The residual of a velocity without pressure, once the fixed velocities are imposed.
 double residual_at(const StokesProblem& problem, const StokesProduct* product,
                    Field<NodeId, Vec3> v) {
   StokesState state{std::move(v), std::vector<double>(problem.space.pressure.vertex.size(), 0.0)};
   problem.constraints.impose(state.v);
-  return free_norm(undamped_residual(problem, state, product), problem);
+  return free_norm(residual(problem, state, product), problem);
 }
 
 /// The residual that the data alone cause where all else rests. A boundary far away has the most of

@@ -137,32 +137,6 @@ TEST(Ranks, AgreeOnGeneralisedNewtonianLiquids) {
   }
 }
 
-TEST(Ranks, AgreeOnDampedInterfaces) {
-  for (const Elements elements : {Elements::p1_p1, Elements::p2_p1})
-    for (const bool is_generalised : {false, true}) {
-      const ShearedDrop drop(elements);
-      StokesProblem problem = drop.problem();
-      const FaceNodeTable faces = drop.drop_faces();
-      problem.damping = surface_damping(std::vector{DampedSurface{faces, 2.0}}, problem.positions);
-      for (const NodeId i : faces.face_nodes)
-        problem.damping.speed[i] = 0.1 * problem.positions.x[i].y();
-      if (is_generalised) {
-        problem.laws.add(Newtonian{});
-        problem.laws.add(CarreauYasuda{.time_constant = 2.0, .power_index = 0.5});
-      }
-      Options options;
-      options.rtol = 1e-10;
-      const Solution alone = solved(problem, options, linear::Processes::alone),
-                     together = solved(problem, options, linear::Processes::all);
-      ASSERT_TRUE(alone.report.ok() && together.report.ok()) << together.report.text();
-      EXPECT_LT(largest_velocity_difference(alone.state, together.state), 4e-6);
-      const Solution undamped = solved(drop.problem(), options, linear::Processes::alone);
-      EXPECT_GT(largest_velocity_difference(alone.state, undamped.state), 0.01);
-      EXPECT_NEAR(together.report.reference, undamped.report.reference,
-                  1e-12 * undamped.report.reference);
-    }
-}
-
 TEST(Ranks, PreparedIsKeptBitForBit) {
   const ShearedDrop drop;
   const StokesProblem problem = drop.problem();

@@ -47,7 +47,6 @@ class StokesProductOfDrop : public testing::Test {
  protected:
   StokesProductOfDrop() : problem_(drop_.problem()), jacobian_(problem_.space) {
     problem_.constraints = Constraints(problem_.space.velocity.num_nodes);
-    problem_.damping = {};
     jacobian_.assemble(problem_);
   }
   const ShearedDrop drop_{Elements::p2_p1};

@@ -1,0 +1,111 @@
+#include "meniscus/evolve/wave_damping.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+#include <Eigen/SparseCholesky>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/evolve/constants.hpp"
+#include "meniscus/mesh/sphere_radius.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
+
+namespace meniscus {
+namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// The lower half of K with Σ_w K_vw s_w = ∫∇φ_v·∇s dS on flat faces.
+SparseMatrix stiffness(const SurfaceMesh& mesh) {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(9 * static_cast<std::size_t>(mesh.faces.size()));
+  for (const FaceVertices& v : mesh.faces)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId a = v[(k + 1) % 3], b = v[(k + 2) % 3];
+      const Vec3 to_a = mesh.x[a] - mesh.x[v[k]], to_b = mesh.x[b] - mesh.x[v[k]];
+      const double half_cotangent = 0.5 * to_a.dot(to_b) / to_a.cross(to_b).norm();
+      entries.emplace_back(std::max(a.value, b.value), std::min(a.value, b.value), -half_cotangent);
+      entries.emplace_back(a.value, a.value, half_cotangent);
+      entries.emplace_back(b.value, b.value, half_cotangent);
+    }
+  SparseMatrix K(mesh.num_vertices(), mesh.num_vertices());
+  K.setFromTriplets(entries.begin(), entries.end());
+  return K;
+}
+
+/// 1/(1 + αΛ^½) = (2/π)∫αs²/((1 + α²s²)(s² + Λ)) ds over s > 0, by the trapezoidal rule in ln s.
+/// Where s² is far above all Λ of a matrix, the terms are multiples of the identity.
+struct InverseSum {
+  struct Term {
+    double shift, weight;  // of 1/(shift + Λ)
+  };
+  std::vector<Term> terms;
+  double rest = 0.0;  // of the identity
+};
+
+InverseSum inverse_sum(double alpha, double least, double most) {
+  constexpr double kSpacing = 1.0, kBelow = 0.1, kAbove = 4.0, kSmallest = 1e-9;
+  InverseSum sum;
+  const double factor = 2.0 / std::numbers::pi * kSpacing, growth = std::exp(kSpacing);
+  for (double s = kBelow * std::sqrt(least);; s *= growth) {
+    const double weight = factor * alpha * s / (1.0 + alpha * alpha * s * s);
+    if (s < kAbove * std::sqrt(most)) {
+      sum.terms.push_back({s * s, weight * s * s});
+      continue;
+    }
+    sum.rest += weight;
+    if (alpha * s > 1.0 && weight < kSmallest) return sum;
+  }
+}
+
+/// What 1/(1 + α(M⁻¹K + k)^½) makes of s.
+Eigen::VectorXd damped(const SparseMatrix& K, const Eigen::VectorXd& mass, double k, double alpha,
+                       const Eigen::VectorXd& s) {
+  const double most = 2.0 * (K.diagonal().array() / mass.array()).maxCoeff() + k;
+  const InverseSum sum = inverse_sum(alpha, k, most);
+  const Eigen::VectorXd moment = mass.cwiseProduct(s);
+  Eigen::VectorXd result = sum.rest * s;
+  Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> factors;
+  factors.analyzePattern(K);
+  for (const auto& [shift, weight] : sum.terms) {
+    SparseMatrix shifted = K;
+    shifted.diagonal() += (shift + k) * mass;
+    factors.factorize(shifted);
+    result += weight * factors.solve(moment);
+  }
+  return result;
+}
+
+}  // namespace
+
+NormalSpeeds damped_speeds(const Scene& scene, std::span<const double> viscosity,
+                           const NormalSpeeds& speeds, const NormalSpeeds& about,
+                           double duration) {
+  MENISCUS_ASSERT(speeds.size() == scene.interfaces.size() && about.size() == speeds.size(),
+                  "{} and {} speeds of {} interfaces", speeds.size(), about.size(),
+                  scene.interfaces.size());
+  NormalSpeeds result = speeds;
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    const Interface& interface = scene.interfaces[i];
+    if (interface.tension == 0.0) continue;
+    const double viscosities = viscosity[static_cast<std::size_t>(interface.inside.value)] +
+                               viscosity[static_cast<std::size_t>(interface.outside.value)];
+    const VertexField<Vec3> area = vertex_area_vectors(interface.mesh);
+    const std::int32_t n = area.size();
+    Eigen::VectorXd mass(n), s(n);
+    for (const VertexId v : area.ids()) {
+      mass[v.value] = area[v].norm();
+      s[v.value] = speeds[i][v] - about[i][v];
+    }
+    const double radius = sphere_radius(interface.volume);
+    s = damped(stiffness(interface.mesh), mass,
+               kSphereStiffness / (radius * radius),
+               duration * interface.tension / (2.0 * viscosities), s);
+    for (const VertexId v : area.ids()) result[i][v] = about[i][v] + s[v.value];
+  }
+  return result;
+}
+
+}  // namespace meniscus
