@@ -41,7 +41,7 @@ std::string word_for(StepBound bound) { return kBounds.at(static_cast<std::size_
 
 constexpr const char *kPower = "μ_out G² R0³", *kStress = "μ_out G", *kEnergy = "μ_out G R0³";
 
-constexpr std::array<Column<HistoryRow>, 24> kHistory{{
+constexpr std::array<Column<HistoryRow>, 25> kHistory{{
     {"step", "", [](const HistoryRow& h) { return Cell(h.step); }},
     {"t", "1/G", [](const HistoryRow& h) { return Cell(h.t); }},
     {"dt", "1/G", [](const HistoryRow& h) { return Cell(h.dt); }},
@@ -68,6 +68,10 @@ constexpr std::array<Column<HistoryRow>, 24> kHistory{{
     {"step_error", "", [](const HistoryRow& h) { return cell(h.step_error); }},
     {"step_bound", "",
      [](const HistoryRow& h) { return h.step_bound ? Cell(word_for(*h.step_bound)) : Cell(); }},
+    {"mesh_kept", "",
+     [](const HistoryRow& h) {
+       return h.is_mesh_kept ? Cell(std::int64_t{*h.is_mesh_kept ? 1 : 0}) : Cell();
+     }},
 }};
 
 constexpr std::array<Column<Drop>, 20> kDrops{{

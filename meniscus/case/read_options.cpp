@@ -98,6 +98,8 @@ EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elem
   options.end = settings.number("time.end");
   read_steps(settings, options);
   options.follows_drops = settings.choice("domain.frame", words::domain_frames);
+  settings.prefer("interface.remesh-every",
+                  std::int64_t{options.control == StepControl::paper ? 1 : 0});
   options.remesh_every = settings.whole("interface.remesh-every");
   options.spring_tolerance = settings.number("interface.equilibrium");
   options.edge_floor =

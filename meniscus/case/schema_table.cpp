@@ -23,6 +23,7 @@ constexpr Range kPlace{.min = -1e6, .max = 1e6};
 constexpr Range kDropNodes{.min = kFewestVertices, .max = 200000};
 constexpr Range kBoundaryNodes{.min = 50, .max = 20000};
 constexpr Range kCount{.min = 1, .max = 1e9};
+constexpr Range kCountOrNone{.min = 0, .max = 1e9};
 constexpr std::string_view kWithElements = "with method = \"finite-element\"";
 constexpr std::string_view kWithIntegrals = "with method = \"boundary-integral\"";
 
@@ -443,11 +444,12 @@ const std::vector<Key> kKeys{
                  "liquid, or by harmonic extension."},
     {.path = "interface.remesh-every",
      .type = whole,
-     .range = kCount,
-     .value = std::int64_t{1},
+     .range = kCountOrNone,
+     .default_note = "0; 1 with time.control = \"paper\"",
      .sentence =
          "Steps from one remeshing of the interfaces to the next: 3 remeshes at the end of steps "
-         "3, 6, 9; in between vertices only move, and volumes are restored."},
+         "3, 6, 9; in between vertices only move, and volumes are restored. 0 remeshes when edges "
+         "or the density of vertices leave their range, and keeps the tetrahedra until then."},
     {.path = "interface.equilibrium",
      .range = {.min = 0.0, .max = 0.99},
      .value = 0.0,

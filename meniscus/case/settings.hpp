@@ -57,9 +57,9 @@ class Settings {
   template <class Words>
   [[nodiscard]] auto choice(const std::string& path, const Words& words);
 
-  /// Makes `word` the default of a key that was not given, here and in checkpoints.
-  void prefer(const std::string& path, const std::string& word) {
-    if (!is_given(path)) used_[path] = word;
+  /// Makes `value` the default of a key that was not given, here and in checkpoints.
+  void prefer(const std::string& path, const schema::Value& value) {
+    if (!is_given(path)) used_[path] = value;
   }
 
   void set_scale(const Scale& scale) { scale_ = scale; }

@@ -21,6 +21,7 @@ enum class FaultKind {
   regions,            ///< regions of liquids contradict the nesting of the surfaces
   nonconforming,      ///< a volume mesh does not fit the surfaces of its scene
   inverted_cell,      ///< a tetrahedron has no positive volume
+  poor_cell,          ///< a tetrahedron has too small an angle
   wrong_volume,       ///< the cells of a region do not fill it, or a step changed a drop's volume
   mesher,             ///< the mesher gave up
   too_large,          ///< a mesh would have more elements than can be made

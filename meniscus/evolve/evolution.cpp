@@ -136,14 +136,18 @@ StageFlow Evolution::time_scheme_step(const Scene& start, double dt) {
   const StageSolver solve = [&](const StageFlow& stage, double duration, const Instant& instant) {
     return solve_stage(start, stage, duration, instant);
   };
+  const double stiffness = options_.surface == SurfaceShape::faceted ? kFacetedStiffness : 1.0;
+  const StageDamper damp = [&](StageFlow& stage, const NormalSpeeds& about) {
+    const PhaseTimer timer(times_, "move interfaces");
+    meniscus::damp(stage, state_.scene, about, kDampedShare * stiffness * dt);
+  };
   switch (options_.scheme) {
     case TimeScheme::euler:
       return euler_step(first_);
     case TimeScheme::rk2:
       return midpoint_step(first_, step, solve);
     case TimeScheme::semi_implicit:
-      return semi_implicit_step(
-          first_, step, options_.surface == SurfaceShape::faceted ? kFacetedStiffness : 1.0, solve);
+      return semi_implicit_step(first_, step, solve, damp);
     case TimeScheme::rkc:
       return chebyshev_step(first_, step, num_stable_stages(start, dt), solve);
   }
@@ -195,25 +199,44 @@ StageFlow Evolution::flow_at(const Instant& instant) {
 
 /// Moves the interfaces of `start` the whole step, then makes them and the mesh fit for the next.
 Report Evolution::finish_step(const Scene& start, const StageFlow& whole, double dt) {
-  Scene& scene = state_.scene;
-  const InterfaceMotion& motion = whole.motion;
-  MENISCUS_ASSERT(motion.size() == start.interfaces.size(), "{} motions of {} interfaces",
-                  motion.size(), start.interfaces.size());
+  MENISCUS_ASSERT(whole.motion.size() == start.interfaces.size(), "{} motions of {} interfaces",
+                  whole.motion.size(), start.interfaces.size());
   state_.events.clear();
   state_.shift_over_edge = 0.0;
   if (Report moved = move_whole_step(start, whole, dt); !moved.ok()) return moved;
-  if (is_remesh_due()) {
-    const Scene moved = scene;
-    carry_fields_of_mesh(start, whole.flow, dt);
-    if (Report apart = refuse_contact(remesh_interfaces()); !apart.ok()) return apart;
-    if (Report changed = change_topology(moved, motion); !changed.ok()) return changed;
-    if (Report kept = judge_volume_shift(dt); !kept.ok()) return kept;
-    return follow_interfaces(liquid_sources(state_.events));
-  }
-  restore_volumes();
-  if (Report apart = refuse_contact(false); !apart.ok()) return apart;
+  const Scene moved = time_phase(times_, "move interfaces", [&] { return state_.scene; });
+  const bool is_due = is_remesh_due();
+  bool are_remeshed = false;
+  if (is_due)
+    are_remeshed = remesh_interfaces();
+  else
+    restore_volumes();
+  if (Report apart = refuse_contact(are_remeshed); !apart.ok()) return apart;
+  if (is_due || is_remeshed_as_needed())
+    if (Report changed = change_topology(moved, whole.motion); !changed.ok()) return changed;
   if (Report kept = judge_volume_shift(dt); !kept.ok()) return kept;
-  return move_mesh(start, mean_motion(start, scene, dt), whole.flow, dt);
+  if (!is_due && state_.events.empty()) {
+    Report kept = keep_mesh(start, whole.flow, dt);
+    attempt_.is_mesh_kept = kept.ok();
+    if (kept.ok() || !is_remeshed_as_needed()) return kept;
+    log::debug("step {} makes its mesh anew: {}", state_.step + 1, kept.text());
+  }
+  carry_fields_of_mesh(start, moved, whole.flow, dt);
+  return follow_interfaces(liquid_sources(state_.events));
+}
+
+bool Evolution::is_remesh_due() {
+  if (!is_remeshed_as_needed()) return (state_.step + 1) % options_.remesh_every == 0;
+  const PhaseTimer timer(times_, "remesh surface");
+  return !are_interfaces_fit(state_.scene, options_);
+}
+
+/// Moves the mesh with interfaces of the same connectivity.
+Report Evolution::keep_mesh(const Scene& start, const FlowSolution& flow, double dt) {
+  Report moved = move_mesh(start, mean_motion(start, state_.scene, dt), flow, dt);
+  if (moved.ok() && state_.mesh && is_remeshed_as_needed() && !state_.mesh->is_fit())
+    moved.fault = Fault{FaultKind::poor_cell, "a cell of the moved mesh has too small an angle"};
+  return moved;
 }
 
 Report Evolution::move_whole_step(const Scene& start, const StageFlow& whole, double dt) {
@@ -231,12 +254,14 @@ Report Evolution::move_whole_step(const Scene& start, const StageFlow& whole, do
   return {};
 }
 
-/// Moves fields in the bulk with the mesh to the end of the step, before a new mesh replaces it.
-/// Where cells would invert on the way, fields are transferred from the mesh as it stands.
-void Evolution::carry_fields_of_mesh(const Scene& start, const FlowSolution& flow, double dt) {
+/// Moves fields in the bulk with the mesh to where the step moved the interfaces, before a new mesh
+/// replaces it. Where cells would invert on the way, fields are transferred from the mesh as it
+/// stands.
+void Evolution::carry_fields_of_mesh(const Scene& start, const Scene& moved,
+                                     const FlowSolution& flow, double dt) {
   if (!state_.mesh || state_.mesh->fields().empty()) return;
-  const Report moved = move_mesh(start, mean_motion(start, state_.scene, dt), flow, dt);
-  if (!moved.ok()) log::debug("fields are carried over a longer way: {}", moved.text());
+  const Report followed = move_mesh(start, mean_motion(start, moved, dt), flow, dt);
+  if (!followed.ok()) log::debug("fields are carried over a longer way: {}", followed.text());
 }
 
 /// Makes the mesh follow the interfaces after they were remeshed or changed topology.

@@ -80,13 +80,14 @@ class Evolution {
   Report judge_motion(const Scene& start, const StageFlow& whole, double dt);
   void report_refusal(double dt, const Fault& fault);
   void accept_step(const StepPlan& plan);
-  void carry_fields_of_mesh(const Scene& start, const FlowSolution& flow, double dt);
+  void carry_fields_of_mesh(const Scene& start, const Scene& moved, const FlowSolution& flow,
+                            double dt);
   Report follow_interfaces(const RegionSources& sources = {});
   [[nodiscard]] Report move_mesh(const Scene& start, const InterfaceMotion& motion,
                                  const FlowSolution& flow, double dt);
-  [[nodiscard]] bool is_remesh_due() const {
-    return (state_.step + 1) % options_.remesh_every == 0;
-  }
+  [[nodiscard]] bool is_remesh_due();
+  [[nodiscard]] bool is_remeshed_as_needed() const { return options_.remesh_every == 0; }
+  Report keep_mesh(const Scene& start, const FlowSolution& flow, double dt);
   bool remesh_interfaces();
   bool remesh_interfaces(std::span<const std::size_t> interfaces);
   Report refuse_contact(bool are_remeshed);

@@ -49,6 +49,7 @@ HistoryRow history_row(const State& state, const FlowSolution& flow, const Inter
   if (state.step > 0) {
     row.step_error = state.record.error;
     row.step_bound = state.record.bound;
+    row.is_mesh_kept = state.record.is_mesh_kept;
   }
   row.drops = static_cast<int>(scene.interfaces.size());
   for (const Interface& interface : scene.interfaces)

@@ -39,7 +39,8 @@ struct EvolutionOptions {
   /// centroid is where it was at the start, relative to the domain and the imposed flow.
   /// Experiments hold a drop at a stagnation point in this way (bentley1986).
   bool follows_drops = false;
-  int remesh_every = 1;  ///< steps between remeshings
+  /// Steps between remeshings; 0: when an interface is no longer fit (`is_fit`).
+  int remesh_every = 1;
   double spring_tolerance =
       0.0;                  ///< tolerance of the springs (RemeshOptions); 0: the remesher's default
   double edge_floor = 0.0;  ///< [R0] smallest target length of interface edges

@@ -25,6 +25,7 @@ struct HistoryRow {
   std::optional<Mat3> stress;        ///< empty where the matrix is not Newtonian
   std::optional<double> step_error;  ///< estimate, of the step that led here [shortest edge]
   std::optional<StepBound> step_bound;
+  std::optional<bool> is_mesh_kept;  ///< by the step that led here
 
   [[nodiscard]] std::optional<double> power_residual() const {
     if (!power_in || !dissipation) return std::nullopt;

@@ -78,6 +78,15 @@ std::vector<InterfaceRemesh> remesh_interfaces(State& state, const EvolutionOpti
   return done;
 }
 
+bool are_interfaces_fit(const Scene& scene, const EvolutionOptions& options) {
+  const CloseSurfaces surfaces(scene, options.gap_layers);
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+    if (const Interface& interface = scene.interfaces[i];
+        !is_fit(interface.mesh, remesh_options(interface, options, surfaces.others(i))))
+      return false;
+  return true;
+}
+
 std::vector<std::size_t> all_interfaces(const Scene& scene) {
   std::vector<std::size_t> all(scene.interfaces.size());
   std::iota(all.begin(), all.end(), std::size_t{0});

@@ -38,6 +38,8 @@ InterfaceRemesh remesh_interface(State& state, std::size_t i, const EvolutionOpt
 /// Remeshes interfaces one after the other. Each sees the others as they are at that moment.
 std::vector<InterfaceRemesh> remesh_interfaces(State& state, const EvolutionOptions& options,
                                                std::span<const std::size_t> interfaces);
+/// Whether all interfaces may stay as they are (`is_fit`).
+[[nodiscard]] bool are_interfaces_fit(const Scene& scene, const EvolutionOptions& options);
 /// The indices of all interfaces of a scene.
 [[nodiscard]] std::vector<std::size_t> all_interfaces(const Scene& scene);
 

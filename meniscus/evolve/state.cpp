@@ -125,6 +125,7 @@ void save_record(const StepRecord& record, Archive& archive) {
   archive.reals["evolution/step-record"] = {record.error.value_or(-1.0), travel.displacement,
                                             travel.slip, travel.neck_loss};
   archive.integers["evolution/step-bound"] = {static_cast<std::int64_t>(record.bound)};
+  archive.integers["evolution/mesh-kept"] = {record.is_mesh_kept ? 1 : 0};
 }
 
 // Checkpoints of versions without step control have no record.
@@ -138,6 +139,8 @@ StepRecord load_record(const Archive& archive) {
   record.bound = static_cast<StepBound>(bound);
   if (values[0] >= 0.0) record.error = values[0];
   record.travel = {values[1], values[2], values[3]};
+  if (archive.integers.contains("evolution/mesh-kept"))
+    record.is_mesh_kept = entry_of_size(archive.integers, "evolution/mesh-kept", 1)[0] != 0;
   return record;
 }
 

@@ -37,6 +37,7 @@ struct StepRecord {
   std::optional<double> error;  ///< `StageFlow::error`; none of a scheme without estimate
   VertexTravel travel;
   bool is_excessive = false;  ///< refused by error control (`find_excess`)
+  bool is_mesh_kept = false;  ///< interfaces and mesh keep their connectivity
 };
 
 /// The length with which the step from a state is tried first. It depends on the state alone.

@@ -42,22 +42,6 @@ std::vector<double> least_viscosities(const FlowSolution& flow, const Scene& sce
   return viscosities;
 }
 
-/// Damps the normal speeds that a shape has beyond its rigid motion, about others
-/// (`damped_speeds`). A rigid motion meets no resistance of tension.
-void damp(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, double duration) {
-  const NormalSpeeds rest = normal_speeds(stage.normals, stage.shape.rest),
-                     damped = damped_speeds(scene, least_viscosities(stage.flow, scene), rest,
-                                            about, duration);
-  for (std::size_t i = 0; i < rest.size(); ++i)
-    for (const VertexId v : rest[i].ids()) {
-      const double change = damped[i][v] - rest[i][v];
-      stage.normal_speed[i][v] += change;
-      stage.shape.rest[i][v] += change * stage.normals[i][v];
-      stage.flow.velocity[i][v] += change * stage.normals[i][v];
-    }
-  stage.surface_rate = surface_energy_rate(scene, velocity_of(stage.shape, scene));
-}
-
 }  // namespace
 
 StageFlow euler_step(const StageFlow& first) { return first; }
@@ -70,24 +54,36 @@ StageFlow midpoint_step(const StageFlow& first, const Step& step, const StageSol
   return middle;
 }
 
-StageFlow semi_implicit_step(const StageFlow& first, const Step& step, double stiffness,
-                             const StageSolver& solve) {
-  const double half = 0.5 * step.dt, damping = kDampedShare * stiffness * step.dt;
+StageFlow semi_implicit_step(const StageFlow& first, const Step& step, const StageSolver& solve,
+                             const StageDamper& damp) {
+  const double half = 0.5 * step.dt;
   NormalSpeeds none = first.normal_speed;
   for (VertexField<double>& speeds : none) std::ranges::fill(speeds, 0.0);
   StageFlow start = first;
-  damp(start, step.start, none, damping);
+  damp(start, none);
   start.motion = mean_motion(step.start, first.shape, start.shape, half);
   StageFlow middle =
       solve(start, half, {.t = step.t + half, .dt = step.dt, .stage = Stage::middle});
   if (!middle.ok()) return middle;
-  Scene scene = step.start;
-  move_interfaces(scene, start.motion, half);
-  damp(middle, scene, normal_speeds(start.normals, start.shape.rest), damping);
+  damp(middle, normal_speeds(start.normals, start.shape.rest));
   middle.motion = mean_motion(step.start, first.shape, middle.shape, step.dt);
   middle.error = step_error(step, middle.normal_speed, start.normal_speed);
   middle.damps_waves = true;
   return middle;
+}
+
+void damp(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, double duration) {
+  const NormalSpeeds rest = normal_speeds(stage.normals, stage.shape.rest),
+                     damped = damped_speeds(scene, least_viscosities(stage.flow, scene), rest,
+                                            about, duration);
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    for (const VertexId v : rest[i].ids()) {
+      const double change = damped[i][v] - rest[i][v];
+      stage.normal_speed[i][v] += change;
+      stage.shape.rest[i][v] += change * stage.normals[i][v];
+      stage.flow.velocity[i][v] += change * stage.normals[i][v];
+    }
+  stage.surface_rate = surface_energy_rate(scene, velocity_of(stage.shape, scene));
 }
 
 StageFlow chebyshev_step(const StageFlow& first, const Step& step, int num_stages,

@@ -36,6 +36,13 @@ struct Step {
 using StageSolver =
     std::function<StageFlow(const StageFlow& stage, double duration, const Instant& instant)>;
 
+/// Damps the normal speeds that the shapes of a stage have beyond their rigid motions about others,
+/// where the stage's interfaces are.
+using StageDamper = std::function<void(StageFlow& stage, const NormalSpeeds& about)>;
+/// What tension would change in `duration` (`damped_speeds`). A rigid motion meets no resistance
+/// of it.
+void damp(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, double duration);
+
 // One step: the stage whose motion takes the interfaces from the step's beginning to its end.
 // `first` is the flow at t.
 
@@ -44,11 +51,10 @@ using StageSolver =
 /// The midpoint rule (first lines of Table 1 of hooper2001).
 [[nodiscard]] StageFlow midpoint_step(const StageFlow& first, const Step& step,
                                       const StageSolver& solve);
-/// The midpoint rule, its normal speeds beyond rigid motions damped at both stages
-/// (`damped_speeds`): of second order whatever the damping is (docs/time-stepping.md). `stiffness`
-/// is how much more tension is damped than short waves of the exact flow ask for.
+/// The midpoint rule, both of whose stages are damped: of second order whatever the damping is
+/// (docs/time-stepping.md).
 [[nodiscard]] StageFlow semi_implicit_step(const StageFlow& first, const Step& step,
-                                           double stiffness, const StageSolver& solve);
+                                           const StageSolver& solve, const StageDamper& damp);
 /// Runge–Kutta–Chebyshev with `num_stages` ≥ 3 (chebyshev.hpp). The motion of first order that the
 /// estimate takes is the line through the stage j next to the middle, at c_j of the step: its
 /// difference over 1 − c_j. Short waves, which the stages damp, enter it at no more than a few

@@ -81,8 +81,7 @@ Eigen::VectorXd damped(const SparseMatrix& K, const Eigen::VectorXd& mass, doubl
 }  // namespace
 
 NormalSpeeds damped_speeds(const Scene& scene, std::span<const double> viscosity,
-                           const NormalSpeeds& speeds, const NormalSpeeds& about,
-                           double duration) {
+                           const NormalSpeeds& speeds, const NormalSpeeds& about, double duration) {
   MENISCUS_ASSERT(speeds.size() == scene.interfaces.size() && about.size() == speeds.size(),
                   "{} and {} speeds of {} interfaces", speeds.size(), about.size(),
                   scene.interfaces.size());
@@ -100,8 +99,7 @@ NormalSpeeds damped_speeds(const Scene& scene, std::span<const double> viscosity
       s[v.value] = speeds[i][v] - about[i][v];
     }
     const double radius = sphere_radius(interface.volume);
-    s = damped(stiffness(interface.mesh), mass,
-               kSphereStiffness / (radius * radius),
+    s = damped(stiffness(interface.mesh), mass, kSphereStiffness / (radius * radius),
                duration * interface.tension / (2.0 * viscosities), s);
     for (const VertexId v : area.ids()) result[i][v] = about[i][v] + s[v.value];
   }

@@ -27,6 +27,8 @@ constexpr int kRoundsWhileRough = 5;
 constexpr double kManyEdits = 0.03;  // of the vertices
 /// Smallest angle of a face that is let through when the surface had none as small before.
 constexpr double kLeastAngleDeg = 5.0;
+/// Smallest angle of a face of a surface that is not remeshed.
+constexpr double kLeastAngleKeptDeg = 20.0;
 
 RemeshReference reference_surface(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                                   const RemeshOptions& options) {
@@ -167,6 +169,15 @@ std::optional<Fault> rebuild(SurfaceMesh& mesh, const RemeshOptions& options, Su
 }
 
 }  // namespace
+
+bool is_fit(const SurfaceMesh& mesh, const RemeshOptions& options) {
+  if (find_unfit_start(mesh) || smallest_angle_deg(mesh) < kLeastAngleKeptDeg) return false;
+  const auto built = SurfaceTopology::try_build(mesh);
+  const auto* topology = std::get_if<SurfaceTopology>(&built);
+  if (topology == nullptr) return false;
+  const RemeshReference reference = reference_surface(mesh, *topology, options);
+  return has_fit_density(start_state(reference, mesh, *topology));
+}
 
 VertexField<double> mean_edges(const SurfaceMesh& mesh) {
   VertexField<double> length(mesh.num_vertices(), 0.0);

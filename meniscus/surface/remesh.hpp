@@ -58,6 +58,11 @@ RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options);
 /// Remeshes a surface with its fields; on failure both are unchanged.
 RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options, SurfaceFields& fields);
 
+/// Whether a surface that has moved since it was remeshed may stay as it is: its edges and vertices
+/// are near their density (`has_fit_density`), and no face has an angle below 20°. Surfaces that
+/// cannot be remeshed are unfit.
+[[nodiscard]] bool is_fit(const SurfaceMesh& mesh, const RemeshOptions& options);
+
 /// Mean length of the edges at each vertex [R0].
 [[nodiscard]] VertexField<double> mean_edges(const SurfaceMesh& mesh);
 

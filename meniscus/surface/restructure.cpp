@@ -23,12 +23,15 @@ namespace {
 // undoing.
 constexpr double kBandTimesAverages = 0.3;
 constexpr std::array<int, 3> kAverages = {2, 8, 32};  // the widest has the band of the whole
-constexpr double kLocalBandFar = 0.3;    // beyond, edits may be as close as their faces allow
-constexpr int kMostRings = 5;            // an edit of one in a hundred
-constexpr double kGlobalBand = 0.01;     // of the whole number; a fifth of the law's 5 %
-constexpr double kFewEdits = 0.002;      // of the vertices: wider averages have their turn as well
-constexpr double kLongestEdge = 1.6;     // l/l0 split, whatever the density: its halves are 0.8
-constexpr double kShortestEdge = 0.55;   // l/l0 collapsed, whatever the density
+constexpr double kLocalBandFar = 0.3;   // beyond, edits may be as close as their faces allow
+constexpr int kMostRings = 5;           // an edit of one in a hundred
+constexpr double kGlobalBand = 0.01;    // of the whole number; a fifth of the law's 5 %
+constexpr double kFewEdits = 0.002;     // of the vertices: wider averages have their turn as well
+constexpr double kLongestEdge = 1.6;    // l/l0 split, whatever the density: its halves are 0.8
+constexpr double kShortestEdge = 0.55;  // l/l0 collapsed, whatever the density
+// What a surface that is not remeshed may have.
+constexpr double kShortestKept = 0.6, kLongestKept = 1.5;  // l/l0
+constexpr double kLocalBandKept = 0.3, kGlobalBandKept = 0.05;
 constexpr double kDelaunaySlack = 0.02;  // radians of excess over 180°, against flipping for ever
 constexpr double kAllowance = 0.3;       // radians per unit of Σ(valence − 6)²
 constexpr double kLargestAllowance = 1.2;  // radians
@@ -378,6 +381,21 @@ DensityEdits balance_density(RemeshState& state) {
   const Candidates candidates = density_candidates(edges, mean_load, -1.0);
   if (missing > 0.0) return edit(state, {candidates.splits, {}}, mean_load, {count, 0}, locks);
   return edit(state, {{}, candidates.collapses}, mean_load, {0, count}, locks);
+}
+
+bool has_fit_density(const RemeshState& state) {
+  const std::vector<DensityEdge> edges = density_edges(state);
+  const bool have_length = std::ranges::all_of(edges, [](const DensityEdge& edge) {
+    return edge.squared_ratio > kShortestKept * kShortestKept &&
+           edge.squared_ratio < kLongestKept * kLongestKept;
+  });
+  if (!have_length) return false;
+  const VertexField<double> load = vertex_loads(state);
+  const double mean = std::accumulate(load.begin(), load.end(), 0.0) / state.mesh.num_vertices();
+  RingAverage averaged(edges, load);
+  return std::abs(mean - 1.0) <= kGlobalBandKept &&
+         std::ranges::all_of(averaged.after(kAverages.front()),
+                             [](double local) { return std::abs(local - 1.0) <= kLocalBandKept; });
 }
 
 double expected_vertices(const RemeshState& state) {

@@ -1,13 +1,20 @@
 #include "meniscus/volume/moving_mesh.hpp"
 
+#include <algorithm>
 #include <utility>
 
+#include "meniscus/core/archive_entries.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/field_archive.hpp"
 #include "meniscus/volume/mesh_archive.hpp"
+#include "meniscus/volume/quality.hpp"
 
 namespace meniscus {
 namespace {
+
+/// A moved mesh is kept while its smallest dihedral angle is at least this fraction of what it was
+/// when the mesh was made.
+constexpr double kLeastAngleKept = 0.7;
 
 /// Vertices of the outer boundary are the same in every mesh of a run. Those of interfaces that
 /// were remeshed and those between the surfaces have no counterpart in a mesh made anew.
@@ -64,6 +71,11 @@ Report MovingMesh::move(const Scene& start, std::span<const VertexField<Vec3>> i
   return {};
 }
 
+bool MovingMesh::is_fit() const {
+  const PhaseTimer timer(times_, "move mesh");
+  return smallest_dihedral_deg(mesh_) >= kLeastAngleKept * made_angle_deg_;
+}
+
 void MovingMesh::undo() {
   const PhaseTimer timer(times_, "move mesh");
   mesh_ = start_;
@@ -98,6 +110,7 @@ MeshChange MovingMesh::follow(const Scene& scene, const RegionSources& sources) 
   if (!fields_.empty()) fields_ = transfer_fields(fields_, mesh_, fitted, excess_, sources);
   change.before = std::exchange(mesh_, std::move(fitted));
   change.sources = sources;
+  made_angle_deg_ = smallest_dihedral_deg(mesh_);
   velocity_ = {};
   mover_.forget_mesh();
   return change;
@@ -105,6 +118,7 @@ MeshChange MovingMesh::follow(const Scene& scene, const RegionSources& sources) 
 
 void MovingMesh::save(Archive& archive) const {
   meniscus::save(mesh_, archive, "mesh");
+  archive.reals["mesh/made-angle"] = {made_angle_deg_};
   meniscus::save(fields_, archive, "mesh/fields");
 }
 
@@ -120,6 +134,9 @@ void MovingMesh::load(const Archive& archive, const Scene& scene) {
       reject_input("checkpoint: interface {} has {} vertices in the volume mesh, {} in the scene",
                    i, mesh_.interfaces[i].num_vertices, scene.interfaces[i].mesh.num_vertices());
   fields_ = load_fields(archive, "mesh/fields", mesh_);
+  made_angle_deg_ = archive.reals.contains("mesh/made-angle")
+                        ? entry_of_size(archive.reals, "mesh/made-angle", 1).front()
+                        : smallest_dihedral_deg(mesh_);
   start_ = mesh_;
   start_fields_ = fields_;
 }

@@ -47,6 +47,9 @@ class MovingMesh {
   /// would be inverted.
   Report move(const Scene& start, std::span<const VertexField<Vec3>> interface_velocity,
               const Field<TetVertexId, Vec3>& liquid_velocity, double dt);
+  /// Whether the cells are still as good as when the mesh was made: their smallest dihedral angle
+  /// is at least 0.7 of what it was.
+  [[nodiscard]] bool is_fit() const;
   /// Puts everything back where it stood when the step began.
   void undo();
   /// Places the vertices of the interfaces exactly where a scene of the same connectivity has them.
@@ -72,10 +75,11 @@ class MovingMesh {
   VolumeMover mover_;
   Mesher mesher_;
   TetMesh mesh_, start_;
+  double made_angle_deg_ = 0.0;  // the smallest dihedral angle of the mesh when it was made
   Field<TetVertexId, Vec3> velocity_;
   VolumeFields fields_, start_fields_;
   FieldExcess excess_;
-  PhaseTimes times_;
+  mutable PhaseTimes times_;  // times are not part of the state
 };
 
 }  // namespace meniscus

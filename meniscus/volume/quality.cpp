@@ -72,6 +72,13 @@ MeshQuality quality(const TetMesh& mesh) {
   return q;
 }
 
+double smallest_dihedral_deg(const TetMesh& mesh) {
+  double most = -1.0;
+  for (const CellVertices& cell : mesh.cells)
+    most = std::max(most, dihedral_cosines(mesh, cell).most);
+  return degrees(most);
+}
+
 CellField<double> min_dihedral_deg(const TetMesh& mesh) {
   CellField<double> result(mesh.num_cells());
   for (const CellId c : mesh.cells.ids())

@@ -11,6 +11,8 @@ struct MeshQuality {
   double min_radius_ratio = 0.0;  ///< smallest 3 r_in/R_circum (1: regular)
 };
 [[nodiscard]] MeshQuality quality(const TetMesh& mesh);
+/// Smallest dihedral angle of all cells [degrees]; 180 where there is none.
+[[nodiscard]] double smallest_dihedral_deg(const TetMesh& mesh);
 /// Smallest dihedral angle of each cell [degrees].
 [[nodiscard]] CellField<double> min_dihedral_deg(const TetMesh& mesh);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "meniscus/mesh/surface_check.hpp"
@@ -52,7 +53,13 @@ std::size_t depth(const std::vector<std::size_t>& container, std::size_t i) {
 
 }  // namespace
 
-double graded_size(Grading grading, double h_s, double d_s, double h_b, double d_b) {
+double least_growth(double C0) {
+  constexpr double kMost = 1.0 / 3.0, kOf = 200.0 / (4.0 * std::numbers::pi);
+  return kMost * std::min(1.0, std::sqrt(kOf / C0));
+}
+
+double graded_size(Grading grading, double h_s, double d_s, double h_b, double d_b,
+                   double least_growth) {
   const double s = d_s + d_b > 0.0 ? d_s / (d_s + d_b) : 0.0;
   switch (grading) {
     case Grading::linear:
@@ -60,7 +67,9 @@ double graded_size(Grading grading, double h_s, double d_s, double h_b, double d
     case Grading::exponential:
       return h_s * std::pow(h_b / h_s, s);
     case Grading::gaussian:
-      return h_b + (h_s - h_b) * (std::exp(-4.5 * s * s) - std::exp(-4.5)) / (1.0 - std::exp(-4.5));
+      return std::max(
+          h_b + (h_s - h_b) * (std::exp(-4.5 * s * s) - std::exp(-4.5)) / (1.0 - std::exp(-4.5)),
+          std::min(least_growth * d_s, h_b));
   }
   return h_s;
 }
@@ -70,8 +79,8 @@ double gap_size(double width, double layers, double h) {
   return std::max(kGapEdge * width / layers, h);
 }
 
-SizeLaw::Sized::Sized(const SurfaceMesh& surface, double gap_layers)
-    : mesh(&surface), tree(surface), size(mean_edge_at_vertices(surface)) {
+SizeLaw::Sized::Sized(const SurfaceMesh& surface, double gap_layers, double growth)
+    : mesh(&surface), tree(surface), size(mean_edge_at_vertices(surface)), least_growth(growth) {
   if (gap_layers == 0.0) return;
   VertexField<Vec3> normals = vertex_area_vectors(surface);
   for (Vec3& n : normals) n.normalize();
@@ -108,6 +117,7 @@ SizeLaw::Inner::Inner(std::span<const Sized> surfaces, std::vector<std::size_t> 
     const auto [least, largest] = std::ranges::minmax(surface.size);
     least_size = std::min(least_size, least);
     largest_size = std::max(largest_size, largest);
+    least_growth = std::min(least_growth, surface.least_growth);
     if (surface.has_outside_gap()) folded.push_back(position);
   }
 }
@@ -122,7 +132,7 @@ SizeLaw::SizeLaw(const Scene& scene, const VolumeMeshOptions& options)
     : options_(options), container_(containers(scene)), inside_first_(scene.interfaces.size()) {
   surfaces_.reserve(scene.interfaces.size() + 1);
   for (const Interface& interface : scene.interfaces)
-    surfaces_.emplace_back(interface.mesh, options.gap_layers);
+    surfaces_.emplace_back(interface.mesh, options.gap_layers, least_growth(interface.C0));
   surfaces_.emplace_back(scene.boundary.mesh, 0.0);  // convex or far: it has no gap of its own
   std::iota(inside_first_.begin(), inside_first_.end(), std::size_t{0});
   std::ranges::stable_sort(inside_first_, std::greater<>(),
@@ -164,13 +174,14 @@ double SizeLaw::least_law(Around& around) const {
       around.x,
       [&](double distance) {
         return is_finer ? graded_size(options_.grading, inner.least_size, distance, outer.size,
-                                      outer.distance) /
+                                      outer.distance, inner.least_growth) /
                               kRoundOff
                         : 0.0;
       },
       [&](std::size_t position) {
         const Sized::Nearest at = ask_member(position, around);
-        return graded_size(options_.grading, at.size, at.distance, outer.size, outer.distance);
+        return graded_size(options_.grading, at.size, at.distance, outer.size, outer.distance,
+                           surfaces_[inner.members[position]].least_growth);
       });
 }
 

@@ -16,9 +16,18 @@ namespace meniscus {
 /// of edge length `h_b`, at distance `d_b` [R0]. With s = d_s/(d_s + d_b),
 ///   linear       h = h_s + (h_b − h_s) s
 ///   exponential  h = h_s (h_b/h_s)^s
-///   gaussian     h = h_b + (h_s − h_b) (e^(−9s²/2) − e^(−9/2))/(1 − e^(−9/2)),
-/// the last a bell whose standard deviation is a third of the way to the other surface.
-[[nodiscard]] double graded_size(Grading grading, double h_s, double d_s, double h_b, double d_b);
+///   gaussian     h = h_b + (h_s − h_b) (e^(−9s²/2) − e^(−9/2))/(1 − e^(−9/2)), but at least
+///                g d_s and at most h_b, g = `least_growth`,
+/// the last a bell whose standard deviation is a third of the way to the other surface. Beside a
+/// thin neck it would stay as fine as the neck far beyond what the neck does to the flow: hence the
+/// least growth.
+[[nodiscard]] double graded_size(Grading grading, double h_s, double d_s, double h_b, double d_b,
+                                 double least_growth = 0.0);
+
+/// The least growth beside an interface of resolution C0: 1/3 or less, and above 200 vertices
+/// inversely as the root of their number, so that all sizes go with those of the edges. The bell
+/// has that much by itself around a sphere in a boundary of ten radii.
+[[nodiscard]] double least_growth(double C0);
 
 /// Bound on the edge length in a gap of width `width` between surfaces whose edges are `h` long
 /// [R0], so that the gap holds `layers` layers: kGapEdge width/layers, but no less than h. Infinite
@@ -49,7 +58,7 @@ class SizeLaw {
  private:
   /// A surface with the mean length of the edges at each vertex.
   struct Sized {
-    Sized(const SurfaceMesh& mesh, double gap_layers);
+    Sized(const SurfaceMesh& mesh, double gap_layers, double least_growth = 0.0);
     struct Nearest {
       double distance = 0.0, size = 0.0;
       double inside = 0.0, outside = 0.0;  // widths of the surface's own gaps there
@@ -62,6 +71,7 @@ class SizeLaw {
     SurfaceTree tree;
     VertexField<double> size;
     OwnGaps gaps;  // empty without gap layers
+    double least_growth;
   };
   /// The interfaces that one surface encloses with nothing in between.
   struct Inner {
@@ -69,6 +79,7 @@ class SizeLaw {
     std::vector<std::size_t> members;  // indices into surfaces_
     BoxTree boxes;                     // of the members
     double least_size = std::numeric_limits<double>::infinity(), largest_size = 0.0;  // of edges
+    double least_growth = std::numeric_limits<double>::infinity();                    // of all
     std::vector<std::size_t> folded;  // positions in `members`: those with outside gaps
   };
   /// What a member of an Inner has at a point.

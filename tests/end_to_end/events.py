@@ -32,6 +32,7 @@ gap-layers = 0
 breakup-radius = 0.1
 coalescence-gap = 0.125
 [time]
+max-step = 0.05
 end = {end}
 """
 # A thread with two necks of radius about 0.18, at rest: both thin.

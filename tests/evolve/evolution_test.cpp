@@ -9,6 +9,7 @@
 #include "meniscus/core/log.hpp"
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/volume/tetrahedralize.hpp"
 #include "prescribed_flow.hpp"
 
 namespace meniscus {
@@ -86,6 +87,47 @@ TEST(Evolution, EulersStepsAreOfFirstOrderInTimeTheOthersOfSecond) {
         std::log2(largest_difference(coarse, middle) / largest_difference(middle, fine));
     EXPECT_NEAR(observed, order, 0.2);
   }
+}
+
+// The mesh holds at most 0.6 to 1.5 of its edges' lengths, so some steps must remesh.
+TEST(Evolution, KeepsItsMeshesAsLongAsTheyAreFit) {
+  EvolutionOptions options;
+  options.end = 0.8;
+  options.max_step = 0.02;
+  options.step_factor = 1e3;
+  options.remesh_every = 0;
+  Scene scene = one_drop(110, 1.0);
+  scene.is_unbounded = false;
+  scene.boundary.mesh = sphere(100, 4.0);
+  scene.boundary.patch = FaceField<PatchId>(scene.boundary.mesh.num_faces(), PatchId{0});
+  scene.boundary.patches.add({"wall", NoPenetration{}});
+  Evolution evolution(
+      scene, options, std::make_unique<PrescribedFlow>(stretching),
+      MovingMesh(MovingMeshOptions{.tetrahedra = {}, .motion = VolumeMotion::harmonic}));
+  ASSERT_TRUE(evolution.prepare().ok());
+  int num_kept = 0, num_new = 0;
+  while (!evolution.is_finished()) {
+    const CellField<CellVertices> cells = evolution.state().mesh->tetrahedra().cells;
+    const FaceField<FaceVertices> faces = evolution.scene().interfaces[0].mesh.faces;
+    ASSERT_TRUE(evolution.solve().ok());
+    const Report advanced = evolution.advance();
+    ASSERT_TRUE(advanced.ok()) << advanced.text();
+    const TetMesh& mesh = evolution.state().mesh->tetrahedra();
+    const bool is_kept = evolution.state().record.is_mesh_kept;
+    ++(is_kept ? num_kept : num_new);
+    EXPECT_EQ(mesh.cells == cells, is_kept);
+    if (is_kept) {
+      EXPECT_EQ(evolution.scene().interfaces[0].mesh.faces, faces);
+    }
+    EXPECT_TRUE(evolution.state().mesh->is_fit());
+    EXPECT_EQ(find_defect(mesh, evolution.scene()).value_or(Fault{}).text, "");
+    EXPECT_NEAR(enclosed_volume(evolution.scene().interfaces[0].mesh),
+                evolution.scene().interfaces[0].volume, 1e-12);
+  }
+  EXPECT_GT(num_kept, 10);
+  EXPECT_GT(num_new, 2);
+  const DropRow row = evolution.drop_rows().at(0);
+  EXPECT_NEAR(row.shape.L / std::exp(evolution.t()), 1.0, 0.02);
 }
 
 /// Σ of the shifts that keep the volume of a drop that stretches to t = 0.4 and is never remeshed.
@@ -354,6 +396,8 @@ TEST(Evolution, SavedStateGoesOnToTheSameBits) {
     options.scheme = scheme;
     expect_same_bits_after_resuming(options);
   }
+  options.remesh_every = 0;
+  expect_same_bits_after_resuming(options);
 }
 
 TEST(Evolution, SavedLiquidsKeepTheirLaws) {

@@ -118,6 +118,36 @@ TEST(Remesh, ChangesVolumeLittleBeforeTheCorrection) {
   }
 }
 
+SurfaceMesh stretched(SurfaceMesh mesh, double factor) {
+  for (Vec3& x : mesh.x)
+    x = x.cwiseProduct(Vec3(factor, 1.0 / std::sqrt(factor), 1.0 / std::sqrt(factor)));
+  return mesh;
+}
+
+TEST(Remesh, LeavesASurfaceThatIsFitUntilItIsStretched) {
+  for (const double aspect : {1.0, 1.5, 3.0}) {
+    const RemeshOptions options = with_nodes(200);
+    SurfaceMesh mesh = stretched(sphere(200), aspect);
+    EXPECT_TRUE(settle(mesh, options).ok());
+    EXPECT_TRUE(is_fit(mesh, options)) << aspect;
+    EXPECT_TRUE(is_fit(stretched(mesh, 1.03), options)) << aspect;
+    EXPECT_FALSE(is_fit(stretched(mesh, 1.6), options)) << aspect;
+  }
+}
+
+TEST(Remesh, CallsASurfaceUnfitThatHasTooManyVerticesOrIsNone) {
+  const SurfaceMesh mesh = sphere(642);
+  EXPECT_TRUE(is_fit(mesh, with_nodes(642)));
+  EXPECT_FALSE(is_fit(mesh, with_nodes(580)));
+  EXPECT_FALSE(is_fit(mesh, with_nodes(710)));
+  SurfaceMesh open{mesh.x, {}};
+  for (const FaceId f : ids<FaceId>(mesh.num_faces() - 1)) open.faces.add(mesh.faces[f]);
+  EXPECT_FALSE(is_fit(open, with_nodes(642)));
+  SurfaceMesh bad = mesh;
+  bad.x[VertexId{0}].x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(is_fit(bad, with_nodes(642)));
+}
+
 TEST(Remesh, ForgetsHistory) {
   // Stretched to aspect 3 and back in forty steps that keep the volume.
   SurfaceMesh mesh = sphere(1000);

@@ -4,6 +4,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/volume/quality.hpp"
 #include "tests/volume/scenes.hpp"
 
 namespace meniscus {
@@ -82,6 +83,31 @@ TEST(MovingMesh, EveryMoveOfAStepStartsWhereTheStepDid) {
   ASSERT_TRUE(twice.move(start, sheared(start), liquid, 0.05).ok());
   ASSERT_TRUE(once.move(start, sheared(start), liquid, 0.05).ok());
   EXPECT_EQ(once.tetrahedra().x, twice.tetrahedra().x);
+}
+
+TEST(MovingMesh, IsFitUntilItsAnglesAreSmall) {
+  const Scene start = test::drop_in_sphere(110, 3.0, 100);
+  MovingMesh mesh = mesh_of(start, VolumeMotion::harmonic);
+  const double angle = quality(mesh.tetrahedra()).min_dihedral_deg;
+  EXPECT_NEAR(smallest_dihedral_deg(mesh.tetrahedra()), angle, 1e-12);
+  EXPECT_TRUE(mesh.is_fit());
+  bool was_unfit = false;
+  for (const double dt : {0.01, 0.3, 0.6, 0.9, 1.2, 1.5}) {
+    mesh.begin_step(start);
+    const Report moved = mesh.move(start, sheared(start), sheared(mesh.tetrahedra()), dt);
+    if (!moved.ok()) break;
+    EXPECT_EQ(mesh.is_fit(), quality(mesh.tetrahedra()).min_dihedral_deg >= 0.7 * angle) << dt;
+    was_unfit |= !mesh.is_fit();
+    Archive archive;
+    mesh.save(archive);
+    Scene there = start;
+    move(there, dt);
+    MovingMesh loaded({.tetrahedra = {}, .motion = VolumeMotion::harmonic});
+    loaded.load(archive, there);
+    EXPECT_EQ(loaded.is_fit(), mesh.is_fit()) << dt;
+    mesh.undo();
+  }
+  EXPECT_TRUE(was_unfit);
 }
 
 TEST(MovingMesh, InvertedCellIsReportedAndTheMeshIsAsItWas) {

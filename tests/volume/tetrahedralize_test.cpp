@@ -349,6 +349,11 @@ TEST(SizeLaw, PassesBetweenItsEnds) {
   EXPECT_DOUBLE_EQ(graded_size(Grading::exponential, 0.1, 1.0, 1.6, 1.0), 0.4);
   // (e^(−9/8) − e^(−9/2))/(1 − e^(−9/2)) = 0.31683…: evaluated by hand to 4 digits.
   EXPECT_NEAR(graded_size(Grading::gaussian, 0.1, 1.0, 1.6, 1.0), 1.6 - 1.5 * 0.3172, 1e-3);
+  EXPECT_DOUBLE_EQ(least_growth(8.75), 1.0 / 3.0);
+  EXPECT_NEAR(least_growth(800.0 / (4.0 * std::numbers::pi)), 1.0 / 6.0, 1e-15);
+  // Close to a fine surface a third of the distance, where the bell is as fine as the surface.
+  EXPECT_DOUBLE_EQ(graded_size(Grading::gaussian, 0.01, 0.3, 2.0, 9.7, 1.0 / 3.0), 0.1);
+  EXPECT_DOUBLE_EQ(graded_size(Grading::gaussian, 0.01, 8.0, 0.02, 1.0, 1.0 / 3.0), 0.02);
 }
 
 TEST(SizeLaw, KnowsTheRegionOfAPoint) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <numbers>
 #include <string>
 
 #include "meniscus/mesh/shapes.hpp"
@@ -36,6 +37,7 @@ inline Scene sphere_in_sphere(const SphereScene& options) {
   drop.inside = RegionId{1};
   drop.outside = RegionId{0};
   drop.tension = 1.0 / options.Ca;
+  drop.C0 = options.num_vertices / (4.0 * std::numbers::pi);
   scene.interfaces.push_back(std::move(drop));
   scene.boundary.mesh = sphere(static_cast<int>(options.outer_per_inner * options.num_vertices),
                                options.outer_radius);
