@@ -166,7 +166,6 @@ Report Evolution::judge_motion(const Scene& start, const StageFlow& whole, doubl
 /// The flow after the interfaces moved for `duration` from where they were at `start`.
 StageFlow Evolution::solve_stage(const Scene& start, const StageFlow& stage, double duration,
                                  const Instant& instant) {
-  if (duration == 0.0) return flow_at(instant);
   time_phase(times_, "move interfaces", [&] {
     state_.scene = start;
     move_interfaces(state_.scene, stage.motion, duration);
