@@ -89,8 +89,7 @@ void Simulation::write_checkpoint(const Archive& state) {
 
 void Simulation::record(Progress& progress, bool is_last) {
   MENISCUS_ASSERT(directory_.has_value(), "a rank without the run's folder records");
-  const HistoryRow history = evolution_.history_row();
-  const std::vector<DropRow> drops = evolution_.drop_rows();
+  const auto [history, drops] = evolution_.rows();
   {
     const PhaseTimer timer(output_times_, "output");
     const double t = evolution_.t();

@@ -86,15 +86,23 @@ void read_steps(Settings& settings, EvolutionOptions& options) {
                     options.max_step);
 }
 
+void read_motion_normal(Settings& settings, EvolutionOptions& options) {
+  MotionNormal suited = MotionNormal::area_vector;
+  if (options.surface == SurfaceShape::patched) suited = MotionNormal::smooth;
+  if (options.surface == SurfaceShape::splined) suited = MotionNormal::faces;
+  settings.prefer("interface.motion-normal",
+                  std::string(words::word_for(words::motion_normals, suited)));
+  options.motion_normal = settings.choice("interface.motion-normal", words::motion_normals);
+  if (options.motion_normal == MotionNormal::faces && options.surface != SurfaceShape::splined)
+    settings.reject("interface.motion-normal", "needs solver.elements = \"P2-P1\"");
+}
+
 }  // namespace
 
 EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elements elements) {
   EvolutionOptions options;
   options.surface = surface_shape(method, elements);
-  if (options.surface != SurfaceShape::faceted)
-    settings.prefer("interface.motion-normal",
-                    std::string(words::word_for(words::motion_normals, MotionNormal::smooth)));
-  options.motion_normal = settings.choice("interface.motion-normal", words::motion_normals);
+  read_motion_normal(settings, options);
   options.end = settings.number("time.end");
   read_steps(settings, options);
   options.follows_drops = settings.choice("domain.frame", words::domain_frames);

@@ -433,7 +433,8 @@ const std::vector<Key> kKeys{
      .value = "area-vector"s,
      .sentence = "Normal along which vertices move: area-vector keeps the volume's rate of change "
                  "at round-off, fit is the paper's paraboloid, smooth that of the fitted surface "
-                 "(what P2-P1 elements and boundary integrals take unless told otherwise)."},
+                 "(boundary integrals take it unless told otherwise), faces the same with speeds "
+                 "that follow the liquid in the mean over curved faces (P2-P1 elements do)."},
     {.path = "interface.volume-motion",
      .type = word,
      .words = words::list(words::volume_motions),

@@ -59,7 +59,8 @@ inline constexpr std::array capillary_forms{
 inline constexpr std::array motion_normals{
     Word<MotionNormal>{"area-vector", MotionNormal::area_vector},
     Word<MotionNormal>{"fit", MotionNormal::fit},
-    Word<MotionNormal>{"smooth", MotionNormal::smooth}};
+    Word<MotionNormal>{"smooth", MotionNormal::smooth},
+    Word<MotionNormal>{"faces", MotionNormal::faces}};
 inline constexpr std::array volume_motions{
     Word<VolumeMotion>{"spines", VolumeMotion::spines},
     Word<VolumeMotion>{"lagrangian", VolumeMotion::lagrangian},

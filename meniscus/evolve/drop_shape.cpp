@@ -9,7 +9,6 @@
 #include "meniscus/evolve/plane_section.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/curvature.hpp"
-#include "meniscus/surface/reconstructed_surface.hpp"
 
 namespace meniscus {
 namespace {
@@ -118,12 +117,12 @@ void measure_general(const FittedSurface& surface, DropShape& shape) {
 
 }  // namespace
 
-DropShape drop_shape(const SurfaceMesh& mesh, FlowFamily family, SurfaceShape faces) {
+DropShape drop_shape(const SurfaceMesh& mesh, FlowFamily family,
+                     const ReconstructedSurface& faces) {
   const FittedSurface surface(mesh);
-  const ReconstructedSurface reconstructed(mesh, faces);
   DropShape shape;
-  shape.volume = reconstructed.volume();
-  shape.area = reconstructed.area();
+  shape.volume = faces.volume();
+  shape.area = faces.area();
   shape.centroid = enclosed_centroid(mesh);
   switch (family) {
     case FlowFamily::planar:
@@ -141,7 +140,7 @@ DropShape drop_shape(const SurfaceMesh& mesh, FlowFamily family, SurfaceShape fa
   shape.extent_x = half_extent(surface, Vec3::UnitX());
   for (const VertexCurvature& fit : surface.fit)
     shape.H_max = std::max(shape.H_max, fit.half_sum());
-  shape.D_inertia = inertial_deformation(reconstructed.second_moments(), shape.volume);
+  shape.D_inertia = inertial_deformation(faces.second_moments(), shape.volume);
   return shape;
 }
 

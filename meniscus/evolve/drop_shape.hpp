@@ -4,7 +4,7 @@
 
 #include "meniscus/mesh/surface_mesh.hpp"
 #include "meniscus/scene/imposed_flow.hpp"
-#include "meniscus/surface/edge_middles.hpp"
+#include "meniscus/surface/reconstructed_surface.hpp"
 
 namespace meniscus {
 
@@ -23,7 +23,7 @@ struct DropShape {
 };
 /// Planar flows lie in the x-y plane with x the flow direction, axial ones have x as their axis.
 [[nodiscard]] DropShape drop_shape(const SurfaceMesh& mesh, FlowFamily family,
-                                   SurfaceShape surface = SurfaceShape::faceted);
+                                   const ReconstructedSurface& faces);
 
 /// (a − c)/(a + c), a and c the largest and the smallest half-axis of the ellipsoid with these
 /// second moments ∫ (x − c)(x − c)ᵀ dV about its centroid: along an axis a it is V a²/5.

@@ -1,11 +1,10 @@
 #include "meniscus/evolve/drop_stress.hpp"
 
 #include "meniscus/core/error.hpp"
-#include "meniscus/surface/reconstructed_surface.hpp"
 
 namespace meniscus {
 Mat3 drop_stress(const Scene& scene, std::span<const VertexField<Vec3>> velocity,
-                 SurfaceShape surface, std::span<const Mat3> excess) {
+                 std::span<const ReconstructedSurface> faces, std::span<const Mat3> excess) {
   MENISCUS_ASSERT(velocity.size() == scene.interfaces.size(), "{} velocities of {} interfaces",
                   velocity.size(), scene.interfaces.size());
   Mat3 total = Mat3::Zero();
@@ -14,12 +13,11 @@ Mat3 drop_stress(const Scene& scene, std::span<const VertexField<Vec3>> velocity
     const Interface& interface = scene.interfaces[i];
     const double contrast =
         scene.liquids[interface.inside].viscosity - scene.liquids[interface.outside].viscosity;
-    const ReconstructedSurface faces(interface.mesh, surface);
-    const Mat3 normals = faces.normal_moment(), rates = faces.velocity_moment(velocity[i]);
+    const Mat3 normals = faces[i].normal_moment(), rates = faces[i].velocity_moment(velocity[i]);
     // I − nn − 2/3 I with ∫ dS = tr ∫ nn dS.
     const Mat3 capillary = normals.trace() / 3.0 * Mat3::Identity() - normals;
     total += interface.tension * capillary + contrast * (rates + rates.transpose());
-    if (interface.outside == RegionId{0}) volume += faces.volume();
+    if (interface.outside == RegionId{0}) volume += faces[i].volume();
   }
   for (std::size_t region = 1; region < excess.size(); ++region) total += excess[region];
   return volume > 0.0 ? Mat3(total / volume) : total;

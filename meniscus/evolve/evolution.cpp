@@ -8,6 +8,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
 #include "meniscus/evolve/energy_check.hpp"
+#include "meniscus/evolve/kinematic_condition.hpp"
 #include "meniscus/evolve/remesh_interfaces.hpp"
 #include "meniscus/evolve/stability.hpp"
 #include "meniscus/evolve/step_start.hpp"
@@ -185,6 +186,10 @@ StageFlow Evolution::flow_at(const Instant& instant) {
                   state_.scene.interfaces.size());
   const PhaseTimer timer(times_, "move interfaces");
   stage.normals = interface_normals(state_.scene, options_.motion_normal);
+  if (options_.motion_normal == MotionNormal::faces)
+    for (std::size_t i = 0; i < stage.flow.middles.size(); ++i)
+      follow_faces(state_.scene.interfaces[i].mesh, stage.normals[i], stage.flow.middles[i],
+                   stage.flow.velocity[i]);
   stage.normal_speed = normal_speeds(stage.normals, stage.flow.velocity);
   if (options_.scheme == TimeScheme::semi_implicit) {
     stage.shape = shape_motion(state_.scene, stage.normals, stage.flow.velocity);
@@ -343,14 +348,17 @@ void Evolution::give_notice(Notice notice) {
   notices_.push_back(std::move(notice));
 }
 
-HistoryRow Evolution::history_row() const {
+Evolution::Rows Evolution::rows() const {
   const PhaseTimer timer(times_, "diagnostics");
-  return meniscus::history_row(state_, first_.flow, first_.motion, options_.surface);
+  const auto faces = reconstructed_interfaces(state_.scene, options_.surface);
+  return {history_row(state_, first_.flow, first_.motion, faces),
+          meniscus::drop_rows(state_, faces, options_.topology.breakup_radius)};
 }
 
 std::vector<DropRow> Evolution::drop_rows() const {
   const PhaseTimer timer(times_, "diagnostics");
-  return meniscus::drop_rows(state_, options_.surface, options_.topology.breakup_radius);
+  return meniscus::drop_rows(state_, reconstructed_interfaces(state_.scene, options_.surface),
+                             options_.topology.breakup_radius);
 }
 
 double Evolution::seconds_in(const std::string& phase) const {

@@ -57,7 +57,12 @@ class Evolution {
   [[nodiscard]] double step_length() const { return step_plan(state_, options_).dt; }
 
   /// The rows of history.csv and drops.csv after the last solve.
-  [[nodiscard]] HistoryRow history_row() const;
+  struct Rows {
+    HistoryRow history;
+    std::vector<DropRow> drops;
+  };
+  [[nodiscard]] Rows rows() const;
+  /// Those of drops.csv alone, which need no flow.
   [[nodiscard]] std::vector<DropRow> drop_rows() const;
 
   /// Sets the carried fields of every interface, or of the mesh, and replaces earlier ones

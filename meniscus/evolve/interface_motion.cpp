@@ -14,7 +14,7 @@ VertexField<Vec3> motion_normals(const SurfaceMesh& mesh, MotionNormal normal) {
     for (Vec3& each : n) each.normalize();
     return n;
   }
-  if (normal == MotionNormal::smooth)
+  if (normal != MotionNormal::fit)
     return SmoothSurface(mesh, SurfaceTopology(mesh)).vertex_normals();
   const VertexField<VertexCurvature> fit = fitted_curvature(mesh, SurfaceTopology(mesh));
   VertexField<Vec3> n(mesh.num_vertices());
@@ -82,13 +82,13 @@ void translate_interfaces(Scene& scene, const Vec3& shift) {
     for (Vec3& x : interface.mesh.x) x += shift;
 }
 
-double surface_energy_rate(const Scene& scene, const InterfaceMotion& motion,
-                           SurfaceShape surface) {
+double surface_energy_rate(const Scene& scene, const InterfaceMotion& motion) {
   double rate = 0.0;
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
     const Interface& interface = scene.interfaces[i];
     if (interface.tension == 0.0) continue;
-    rate += interface.tension * ReconstructedSurface(interface.mesh, surface).area_rate(motion[i]);
+    rate += interface.tension *
+            ReconstructedSurface(interface.mesh, SurfaceShape::faceted).area_rate(motion[i]);
   }
   return rate;
 }

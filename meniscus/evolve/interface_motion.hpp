@@ -37,9 +37,8 @@ void move_interfaces(Scene& scene, const InterfaceMotion& motion, double dt);
 /// x ← x + shift on every interface.
 void translate_interfaces(Scene& scene, const Vec3& shift);
 
-/// Σ tension · dS/dt over the interfaces, for vertices that move with `motion`: the rate at which
-/// the interfaces' energy grows [μ_out G² R0³].
-[[nodiscard]] double surface_energy_rate(const Scene& scene, const InterfaceMotion& motion,
-                                         SurfaceShape surface = SurfaceShape::faceted);
+/// Σ tension · dS/dt over the interfaces as triangulations, for vertices that move with `motion`:
+/// the rate at which their energy grows [μ_out G² R0³].
+[[nodiscard]] double surface_energy_rate(const Scene& scene, const InterfaceMotion& motion);
 
 }  // namespace meniscus

@@ -8,7 +8,6 @@
 #include "meniscus/mesh/sphere_radius.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
 #include "meniscus/scene/scene_gap.hpp"
-#include "meniscus/surface/smooth_surface.hpp"
 #include "meniscus/topology/necks.hpp"
 #include "meniscus/volume/quality.hpp"
 
@@ -17,7 +16,7 @@ namespace {
 
 /// The radius of the circle of the same area as the section of the thinnest neck, of those thinner
 /// than half of the sphere of the same volume; on the smooth surface where faces are curved.
-std::optional<double> thinnest_neck(const Interface& interface, SurfaceShape faces) {
+std::optional<double> thinnest_neck(const Interface& interface, const ReconstructedSurface& faces) {
   const SurfaceMesh& mesh = interface.mesh;
   const SurfaceTree tree(mesh);
   const double sphere = sphere_radius(interface.volume);
@@ -26,19 +25,25 @@ std::optional<double> thinnest_neck(const Interface& interface, SurfaceShape fac
   if (necks.empty()) return std::nullopt;
   const Neck& neck = necks.front();
   double area = neck.area;
-  if (faces != SurfaceShape::faceted) {
+  if (faces.smooth()) {
     const SectionResult there =
         section_around(mesh, tree, neck.center, neck.axis, 4.0 * neck.radius);
-    if (there.kind == SectionKind::closed)
-      area = smooth_area(there.section, mesh, SmoothSurface(mesh, SurfaceTopology(mesh)));
+    if (there.kind == SectionKind::closed) area = smooth_area(there.section, mesh, *faces.smooth());
   }
   return std::sqrt(area / std::numbers::pi);
 }
 
 }  // namespace
 
+std::vector<ReconstructedSurface> reconstructed_interfaces(const Scene& scene, SurfaceShape shape) {
+  std::vector<ReconstructedSurface> faces;
+  faces.reserve(scene.interfaces.size());
+  for (const Interface& interface : scene.interfaces) faces.emplace_back(interface.mesh, shape);
+  return faces;
+}
+
 HistoryRow history_row(const State& state, const FlowSolution& flow, const InterfaceMotion& motion,
-                       SurfaceShape surface) {
+                       std::span<const ReconstructedSurface> faces) {
   const Scene& scene = state.scene;
   HistoryRow row;
   MENISCUS_ASSERT(motion.size() == scene.interfaces.size(), "{} motions of {} interfaces",
@@ -66,13 +71,15 @@ HistoryRow history_row(const State& state, const FlowSolution& flow, const Inter
     row.power_in = flow.power->in;
     row.dissipation = flow.power->dissipation;
   }
-  row.surface_rate = surface_energy_rate(scene, motion, surface);
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+    row.surface_rate += scene.interfaces[i].tension * faces[i].area_rate(motion[i]);
   if (is_newtonian(scene.liquids[RegionId{0}].law))
-    row.stress = drop_stress(scene, flow.velocity, surface, flow.excess_stress);
+    row.stress = drop_stress(scene, flow.velocity, faces, flow.excess_stress);
   return row;
 }
 
-std::vector<DropRow> drop_rows(const State& state, SurfaceShape surface, double breakup_radius) {
+std::vector<DropRow> drop_rows(const State& state, std::span<const ReconstructedSurface> faces,
+                               double breakup_radius) {
   std::vector<DropRow> rows;
   MENISCUS_ASSERT(state.volume_shift.size() == state.scene.interfaces.size(),
                   "{} shifts of {} interfaces", state.volume_shift.size(),
@@ -82,10 +89,10 @@ std::vector<DropRow> drop_rows(const State& state, SurfaceShape surface, double 
     DropRow& row = rows.emplace_back();
     row.drop = interface.drop;
     row.parent = interface.parent;
-    row.shape = drop_shape(interface.mesh, state.scene.flow.family(), surface);
+    row.shape = drop_shape(interface.mesh, state.scene.flow.family(), faces[i]);
     row.volume_drift = row.shape.volume / interface.initial_volume - 1.0;
     row.volume_correction = state.volume_shift[i];
-    if (breakup_radius > 0.0) row.neck_radius = thinnest_neck(interface, surface);
+    if (breakup_radius > 0.0) row.neck_radius = thinnest_neck(interface, faces[i]);
   }
   return rows;
 }

@@ -1,20 +1,28 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "meniscus/evolve/interface_motion.hpp"
 #include "meniscus/evolve/record.hpp"
 #include "meniscus/evolve/state.hpp"
+#include "meniscus/surface/reconstructed_surface.hpp"
 
 namespace meniscus {
 
+/// The surfaces that the interfaces of a scene stand for, which all measures are made on.
+[[nodiscard]] std::vector<ReconstructedSurface> reconstructed_interfaces(const Scene& scene,
+                                                                         SurfaceShape shape);
+
 /// The row of history.csv of a state whose flow was solved. `motion` is the velocity of the
-/// interfaces' vertices; `surface` says whether faces are flat or curved.
+/// interfaces' vertices; `faces` are the state's interfaces.
 [[nodiscard]] HistoryRow history_row(const State& state, const FlowSolution& flow,
-                                     const InterfaceMotion& motion, SurfaceShape surface);
+                                     const InterfaceMotion& motion,
+                                     std::span<const ReconstructedSurface> faces);
 
 /// The rows of drops.csv, one per interface. Necks are searched if `breakup_radius` is positive.
-[[nodiscard]] std::vector<DropRow> drop_rows(const State& state, SurfaceShape surface,
+[[nodiscard]] std::vector<DropRow> drop_rows(const State& state,
+                                             std::span<const ReconstructedSurface> faces,
                                              double breakup_radius);
 
 }  // namespace meniscus

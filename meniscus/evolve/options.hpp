@@ -14,8 +14,9 @@ enum class TimeScheme {
 };
 /// Normal with which an interface vertex moves, ẋ = n n·v (eq. 23): of the area vector A_i (keeps
 /// the faceted volume's rate of change at round-off), of the paraboloid fit (the paper's), or of
-/// the smooth surface (O(h³), where that of an area vector on an irregular mesh is O(h)).
-enum class MotionNormal { area_vector, fit, smooth };
+/// the smooth surface (O(h³), where that of an area vector on an irregular mesh is O(h)). `faces`
+/// takes the smooth normal, and lets curved faces follow the liquid in the mean (`follow_faces`).
+enum class MotionNormal { area_vector, fit, smooth, faces };
 enum class StepEdges { interface, mesh };  ///< where the step rule takes l_min from
 
 /// How the length of a step is chosen: Δt = step_factor · min(1, Ca) · l_min (eq. 27 of

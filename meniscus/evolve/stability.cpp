@@ -42,6 +42,11 @@ double longest_stable_step(const Scene& scene, TimeScheme scheme) {
   return stability_interval(scheme) / capillary_rate(scene);
 }
 
+double aimed_slip(double speed, double viscosities, double tension) {
+  const double ratio = 2.0 * viscosities * speed / tension;
+  return std::clamp(kSlipAtOne / std::cbrt(ratio), kLeastSlip, kMostSlip);
+}
+
 int num_stable_stages(const Scene& scene, double dt) {
   return std::min(kMostStages, ChebyshevScheme::num_stages_for(capillary_rate(scene) * dt));
 }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/evolve/stability.hpp"
 #include "meniscus/mesh/rigid_motion.hpp"
 #include "meniscus/surface/curvature.hpp"
 
@@ -50,12 +51,17 @@ VertexTravel vertex_travel(const Scene& start, const InterfaceMotion& motion,
     const SurfaceMesh& mesh = start.interfaces[i].mesh;
     const VertexField<Vec3>& w = motion[i];
     const VertexField<double> edge = shortest_edges(mesh);
+    const double viscosities = start.liquids[start.interfaces[i].inside].viscosity +
+                               start.liquids[start.interfaces[i].outside].viscosity;
     const RigidMotion rigid =
         RigidProjection(mesh)([&](VertexId v) -> const Vec3& { return w[v]; });
     for (const VertexId v : edge.ids()) {
       const Vec3 rest = w[v] - rigid.at(mesh.x[v]);
       travel.displacement = std::max(travel.displacement, rest.norm() * dt / edge[v]);
-      travel.slip = std::max(travel.slip, (velocity[i][v] - w[v]).norm() * dt / edge[v]);
+      const double past = (velocity[i][v] - w[v]).norm();
+      travel.slip = std::max(
+          travel.slip,
+          past * dt / (edge[v] * aimed_slip(past, viscosities, start.interfaces[i].tension)));
     }
     travel.neck_loss = std::max(travel.neck_loss, neck_loss(mesh, w, dt));
   }

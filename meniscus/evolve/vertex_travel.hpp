@@ -11,7 +11,8 @@ namespace meniscus {
 struct VertexTravel {
   /// Way of a vertex beyond its interface's mean rigid motion, in shortest edges at the vertex.
   double displacement = 0.0;
-  /// Way of the liquid relative to the vertex, in shortest edges: the shape slides over the mesh.
+  /// Way of the liquid relative to the vertex, in shortest edges over what a step aims at
+  /// (`aimed_slip`): the shape slides over the mesh.
   double slip = 0.0;
   /// Way inwards at a neck, in radii of the neck.
   double neck_loss = 0.0;

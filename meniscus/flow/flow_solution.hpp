@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,6 +19,12 @@ struct Power {
   double dissipation = 0.0;  ///< ∫2μ D:D plus the stabilisation's share
 };
 
+/// The nodes at the middles of the edges of a surface's curved faces: by face, edge k leaving its
+/// corner k.
+struct MiddleNodes {
+  FaceField<std::array<Vec3, 3>> x, v;  ///< [R0], [G R0]
+};
+
 /// v and p at the vertices of the volume mesh.
 struct BulkFlow {
   Field<TetVertexId, Vec3> v;  ///< [G R0]
@@ -31,6 +38,8 @@ struct [[nodiscard]] FlowSolution : Report {
   std::vector<std::string> warnings = {};  ///< what was done in another way than asked for
 
   std::vector<VertexField<Vec3>> velocity = {};  ///< of the liquid at each interface's vertices
+  /// And at the middles of the faces' edges; empty where faces are flat.
+  std::vector<MiddleNodes> middles = {};
   /// None where the flow fills an unbounded space: its power and dissipation are infinite.
   std::optional<Power> power = {};
   /// ∫2(μ(γ̇) − μ)D over the liquid of each region, μ its own viscosity: what a law adds to the

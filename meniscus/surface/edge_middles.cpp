@@ -42,7 +42,7 @@ double interpolated_level(const LevelFrame& frame, std::span<const Vec3> points)
   const auto count = static_cast<Eigen::Index>(points.size());
   if (count < kTerms) return 0.0;
   const double h = (points.back() - frame.axes.x).norm();
-  MENISCUS_ASSERT(h > 0.0, "{} points in one place", count);
+  if (!(h > 0.0)) return 0.0;  // all points in one place
   std::vector<Vec2> at;
   for (const Vec3& p : points) {
     const Vec3 d = (p - frame.axes.x) / h;
@@ -114,14 +114,14 @@ FaceField<std::array<std::size_t, 3>> face_edges(const SurfaceMesh& mesh,
 }
 
 std::vector<Vec3> edge_middles(const SurfaceMesh& mesh, const SurfaceTopology& topology,
-                               SurfaceShape shape) {
+                               const SmoothSurface& smooth, SurfaceShape shape) {
   switch (shape) {
     case SurfaceShape::faceted:
       break;
     case SurfaceShape::patched:
-      return middles_on_patches(SmoothSurface(mesh, topology), topology);
+      return middles_on_patches(smooth, topology);
     case SurfaceShape::splined:
-      return middles_on_splines(mesh, topology);
+      return middles_on_splines(mesh, topology, smooth);
   }
   return straight_middles(mesh, topology);
 }
@@ -135,7 +135,11 @@ std::vector<Vec3> middles_on_patches(const SmoothSurface& smooth, const SurfaceT
 }
 
 std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
-  const SmoothSurface smooth(mesh, topology);
+  return middles_on_splines(mesh, topology, SmoothSurface(mesh, topology));
+}
+
+std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh, const SurfaceTopology& topology,
+                                     const SmoothSurface& smooth) {
   const VertexField<VertexCurvature>& curvature = smooth.vertex_curvature();
   RingGatherer rings(mesh, topology);
   std::vector<Vec3> points, middles;

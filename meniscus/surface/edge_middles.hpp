@@ -18,9 +18,10 @@ enum class SurfaceShape { faceted, patched, splined };
                                                                const SurfaceTopology& topology);
 
 /// The point of the interface's surface over the middle of every edge, in the order of the
-/// topology.
+/// topology. `smooth` is that of the mesh.
 [[nodiscard]] std::vector<Vec3> edge_middles(const SurfaceMesh& mesh,
-                                             const SurfaceTopology& topology, SurfaceShape shape);
+                                             const SurfaceTopology& topology,
+                                             const SmoothSurface& smooth, SurfaceShape shape);
 
 /// The middles on the patches of SmoothSurface: O(h⁴).
 [[nodiscard]] std::vector<Vec3> middles_on_patches(const SmoothSurface& smooth,
@@ -40,5 +41,8 @@ enum class SurfaceShape { faceted, patched, splined };
 /// the edge, the smooth surface's point stands. About 16 µs per edge, where the patches take 2.
 [[nodiscard]] std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh,
                                                    const SurfaceTopology& topology);
+[[nodiscard]] std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh,
+                                                   const SurfaceTopology& topology,
+                                                   const SmoothSurface& smooth);
 
 }  // namespace meniscus

@@ -75,7 +75,8 @@ ReconstructedSurface::ReconstructedSurface(const SurfaceMesh& mesh, SurfaceShape
     : mesh_(mesh), shape_(shape) {
   if (is_flat()) return;
   topology_.emplace(mesh);
-  middles_ = edge_middles(mesh, *topology_, shape);
+  smooth_.emplace(mesh, *topology_);
+  middles_ = edge_middles(mesh, *topology_, *smooth_, shape);
   faces_ = quadratic_faces(mesh, *topology_, mesh.x, middles_);
   const Vec3 origin = mean_vertex(mesh);
   for (QuadraticFace& face : faces_)
@@ -117,18 +118,22 @@ Mat3 ReconstructedSurface::normal_moment() const {
                          [](const Vec3&, const Vec3& area) { return normal_product(area); });
 }
 
+FaceField<QuadraticFace> ReconstructedSurface::node_velocities(const VertexField<Vec3>& u) const {
+  std::vector<Vec3> u_middles;
+  u_middles.reserve(middles_.size());
+  for (const Stencil& stencil :
+       edge_stencils(mesh_, *topology_, smooth_->vertex_normals(), middles_)) {
+    Vec3& sum = u_middles.emplace_back(Vec3::Zero());
+    for (const VertexWeight& w : stencil) sum += w.weight * u[w.vertex];
+  }
+  return quadratic_faces(mesh_, *topology_, u, u_middles);
+}
+
 Mat3 ReconstructedSurface::velocity_moment(const VertexField<Vec3>& u) const {
   MENISCUS_ASSERT(u.size() == mesh_.num_vertices(), "{} velocities of {} vertices", u.size(),
                   mesh_.num_vertices());
   if (is_flat()) return flat_velocity_moment(mesh_, u);
-  const VertexField<Vec3> normals = SmoothSurface(mesh_, *topology_).vertex_normals();
-  std::vector<Vec3> u_middles;
-  u_middles.reserve(middles_.size());
-  for (const Stencil& stencil : edge_stencils(mesh_, *topology_, normals, middles_)) {
-    Vec3& sum = u_middles.emplace_back(Vec3::Zero());
-    for (const VertexWeight& w : stencil) sum += w.weight * u[w.vertex];
-  }
-  const FaceField<QuadraticFace> velocity = quadratic_faces(mesh_, *topology_, u, u_middles);
+  const FaceField<QuadraticFace> velocity = node_velocities(u);
   Mat3 sum = Mat3::Zero();
   for (const FaceId f : mesh_.faces.ids())
     for (std::size_t q = 0; q < kShapes.size(); ++q)
@@ -141,17 +146,16 @@ double ReconstructedSurface::area_rate(const VertexField<Vec3>& motion) const {
   MENISCUS_ASSERT(motion.size() == mesh_.num_vertices(), "{} velocities of {} vertices",
                   motion.size(), mesh_.num_vertices());
   if (is_flat()) return flat_area_rate(mesh_, motion);
-  double fastest = 0.0;
-  for (const Vec3& w : motion) fastest = std::max(fastest, w.norm());
-  if (fastest == 0.0) return 0.0;
-  // A ten-thousandth of an edge: the error of the square and that of round-off are alike.
-  const double dt = 1e-4 * shortest_edge(mesh_) / fastest;
-  const auto area_after = [&](double time) {
-    SurfaceMesh moved = mesh_;
-    for (const VertexId v : motion.ids()) moved.x[v] += time * motion[v];
-    return ReconstructedSurface(moved, shape_).area();
-  };
-  return (area_after(dt) - area_after(-dt)) / (2.0 * dt);
+  const FaceField<QuadraticFace> velocity = node_velocities(motion);
+  double rate = 0.0;
+  for (const FaceId f : mesh_.faces.ids())
+    for (std::size_t q = 0; q < kShapes.size(); ++q) {
+      const TriangleTangents x = tangents(kShapes[q], faces_[f]),
+                             u = tangents(kShapes[q], velocity[f]);
+      const Vec3 area_rate = 0.5 * (u.t1.cross(x.t2) + x.t1.cross(u.t2));
+      rate += kTriangleRule4[q].share * x.area().normalized().dot(area_rate);
+    }
+  return rate;
 }
 
 }  // namespace meniscus

@@ -4,6 +4,7 @@
 
 #include "meniscus/geometry/quadratic_triangle.hpp"
 #include "meniscus/surface/edge_middles.hpp"
+#include "meniscus/surface/smooth_surface.hpp"
 
 namespace meniscus {
 
@@ -25,17 +26,23 @@ class ReconstructedSurface {
   /// others: the middles of their edges get u from the quadratics that fit it around both ends, to
   /// O(h³).
   [[nodiscard]] Mat3 velocity_moment(const VertexField<Vec3>& u) const;
-  /// dS/dt for vertices that move with this velocity [G R0²]. Exact for flat faces; for others a
-  /// central difference, its error some 1e-8 of the rate.
+  /// dS/dt for vertices that move with this velocity, ∫div_s u dS [G R0²]: exact for flat faces,
+  /// with the velocity between vertices as above for others.
   [[nodiscard]] double area_rate(const VertexField<Vec3>& motion) const;
+
+  /// The smooth surface through the vertices; none with flat faces.
+  [[nodiscard]] const std::optional<SmoothSurface>& smooth() const { return smooth_; }
 
  private:
   [[nodiscard]] bool is_flat() const { return shape_ == SurfaceShape::faceted; }
+  [[nodiscard]] FaceField<TriangleNodes<kQuadraticNodes>> node_velocities(
+      const VertexField<Vec3>& u) const;
 
   const SurfaceMesh& mesh_;
   SurfaceShape shape_;
   // Only with quadratic faces:
   std::optional<SurfaceTopology> topology_;
+  std::optional<SmoothSurface> smooth_;
   std::vector<Vec3> middles_;
   FaceField<TriangleNodes<kQuadraticNodes>> faces_;  // seen from the mean vertex, for round-off
 };

@@ -41,7 +41,7 @@ TEST(Case, SolvesWithQuadraticElementsInStepsThatFollowTheError) {
   EXPECT_EQ(c.evolution.scheme, TimeScheme::semi_implicit);
   EXPECT_EQ(c.evolution.tolerance, kDefaultTolerance);
   EXPECT_EQ(c.evolution.max_step, kDefaultLongestStep);
-  EXPECT_EQ(c.evolution.motion_normal, MotionNormal::smooth);
+  EXPECT_EQ(c.evolution.motion_normal, MotionNormal::faces);
 }
 
 TEST(Case, WhatLinearElementsAloneCanDoChoosesThem) {

@@ -91,7 +91,7 @@ Evolution evolution_of(const DampedDrop& drop, double dt) {
   EvolutionOptions evolution;
   evolution.scheme = drop.scheme;
   evolution.surface = shape_of(drop.elements);
-  evolution.motion_normal = is_quadratic ? MotionNormal::smooth : MotionNormal::area_vector;
+  evolution.motion_normal = is_quadratic ? MotionNormal::faces : MotionNormal::area_vector;
   evolution.step_factor = 1e9;  // the bounds decide
   evolution.tolerance = std::numeric_limits<double>::infinity();
   evolution.max_step = dt;

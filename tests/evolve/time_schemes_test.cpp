@@ -70,7 +70,7 @@ Relaxed relaxed(TimeScheme scheme, double tolerance) {
       },
       [&](const Evolution& evolution) {
         result.D = evolution.drop_rows()[0].shape.D_inertia;
-        if (const auto error = evolution.history_row().step_error)
+        if (const auto error = evolution.rows().history.step_error)
           result.largest_estimate = std::max(result.largest_estimate, *error);
         if (evolution.is_finished()) {
           EXPECT_EQ(evolution.t(), 1.0);

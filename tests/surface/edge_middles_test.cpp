@@ -122,5 +122,12 @@ TEST(EdgeMiddles, StayNearTheirEdgesOnCrumpledSurfaces) {
   }
 }
 
+// Seen from a vertex 1e20 away all others are in one place, which determines no spline.
+TEST(EdgeMiddles, AreFiniteWhereAVertexIsFarAway) {
+  SurfaceMesh mesh = sphere(66);
+  mesh.x[VertexId{2}].x() = 1e20;
+  for (const Vec3& x : middles_on_splines(mesh, SurfaceTopology(mesh))) EXPECT_TRUE(x.allFinite());
+}
+
 }  // namespace
 }  // namespace meniscus

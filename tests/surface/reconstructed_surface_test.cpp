@@ -100,7 +100,9 @@ TEST_P(Reconstructed, AreaRateIsADifferenceOfAreas) {
     for (const VertexId v : motion.ids()) moved.x[v] += dt * motion[v];
     return ReconstructedSurface(moved, GetParam()).area();
   };
-  EXPECT_NEAR(rate, (area_after(1e-4) - area_after(-1e-4)) / 2e-4, 1e-5);
+  // Between vertices quadratic faces know the velocity to O(h³).
+  const double error = is_flat() ? 1e-5 : 1e-3 * std::abs(rate);
+  EXPECT_NEAR(rate, (area_after(1e-4) - area_after(-1e-4)) / 2e-4, error);
   EXPECT_GT(std::abs(rate), 0.1);
 }
 

@@ -86,6 +86,17 @@ double net_flux(const FaceNodeTable& faces, const NodePositions& positions,
   return flux;
 }
 
+MiddleNodes middle_nodes(const SurfaceMesh& surface, const FaceNodeTable& faces,
+                         const NodePositions& positions, const Field<NodeId, Vec3>& v) {
+  MiddleNodes middles;
+  for (const FaceId f : surface.faces.ids()) {
+    const std::span<const NodeId> nodes = faces.of(f);
+    middles.x.add({positions.x[nodes[3]], positions.x[nodes[4]], positions.x[nodes[5]]});
+    middles.v.add({v[nodes[3]], v[nodes[4]], v[nodes[5]]});
+  }
+  return middles;
+}
+
 Field<TetVertexId, Vec3> at_vertices(const Field<NodeId, Vec3>& v, std::int32_t num_vertices) {
   const auto vertices = v.span().first(static_cast<std::size_t>(num_vertices));
   return Field<TetVertexId, Vec3>(std::vector<Vec3>(vertices.begin(), vertices.end()));
@@ -244,6 +255,8 @@ FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const Instant
     VertexField<Vec3> v = vertex_velocity(surface, faces, positions, state.v);
     remove_net_flux(surface, net_flux(faces, positions, state.v), v);
     result.velocity.push_back(std::move(v));
+    if (options_.elements == Elements::p2_p1)
+      result.middles.push_back(middle_nodes(surface, faces, positions, state.v));
   }
   const StokesPower power = stokes_->power(problem.stokes, state);
   double traction = 0.0;
