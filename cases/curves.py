@@ -35,22 +35,26 @@ def ticks(low, high, is_log):
 
 
 class Axes:
-    def __init__(self, window, is_log):
+    def __init__(self, window, is_log, is_log_in_x=False):
         self.x0, self.x1, self.y0, self.y1 = window
         self.is_log = is_log
+        self.is_log_in_x = is_log_in_x
+
+    @staticmethod
+    def part(value, low, high, is_log):
+        scale = math.log if is_log else float
+        return (scale(value) - scale(low)) / (scale(high) - scale(low))
 
     def x(self, value):
-        return LEFT + (WIDTH - LEFT - RIGHT) * (value - self.x0) / (self.x1 - self.x0)
+        return LEFT + (WIDTH - LEFT - RIGHT) * self.part(value, self.x0, self.x1, self.is_log_in_x)
 
     def y(self, value):
-        scale = math.log if self.is_log else float
-        part = (scale(value) - scale(self.y0)) / (scale(self.y1) - scale(self.y0))
-        return HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * part
+        return HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * self.part(value, self.y0, self.y1, self.is_log)
 
     def frame(self, labels):
         out = [f'<rect x="{LEFT}" y="{TOP}" width="{WIDTH - LEFT - RIGHT}" height="{HEIGHT - TOP - BOTTOM}" fill="none" '
                'stroke="#9aa3ad"/>']
-        for value in ticks(self.x0, self.x1, False):
+        for value in ticks(self.x0, self.x1, self.is_log_in_x):
             out.append(f'<text x="{self.x(value):.1f}" y="{HEIGHT - BOTTOM + 18}" text-anchor="middle">{value:g}</text>')
             out.append(f'<path d="M{self.x(value):.1f} {TOP}V{HEIGHT - BOTTOM}" stroke="#e4e7eb"/>')
         for value in ticks(self.y0, self.y1, self.is_log):

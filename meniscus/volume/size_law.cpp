@@ -6,8 +6,10 @@
 #include <numbers>
 #include <numeric>
 
+#include "meniscus/mesh/sphere_radius.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/sizing.hpp"
 
 namespace meniscus {
 namespace {
@@ -16,6 +18,8 @@ namespace {
 /// the width that the surfaces have been remeshed for, by more than the error of the distances (a
 /// fifth); low enough that a sphere of 110 vertices, 5.5 edges across, is none for three layers.
 constexpr double kNarrow = 1.75;
+/// Volume of the cells at the finest places, over that elsewhere at the same edge.
+constexpr double kFineVolume = 2.0;
 constexpr double kRoundOff = 1.0 + 1e-12;  // of bounds that may leave surfaces out
 
 VertexField<double> mean_edge_at_vertices(const SurfaceMesh& mesh) {
@@ -45,6 +49,11 @@ std::vector<std::size_t> containers(const Scene& scene) {
   return result;
 }
 
+/// Edge of the sphere of an interface's volume and resolution [R0].
+double even_edge(const Interface& interface) {
+  return length_of_density(interface.C0) * sphere_radius(enclosed_volume(interface.mesh));
+}
+
 std::size_t depth(const std::vector<std::size_t>& container, std::size_t i) {
   std::size_t steps = 0;
   for (; i < container.size() && steps <= container.size(); i = container[i]) ++steps;
@@ -58,8 +67,13 @@ double least_growth(double C0) {
   return kMost * std::min(1.0, std::sqrt(kOf / C0));
 }
 
+double fineness(double edge, double even_edge) {
+  constexpr double kFrom = 1.0 / 3.0, kWhole = 1.0 / 6.0;
+  return std::clamp((kFrom - edge / even_edge) / (kFrom - kWhole), 0.0, 1.0);
+}
+
 double graded_size(Grading grading, double h_s, double d_s, double h_b, double d_b,
-                   double least_growth) {
+                   const LeastSize& least) {
   const double s = d_s + d_b > 0.0 ? d_s / (d_s + d_b) : 0.0;
   switch (grading) {
     case Grading::linear:
@@ -69,7 +83,7 @@ double graded_size(Grading grading, double h_s, double d_s, double h_b, double d
     case Grading::gaussian:
       return std::max(
           h_b + (h_s - h_b) * (std::exp(-4.5 * s * s) - std::exp(-4.5)) / (1.0 - std::exp(-4.5)),
-          std::min(least_growth * d_s, h_b));
+          std::min(least.start + least.growth * d_s, h_b));
   }
   return h_s;
 }
@@ -79,8 +93,15 @@ double gap_size(double width, double layers, double h) {
   return std::max(kGapEdge * width / layers, h);
 }
 
-SizeLaw::Sized::Sized(const SurfaceMesh& surface, double gap_layers, double growth)
+SizeLaw::Sized::Sized(const SurfaceMesh& surface, double gap_layers, double growth,
+                      double even_edge)
     : mesh(&surface), tree(surface), size(mean_edge_at_vertices(surface)), least_growth(growth) {
+  start = VertexField<double>(size.size(), 0.0);
+  for (const VertexId v : size.ids()) {
+    const double share = even_edge > 0.0 ? fineness(size[v], even_edge) : 0.0;
+    size[v] *= std::cbrt(1.0 + share * (kFineVolume - 1.0));
+    start[v] = share * size[v];
+  }
   if (gap_layers == 0.0) return;
   VertexField<Vec3> normals = vertex_area_vectors(surface);
   for (Vec3& n : normals) n.normalize();
@@ -94,8 +115,11 @@ SizeLaw::Sized::Nearest SizeLaw::Sized::nearest(const Vec3& x) const {
   constexpr double kSlack = 0.2;
   const SurfaceTree::Hit hit = tree.closest(x, std::numeric_limits<double>::infinity(), kSlack);
   Nearest result{hit.distance, 0.0};
-  for (std::size_t k = 0; k < 3; ++k)
-    result.size += hit.weights[static_cast<int>(k)] * size[mesh->faces[hit.face][k]];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double weight = hit.weights[static_cast<int>(k)];
+    result.size += weight * size[mesh->faces[hit.face][k]];
+    result.start += weight * start[mesh->faces[hit.face][k]];
+  }
   if (gaps.inside.empty()) return result;
   const auto narrowest = [&](const VertexField<double>& widths) {
     const FaceVertices& v = mesh->faces[hit.face];
@@ -132,7 +156,8 @@ SizeLaw::SizeLaw(const Scene& scene, const VolumeMeshOptions& options)
     : options_(options), container_(containers(scene)), inside_first_(scene.interfaces.size()) {
   surfaces_.reserve(scene.interfaces.size() + 1);
   for (const Interface& interface : scene.interfaces)
-    surfaces_.emplace_back(interface.mesh, options.gap_layers, least_growth(interface.C0));
+    surfaces_.emplace_back(interface.mesh, options.gap_layers, least_growth(interface.C0),
+                           options.grading == Grading::gaussian ? even_edge(interface) : 0.0);
   surfaces_.emplace_back(scene.boundary.mesh, 0.0);  // convex or far: it has no gap of its own
   std::iota(inside_first_.begin(), inside_first_.end(), std::size_t{0});
   std::ranges::stable_sort(inside_first_, std::greater<>(),
@@ -174,14 +199,14 @@ double SizeLaw::least_law(Around& around) const {
       around.x,
       [&](double distance) {
         return is_finer ? graded_size(options_.grading, inner.least_size, distance, outer.size,
-                                      outer.distance, inner.least_growth) /
+                                      outer.distance, {0.0, inner.least_growth}) /
                               kRoundOff
                         : 0.0;
       },
       [&](std::size_t position) {
         const Sized::Nearest at = ask_member(position, around);
         return graded_size(options_.grading, at.size, at.distance, outer.size, outer.distance,
-                           surfaces_[inner.members[position]].least_growth);
+                           {at.start, surfaces_[inner.members[position]].least_growth});
       });
 }
 

@@ -12,22 +12,36 @@
 
 namespace meniscus {
 
+/// A size of start + growth × distance.
+struct LeastSize {
+  double start = 0.0;   ///< [R0]
+  double growth = 0.0;  ///< `least_growth`
+};
+
 /// Wanted edge length at a point between a surface of edge length `h_s`, at distance `d_s`, and one
 /// of edge length `h_b`, at distance `d_b` [R0]. With s = d_s/(d_s + d_b),
 ///   linear       h = h_s + (h_b − h_s) s
 ///   exponential  h = h_s (h_b/h_s)^s
 ///   gaussian     h = h_b + (h_s − h_b) (e^(−9s²/2) − e^(−9/2))/(1 − e^(−9/2)), but at least
-///                g d_s and at most h_b, g = `least_growth`,
+///                `least` and at most h_b,
 /// the last a bell whose standard deviation is a third of the way to the other surface. Beside a
 /// thin neck it would stay as fine as the neck far beyond what the neck does to the flow: hence the
-/// least growth.
+/// least size.
 [[nodiscard]] double graded_size(Grading grading, double h_s, double d_s, double h_b, double d_b,
-                                 double least_growth = 0.0);
+                                 const LeastSize& least = {});
 
 /// The least growth beside an interface of resolution C0: 1/3 or less, and above 200 vertices
 /// inversely as the root of their number, so that all sizes go with those of the edges. The bell
 /// has that much by itself around a sphere in a boundary of ten radii.
 [[nodiscard]] double least_growth(double C0);
+
+/// By how much a place of an interface is finer than the sphere of the drop's volume, whose edges
+/// are `even_edge` long: 0 where the edges are longer than a third of those, 1 below a sixth. At
+/// such a neck or tip the mesh is scaled to a radius that is small beside the drop's. Cells have
+/// twice the volume there and grow from the surface on, at `least_growth`. The errors of the flow
+/// that they bring decay within some radii of the neck, and reach the drop as its small part.
+/// For the bell (`Grading::gaussian`) alone.
+[[nodiscard]] double fineness(double edge, double even_edge);
 
 /// Bound on the edge length in a gap of width `width` between surfaces whose edges are `h` long
 /// [R0], so that the gap holds `layers` layers: kGapEdge width/layers, but no less than h. Infinite
@@ -58,9 +72,12 @@ class SizeLaw {
  private:
   /// A surface with the mean length of the edges at each vertex.
   struct Sized {
-    Sized(const SurfaceMesh& mesh, double gap_layers, double least_growth = 0.0);
+    /// `even_edge`: of the sphere of the drop's volume; 0 where no place counts as fine.
+    Sized(const SurfaceMesh& mesh, double gap_layers, double least_growth = 0.0,
+          double even_edge = 0.0);
     struct Nearest {
       double distance = 0.0, size = 0.0;
+      double start = 0.0;                  // of the least size
       double inside = 0.0, outside = 0.0;  // widths of the surface's own gaps there
     };
     [[nodiscard]] Nearest nearest(const Vec3& x) const;
@@ -69,8 +86,8 @@ class SizeLaw {
 
     const SurfaceMesh* mesh;
     SurfaceTree tree;
-    VertexField<double> size;
-    OwnGaps gaps;  // empty without gap layers
+    VertexField<double> size, start;  // of cells at the vertices: size, and start of the least size
+    OwnGaps gaps;                     // empty without gap layers
     double least_growth;
   };
   /// The interfaces that one surface encloses with nothing in between.

@@ -352,8 +352,9 @@ TEST(SizeLaw, PassesBetweenItsEnds) {
   EXPECT_DOUBLE_EQ(least_growth(8.75), 1.0 / 3.0);
   EXPECT_NEAR(least_growth(800.0 / (4.0 * std::numbers::pi)), 1.0 / 6.0, 1e-15);
   // Close to a fine surface a third of the distance, where the bell is as fine as the surface.
-  EXPECT_DOUBLE_EQ(graded_size(Grading::gaussian, 0.01, 0.3, 2.0, 9.7, 1.0 / 3.0), 0.1);
-  EXPECT_DOUBLE_EQ(graded_size(Grading::gaussian, 0.01, 8.0, 0.02, 1.0, 1.0 / 3.0), 0.02);
+  EXPECT_DOUBLE_EQ(graded_size(Grading::gaussian, 0.01, 0.3, 2.0, 9.7, {0.0, 1.0 / 3.0}), 0.1);
+  EXPECT_DOUBLE_EQ(graded_size(Grading::gaussian, 0.01, 8.0, 0.02, 1.0, {0.0, 1.0 / 3.0}), 0.02);
+  EXPECT_DOUBLE_EQ(graded_size(Grading::gaussian, 0.01, 0.3, 2.0, 9.7, {0.01, 1.0 / 3.0}), 0.11);
 }
 
 TEST(SizeLaw, KnowsTheRegionOfAPoint) {
@@ -370,6 +371,22 @@ TEST(SizeLaw, KnowsTheRegionOfAPoint) {
   EXPECT_NEAR(size(Vec3(0, 0, 0)), h1 + 0.7 * 0.5, 0.25 * (h1 + 0.35));
   EXPECT_NEAR(size(Vec3(1.25, 0, 0)), 0.5 * (h0 + h1), 0.25 * h0);
   EXPECT_NEAR(size(Vec3(0, 4.0, 0)), 0.5 * (h0 + hb), 0.25 * hb);
+}
+
+TEST(SizeLaw, IsCoarserBesideFinePlaces) {
+  EXPECT_EQ(fineness(0.35, 1.0), 0.0);
+  EXPECT_NEAR(fineness(0.25, 1.0), 0.5, 1e-15);
+  EXPECT_EQ(fineness(0.1, 1.0), 1.0);
+  // A sphere that is eight times finer than its resolution asks for, as a neck is.
+  Scene scene = test::scene_within(sphere(400, 10.0));
+  add_drop(scene, sphere(400, 1.0));
+  const double edge = mean_edge(scene.interfaces[0].mesh), finest = std::cbrt(2.0) * edge;
+  scene.interfaces[0].C0 = 400.0 / (4.0 * std::numbers::pi) / 64.0;
+  const SizeLaw bell(scene, {.grading = Grading::gaussian});
+  EXPECT_NEAR(bell(Vec3(1.0, 0.0, 0.0)), finest, 0.1 * finest);
+  EXPECT_NEAR(bell(Vec3(1.0 + 3.0 * edge, 0.0, 0.0)), finest + edge, 0.25 * (finest + edge));
+  const SizeLaw straight(scene, {.grading = Grading::linear});
+  EXPECT_NEAR(straight(Vec3(1.0, 0.0, 0.0)), edge, 0.1 * edge);
 }
 
 }  // namespace
