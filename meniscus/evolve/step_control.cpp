@@ -77,18 +77,24 @@ void follow_record(StepPlan& plan, const StepRecord& record, double dt, double t
   shorten(plan, dt * kAimedNeckLoss / record.travel.neck_loss, StepBound::neck);
 }
 
-/// Lets a step that would pass a jump of the imposed flow end there, or halfway.
-void end_at_jump(StepPlan& plan, const State& state) {
+/// Lets a step that would pass `time` end there, or halfway.
+void end_at(StepPlan& plan, const State& state, double time) {
+  const double rest = time - state.t;
+  if (rest <= 0.0 || 2.0 * plan.dt <= rest) return;
+  if (plan.dt < rest) {
+    shorten(plan, 0.5 * rest, StepBound::jump);
+    return;
+  }
+  plan = {rest, StepBound::jump};
+  while (state.t + plan.dt < time) plan.dt = std::nextafter(plan.dt, kInfinity);
+}
+
+/// The estimate of a step compares the flow at its ends and within: it would not see a jump, or the
+/// beginning of a ramp, between its stages.
+void end_where_flow_breaks(StepPlan& plan, const State& state) {
   for (const ImposedFlow::Entry& entry : state.scene.flow.schedule()) {
-    if (entry.ramp > 0.0 || entry.time <= state.t) continue;
-    const double rest = entry.time - state.t;
-    if (2.0 * plan.dt <= rest) continue;
-    if (plan.dt < rest) {
-      shorten(plan, 0.5 * rest, StepBound::jump);
-      continue;
-    }
-    plan = {rest, StepBound::jump};
-    while (state.t + plan.dt < entry.time) plan.dt = std::nextafter(plan.dt, kInfinity);
+    end_at(plan, state, entry.time);
+    if (entry.ramp > 0.0) end_at(plan, state, entry.time + entry.ramp);
   }
 }
 
@@ -108,7 +114,7 @@ StepPlan step_plan(const State& state, const EvolutionOptions& options) {
     begin_anew(plan, state);
   else
     follow_record(plan, state.record, state.dt, options.tolerance);
-  end_at_jump(plan, state);
+  end_where_flow_breaks(plan, state);
   if (plan.dt < options.min_step) plan = {options.min_step, StepBound::min_step};
   return plan;
 }

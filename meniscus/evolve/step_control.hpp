@@ -19,7 +19,7 @@ enum class StepBound {
   neck,          ///< a neck keeps most of its radius
   growth,        ///< over the step before
   beginning,     ///< no step to go by: at the start, after an event or a jump of the flow
-  jump,          ///< the step ends where the imposed flow jumps
+  jump,          ///< the step ends where the imposed flow jumps, or at an end of a ramp
   max_step,      ///< time.max-step
   min_step,      ///< time.min-step
   refusal        ///< a longer attempt was refused
@@ -50,7 +50,8 @@ struct StepRecord {
 /// tolerance, error ~ Δt²; those that make each travel what is aimed at; the scheme's longest
 /// stable step; a multiple of the step before; `max_step`. Where there is no step to go by, a
 /// fraction of the midpoint rule's longest stable step, in which the imposed flow moves no vertex
-/// farther than a fraction of its edge. A step ends where the imposed flow jumps.
+/// farther than a fraction of its edge. A step ends where the imposed flow jumps, and at
+/// the ends of a ramp.
 [[nodiscard]] StepPlan step_plan(const State& state, const EvolutionOptions& options);
 
 /// A fault where the estimated error of an attempt exceeds the tolerance or, with

@@ -100,5 +100,24 @@ TEST(TimeSchemes, ErrorFollowsTheTolerance) {
   }
 }
 
+// A stage of a step over the beginning of a ramp may not see it.
+TEST(TimeSchemes, StepsEndAtTheEndsOfARamp) {
+  const Case c = test::unbounded_case(
+      {.lambda = 0.1,
+       .nodes = 60,
+       .more = "[[flow.schedule]]\ntime = 1.0\nramp = 0.5\nkind = \"quiescent\"\n"});
+  std::vector<double> times;
+  const Report report = test::run(
+      c, build_scene(c),
+      [&](EvolutionOptions& options) {
+        options.control = StepControl::error;
+        options.max_step = 1.0;
+        options.end = 2.0;
+      },
+      [&](const Evolution& evolution) { times.push_back(evolution.t()); });
+  EXPECT_TRUE(report.ok()) << report.text();
+  for (const double t : {1.0, 1.5}) EXPECT_EQ(std::ranges::count(times, t), 1) << t;
+}
+
 }  // namespace
 }  // namespace meniscus
