@@ -197,6 +197,15 @@ void SurfaceTree::visit_box(const Vec3& low, const Vec3& high, const Visit& visi
               visit);
 }
 
+void SurfaceTree::visit_near(const Vec3& x, double reach, const Visit& visit) const {
+  visit_where(
+      [&](const Vec3& low, const Vec3& high) {
+        const Vec3 apart = (low - x).cwiseMax(x - high).cwiseMax(0.0);
+        return apart.squaredNorm() < reach * reach * (high - low).squaredNorm();
+      },
+      visit);
+}
+
 void SurfaceTree::visit_touching_pairs(const VisitPair& visit) const {
   static_cast<void>(visit_pairs_within(0, visit));
 }

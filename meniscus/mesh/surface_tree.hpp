@@ -43,6 +43,9 @@ class SurfaceTree {
   /// Calls `visit` for every face whose box the box [low, high] touches, until it returns false.
   using Visit = std::function<bool(FaceId, const Triangle&)>;
   void visit_box(const Vec3& low, const Vec3& high, const Visit& visit) const;
+  /// Calls `visit` for every face whose box is nearer to x than `reach` of the box's diagonals,
+  /// until it returns false.
+  void visit_near(const Vec3& x, double reach, const Visit& visit) const;
   /// Calls `visit` for every two faces whose boxes touch, once, until it returns false.
   using VisitPair = std::function<bool(FaceId, const Triangle&, FaceId, const Triangle&)>;
   void visit_touching_pairs(const VisitPair& visit) const;

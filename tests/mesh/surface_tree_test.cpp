@@ -118,6 +118,28 @@ TEST(SurfaceTree, VisitsEveryFaceInABox) {
   EXPECT_EQ(visited, 3);
 }
 
+TEST(SurfaceTree, VisitsEveryFaceNearForItsSize) {
+  const SurfaceMesh mesh = stretched_sphere(400, Vec3(2.5, 0.5, 0.1));
+  const SurfaceTree tree(mesh);
+  std::mt19937 random(11);
+  int num_near = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const Vec3 x = random_point(random, 2.0);
+    FaceField<int> expected(mesh.num_faces(), 0), visits(mesh.num_faces(), 0);
+    for (const FaceId f : mesh.faces.ids()) {
+      const Triangle c = corners(mesh, f);
+      const Vec3 low = c[0].cwiseMin(c[1]).cwiseMin(c[2]),
+                 high = c[0].cwiseMax(c[1]).cwiseMax(c[2]);
+      const double distance = (x - x.cwiseMax(low).cwiseMin(high)).norm();
+      expected[f] = distance < 3.0 * (high - low).norm() ? 1 : 0;
+      num_near += expected[f];
+    }
+    tree.visit_near(x, 3.0, [&](FaceId f, const Triangle&) { return ++visits[f] > 0; });
+    for (const FaceId f : mesh.faces.ids()) EXPECT_EQ(visits[f], expected[f]) << f.value;
+  }
+  EXPECT_GT(num_near, 1000);
+}
+
 TEST(SurfaceTree, VisitsEveryFaceThatAPlaneCutsInABox) {
   const SurfaceMesh mesh = stretched_sphere(400, Vec3(1.5, 0.5, 1.0));
   const SurfaceTree tree(mesh);

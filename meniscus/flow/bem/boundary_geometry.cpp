@@ -1,6 +1,5 @@
 #include "meniscus/flow/bem/boundary_geometry.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "meniscus/core/error.hpp"
@@ -27,7 +26,6 @@ BoundaryGeometry make_geometry(const Scene& scene) {
     BoundaryGeometry::Surface surface{.elements = make_elements(interface.mesh),
                                       .tree = SurfaceTree(interface.mesh),
                                       .range = {},
-                                      .largest_face = 0.0,
                                       .is_inside_of = enclosing(scene, interface)};
     const InterfaceElements& elements = surface.elements;
     surface.range.begin = geometry.size();
@@ -37,8 +35,6 @@ BoundaryGeometry make_geometry(const Scene& scene) {
       geometry.surface_of.push_back(static_cast<std::int32_t>(geometry.surfaces.size()));
     }
     surface.range.end = geometry.size();
-    for (const InterfaceElements::Face& face : elements.faces)
-      surface.largest_face = std::max(surface.largest_face, face.size);
     geometry.surfaces.push_back(std::move(surface));
   }
   return geometry;

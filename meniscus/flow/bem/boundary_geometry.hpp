@@ -16,7 +16,6 @@ struct BoundaryGeometry {
     InterfaceElements elements;
     SurfaceTree tree;
     SourceRange range;
-    double largest_face = 0.0;       ///< longest edge of all [R0]
     std::vector<bool> is_inside_of;  ///< by interface: does it enclose this one
   };
   std::vector<Surface> surfaces;

@@ -91,8 +91,8 @@ class RowBuilder {
   /// `normal` is the point's own, null where it lies on another surface.
   void find_near_faces(const Surface& surface, const Vec3* normal) {
     near_.clear();
-    const Vec3 reach = Vec3::Constant(kNearOnOther * surface.largest_face);
-    surface.tree.visit_box(x_ - reach, x_ + reach, [&](FaceId f, const Triangle& triangle) {
+    // Its centre lies within an edge of the box of a face, whose diagonal is no shorter.
+    surface.tree.visit_near(x_, kNearOnOther + 1.0, [&](FaceId f, const Triangle& triangle) {
       const Face& face = surface.elements.faces[f];
       const double distance = (face.center - x_).norm();
       if (distance >= kNearOnOther * face.size) return true;
@@ -120,7 +120,7 @@ class RowBuilder {
             face.to_nodes(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(c));
         if (to_node == 0.0) continue;
         entry.single += to_node * moments.single[a];
-        add(entry.double_layer, to_node, moments.double_layer[a]);
+        if (has_double_layer_[m]) add(entry.double_layer, to_node, moments.double_layer[a]);
       }
       const std::int32_t j = geometry_.index(m, face.columns[c]);
       add_entry(m, j, entry);
@@ -149,8 +149,9 @@ class RowBuilder {
   void add_entry(std::size_t m, std::int32_t j, const LayerKernels& entry) {
     row_.single += q_[static_cast<std::size_t>(j)] * entry.single;
     constant_.single += entry.single;
+    if (!has_double_layer_[m]) return;
     add(constant_.double_layer, 1.0, entry.double_layer);
-    if (has_double_layer_[m]) add(at(j), 1.0, entry.double_layer);
+    add(at(j), 1.0, entry.double_layer);
   }
 
   /// Replaces the rule's integral of the constant weight × (value at point j) by the exact one.
