@@ -91,7 +91,7 @@ class RowBuilder {
   /// `normal` is the point's own, null where it lies on another surface.
   void find_near_faces(const Surface& surface, const Vec3* normal) {
     near_.clear();
-    // Its centre lies within an edge of the box of a face, whose diagonal is no shorter.
+    // A face's centre lies within its longest edge of its box, whose diagonal is no shorter.
     surface.tree.visit_near(x_, kNearOnOther + 1.0, [&](FaceId f, const Triangle& triangle) {
       const Face& face = surface.elements.faces[f];
       const double distance = (face.center - x_).norm();
