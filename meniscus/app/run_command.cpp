@@ -30,8 +30,9 @@ Evolution make_evolution(const Case& c, Scene scene) {
   return evolution;
 }
 
-/// The case with either flow solver distributed over all ranks.
+/// The case with evolution and either flow solver shared by all ranks.
 Case shared_case(Case c) {
+  c.evolution.processes = linear::Processes::all;
   c.flow_solver.processes = linear::Processes::all;
   c.boundary_integral.processes = linear::Processes::all;
   return c;

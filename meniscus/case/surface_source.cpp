@@ -10,6 +10,7 @@
 #include "meniscus/io/archive_file.hpp"
 #include "meniscus/io/run_files.hpp"
 #include "meniscus/io/surface_file.hpp"
+#include "meniscus/mesh/surface_archive.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/isotropic_remesh.hpp"
@@ -59,25 +60,11 @@ int interface_of_drop(const Case& c, const std::string& path, const Archive& arc
 
 SurfaceMesh surface_from_archive(const Case& c, const std::string& path, const Archive& archive,
                                  int index) {
-  const auto x = archive.reals.find(fmt::format("interfaces/{}/x", index));
-  const auto faces = archive.integers.find(fmt::format("interfaces/{}/faces", index));
-  if (x == archive.reals.end() || faces == archive.integers.end() || x->second.size() % 3 != 0 ||
-      faces->second.size() % 3 != 0)
-    c.settings.reject(path, "holds a checkpoint without the surface of its drop");
-  SurfaceMesh mesh;
-  for (std::size_t i = 0; i < x->second.size(); i += 3)
-    mesh.x.add(Vec3(x->second[i], x->second[i + 1], x->second[i + 2]));
-  for (std::size_t i = 0; i < faces->second.size(); i += 3) {
-    FaceVertices face;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::int64_t vertex = faces->second[i + k];
-      if (vertex < 0 || vertex >= mesh.num_vertices())
-        c.settings.reject(path, "holds a checkpoint with a broken surface");
-      face[k] = VertexId{static_cast<std::int32_t>(vertex)};
-    }
-    mesh.faces.add(face);
+  try {
+    return load_surface(archive, fmt::format("interfaces/{}", index));
+  } catch (const InvalidInput& error) {
+    c.settings.reject(path, "holds a checkpoint without the surface of its drop: {}", error.what());
   }
-  return mesh;
 }
 
 void shift(SurfaceMesh& mesh, const Vec3& by) {

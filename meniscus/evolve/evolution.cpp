@@ -317,7 +317,7 @@ Report Evolution::change_topology(const Scene& moved, const InterfaceMotion& mot
 void Evolution::restore_volumes() {
   const PhaseTimer timer(times_, "move interfaces");
   for (std::size_t i = 0; i < state_.scene.interfaces.size(); ++i)
-    restore_volume(state_, i, options_.surface);
+    record(state_, i, restore_volume(state_.scene.interfaces[i], options_.surface));
 }
 
 /// A fault if restoring volumes shifted vertices too far, as long as a shorter step needs less.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meniscus/evolve/constants.hpp"
+#include "meniscus/linear/communicator.hpp"
 #include "meniscus/surface/edge_middles.hpp"
 #include "meniscus/topology/apply_topology.hpp"
 
@@ -46,6 +47,8 @@ struct EvolutionOptions {
       0.0;                  ///< tolerance of the springs (RemeshOptions); 0: the remesher's default
   double edge_floor = 0.0;  ///< [R0] smallest target length of interface edges
   double gap_layers = 0.0;  ///< layers of tetrahedra between close sheets; 0: not controlled
+  /// Which processes share the remeshing of the interfaces; all have the same state.
+  linear::Processes processes = linear::Processes::alone;
   TopologyOptions topology;  ///< when necks are cut and gaps bridged
 };
 

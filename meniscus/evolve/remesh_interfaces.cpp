@@ -5,6 +5,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/evolve/volume_restoration.hpp"
+#include "meniscus/linear/shared_work.hpp"
 #include "meniscus/surface/repair/mend.hpp"
 
 namespace meniscus {
@@ -19,6 +20,32 @@ RemeshOptions remesh_options(const Interface& interface, const EvolutionOptions&
   options.gap_layers = run.gap_layers;
   options.neighbours = std::move(neighbours);
   return options;
+}
+
+/// Both shifts, the second after the first.
+VolumeShift joined(VolumeShift first, const VolumeShift& second) {
+  widen(first.field_excess, second.field_excess);
+  return {second.length, std::max(first.over_edge, second.over_edge), first.field_excess};
+}
+
+std::vector<RemeshedInterface> all_remeshed(const Scene& scene, const EvolutionOptions& options,
+                                            std::span<const std::size_t> interfaces) {
+  const CloseSurfaces surfaces(scene, options.gap_layers);
+  std::vector<double> work;
+  for (const std::size_t i : interfaces) {
+    MENISCUS_ASSERT(i < scene.interfaces.size(), "{} of {} interfaces", i, scene.interfaces.size());
+    work.push_back(scene.interfaces[i].mesh.num_vertices());
+  }
+  std::vector<RemeshedInterface> all(interfaces.size());
+  linear::share_work(
+      linear::Communicator::of(options.processes), work,
+      [&](std::size_t k, Archive& archive) {
+        const std::size_t i = interfaces[k];
+        all[k] = remeshed(scene.interfaces[i], options, surfaces.others(i));
+        save(all[k], archive);
+      },
+      [&](std::size_t k, const Archive& archive) { all[k] = load_remeshed(archive); });
+  return all;
 }
 
 }  // namespace
@@ -37,29 +64,21 @@ std::vector<const SurfaceTree*> CloseSurfaces::others(std::size_t i) const {
   return others;
 }
 
-void CloseSurfaces::replace(std::size_t i, const SurfaceMesh& mesh) {
-  if (i < trees_.size()) trees_[i] = SurfaceTree(mesh);
-}
-
-InterfaceRemesh remesh_interface(State& state, std::size_t i, const EvolutionOptions& options,
-                                 const CloseSurfaces& surfaces) {
-  MENISCUS_ASSERT(i < state.scene.interfaces.size(), "interface {} of {}", i,
-                  state.scene.interfaces.size());
-  Interface& interface = state.scene.interfaces[i];
-  const RemeshOptions how = remesh_options(interface, options, surfaces.others(i));
+RemeshedInterface remeshed(Interface interface, const EvolutionOptions& options,
+                           std::vector<const SurfaceTree*> neighbours) {
+  const RemeshOptions how = remesh_options(interface, options, std::move(neighbours));
   // Topology events can leave creases that the flow does not smooth.
   const MendReport mended =
       options.topology.is_off()
           ? MendReport{.remesh = remesh(interface.mesh, how, interface.fields)}
           : remesh_or_mend(interface.mesh, how, interface.fields);
-  const RemeshReport& remeshed = mended.remesh;
-  widen(state.field_excess, remeshed.field_excess);
-  state.volume_shift[i] = remeshed.volume_shift;
-  state.shift_over_edge = std::max(state.shift_over_edge, remeshed.volume_shift_over_edge);
-  if (!remeshed.ok() || options.surface != SurfaceShape::faceted)
-    restore_volume(state, i, options.surface);
-  return {Report{remeshed.fault}, interface.drop, mended.is_mended, mended.smoothed_over,
-          mended.closed_holes};
+  const RemeshReport& report = mended.remesh;
+  VolumeShift shift{report.volume_shift, report.volume_shift_over_edge, report.field_excess};
+  if (!report.ok() || options.surface != SurfaceShape::faceted)
+    shift = joined(shift, restore_volume(interface, options.surface));
+  return {std::move(interface.mesh), std::move(interface.fields), shift,
+          InterfaceRemesh{Report{report.fault}, interface.drop, mended.is_mended,
+                          mended.smoothed_over, mended.closed_holes}};
 }
 
 std::vector<InterfaceRemesh> remesh_interfaces(State& state, const EvolutionOptions& options,
@@ -67,15 +86,16 @@ std::vector<InterfaceRemesh> remesh_interfaces(State& state, const EvolutionOpti
   MENISCUS_ASSERT(state.volume_shift.size() == state.scene.interfaces.size(),
                   "{} shifts of {} interfaces", state.volume_shift.size(),
                   state.scene.interfaces.size());
-  std::vector<InterfaceRemesh> done;
-  CloseSurfaces surfaces(state.scene, options.gap_layers);
-  for (const std::size_t i : interfaces) {
-    MENISCUS_ASSERT(i < state.scene.interfaces.size(), "{} of {} interfaces", i,
-                    state.scene.interfaces.size());
-    done.push_back(remesh_interface(state, i, options, surfaces));
-    if (done.back().ok()) surfaces.replace(i, state.scene.interfaces[i].mesh);
+  const std::vector<RemeshedInterface> all = all_remeshed(state.scene, options, interfaces);
+  std::vector<InterfaceRemesh> outcomes;
+  for (std::size_t k = 0; k < interfaces.size(); ++k) {
+    Interface& interface = state.scene.interfaces[interfaces[k]];
+    interface.mesh = all[k].mesh;
+    interface.fields = all[k].fields;
+    record(state, interfaces[k], all[k].shift);
+    outcomes.push_back(all[k].outcome);
   }
-  return done;
+  return outcomes;
 }
 
 bool are_interfaces_fit(const Scene& scene, const EvolutionOptions& options) {

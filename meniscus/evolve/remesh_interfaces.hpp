@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "meniscus/evolve/options.hpp"
+#include "meniscus/evolve/remeshed_interface.hpp"
 #include "meniscus/evolve/state.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
 
@@ -16,26 +17,19 @@ class CloseSurfaces {
   CloseSurfaces(const Scene& scene, double gap_layers);
   /// The trees of all surfaces but interface i.
   [[nodiscard]] std::vector<const SurfaceTree*> others(std::size_t i) const;
-  void replace(std::size_t i, const SurfaceMesh& mesh);
 
  private:
   std::vector<SurfaceTree> trees_;  // trees of the interfaces, then of the outer boundary
 };
 
-/// The outcome of remeshing one interface. With a fault its triangles are unchanged.
-struct [[nodiscard]] InterfaceRemesh : Report {
-  int drop = 0;
-  bool is_mended = false;      ///< repair changed its shape or triangles before
-  double smoothed_over = 0.0;  ///< [R0] smoothing length of the whole surface; 0: not smoothed
-  int closed_holes = 0;        ///< holes that closed with a crevice
-};
+/// Remeshes an interface that has these neighbours, and restores its volume, even if remeshing
+/// fails. Fields are transferred.
+[[nodiscard]] RemeshedInterface remeshed(Interface interface, const EvolutionOptions& options,
+                                         std::vector<const SurfaceTree*> neighbours);
 
-/// Remeshes interface i of a state and restores its volume, even if remeshing fails. Fields are
-/// transferred. `state` records the shift and the excess of fields.
-InterfaceRemesh remesh_interface(State& state, std::size_t i, const EvolutionOptions& options,
-                                 const CloseSurfaces& surfaces);
-
-/// Remeshes interfaces one after the other. Each sees the others as they are at that moment.
+/// Remeshes interfaces, each beside the others as they were before, so that the result depends on
+/// no order. The ranks of `options.processes` remesh a share each and exchange what they made.
+/// Collective.
 std::vector<InterfaceRemesh> remesh_interfaces(State& state, const EvolutionOptions& options,
                                                std::span<const std::size_t> interfaces);
 /// Whether all interfaces may stay as they are (`is_fit`).

@@ -10,6 +10,7 @@
 #include "meniscus/evolve/constants.hpp"
 #include "meniscus/evolve/event_archive.hpp"
 #include "meniscus/mesh/field_archive.hpp"
+#include "meniscus/mesh/surface_archive.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/carry_fields.hpp"
 
@@ -17,15 +18,13 @@ namespace meniscus {
 namespace {
 
 // Name of an entry in a checkpoint. A `from-run` drop reads interfaces/<i>/x and faces.
+std::string interface_path(std::size_t i) { return fmt::format("interfaces/{}", i); }
 std::string interface_path(std::size_t i, const char* name) {
-  return fmt::format("interfaces/{}/{}", i, name);
+  return fmt::format("{}/{}", interface_path(i), name);
 }
 
 void save_interface(const Interface& interface, std::size_t i, Archive& archive) {
-  archive.reals[interface_path(i, "x")] = flat(interface.mesh.x);
-  std::vector<std::int64_t>& faces = archive.integers[interface_path(i, "faces")];
-  for (const FaceVertices& f : interface.mesh.faces)
-    faces.insert(faces.end(), {f[0].value, f[1].value, f[2].value});
+  save(interface.mesh, archive, interface_path(i));
   archive.integers[interface_path(i, "ids")] = {interface.drop, interface.parent,
                                                 interface.inside.value, interface.outside.value};
   archive.reals[interface_path(i, "properties")] = {interface.tension, interface.C0,
@@ -47,16 +46,7 @@ void require_sound(const Interface& interface) {
 
 Interface load_interface(const Archive& archive, std::size_t i) {
   Interface interface;
-  interface.mesh.x = vectors<VertexId>(entry_of_rows(archive.reals, interface_path(i, "x"), 3));
-  const auto& faces = entry(archive.integers, interface_path(i, "faces"));
-  const auto vertex = [&](std::int64_t v) {
-    if (v < 0 || v >= interface.mesh.num_vertices())
-      reject_input("checkpoint entry \"{}\" names vertex {} of {}", interface_path(i, "faces"), v,
-                   interface.mesh.num_vertices());
-    return VertexId{static_cast<std::int32_t>(v)};
-  };
-  for (std::size_t k = 0; k + 2 < faces.size(); k += 3)
-    interface.mesh.faces.add({vertex(faces[k]), vertex(faces[k + 1]), vertex(faces[k + 2])});
+  interface.mesh = load_surface(archive, interface_path(i));
   const auto& ids = entry_of_size(archive.integers, interface_path(i, "ids"), 4);
   interface.drop = static_cast<int>(ids[0]);
   interface.parent = static_cast<int>(ids[1]);

@@ -17,16 +17,23 @@ void carry_fields(State& state, std::size_t i, const SurfaceMesh& before) {
   widen(state.field_excess, move_fields(interface.fields, before, interface.mesh));
 }
 
-void restore_volume(State& state, std::size_t i, SurfaceShape surface) {
-  Interface& interface = state.scene.interfaces[i];
-  MENISCUS_ASSERT(interface.volume > 0.0, "interface {} is to have a volume of {:g}", i,
+VolumeShift restore_volume(Interface& interface, SurfaceShape surface) {
+  MENISCUS_ASSERT(interface.volume > 0.0, "drop {} is to have a volume of {:g}", interface.drop,
                   interface.volume);
   const SurfaceMesh before = interface.fields.empty() ? SurfaceMesh() : interface.mesh;
-  const double shift = std::abs(restore_volume(interface.mesh, interface.volume, surface));
-  carry_fields(state, i, before);
-  state.volume_shift[i] = shift;
+  VolumeShift shift;
+  shift.length = std::abs(restore_volume(interface.mesh, interface.volume, surface));
   const VertexField<double> edges = mean_edges(interface.mesh);
-  state.shift_over_edge = std::max(state.shift_over_edge, shift / *std::ranges::min_element(edges));
+  shift.over_edge = shift.length / *std::ranges::min_element(edges);
+  if (!interface.fields.empty())
+    shift.field_excess = move_fields(interface.fields, before, interface.mesh);
+  return shift;
+}
+
+void record(State& state, std::size_t i, const VolumeShift& shift) {
+  state.volume_shift[i] = shift.length;
+  state.shift_over_edge = std::max(state.shift_over_edge, shift.over_edge);
+  widen(state.field_excess, shift.field_excess);
 }
 
 ShiftVerdict ShiftJudge::judge(const State& state, bool can_shorten) {

@@ -11,9 +11,17 @@ namespace meniscus {
 /// Transfers the fields of interface i with its vertices, which moved from `before`.
 void carry_fields(State& state, std::size_t i, const SurfaceMesh& before);
 
-/// Restores the volume of interface i by shifting all vertices by one length, which `state`
-/// records. Fields are transferred.
-void restore_volume(State& state, std::size_t i, SurfaceShape surface);
+/// How an interface's volume was restored.
+struct VolumeShift {
+  double length = 0.0;            ///< [R0] largest shift of a vertex, along its normal
+  double over_edge = 0.0;         ///< largest shift relative to the mean edge at the vertex
+  FieldExcess field_excess = {};  ///< of conserved fields over the range they had
+};
+/// Restores the volume of an interface by shifting all vertices by one length. Fields are
+/// transferred.
+VolumeShift restore_volume(Interface& interface, SurfaceShape surface);
+/// Records the restoration of the volume of interface i in the step under way.
+void record(State& state, std::size_t i, const VolumeShift& shift);
 
 /// The verdict on an attempt at a step, by the shift that restored its volumes.
 enum class ShiftVerdict {

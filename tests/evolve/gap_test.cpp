@@ -7,29 +7,11 @@
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "near_pair.hpp"
 #include "prescribed_flow.hpp"
 
 namespace meniscus {
 namespace {
-
-/// Two drops of 200 vertices a tenth of their radius apart, beside a wall of a sphere.
-Scene near_pair() {
-  Scene scene;
-  scene.boundary.mesh = sphere(400, 4.0);
-  scene.liquids.add(Liquid{});
-  for (const int side : {0, 1}) {
-    Interface drop;
-    drop.drop = side;
-    drop.mesh = sphere(200, 1.0, Vec3(side == 0 ? -1.05 : 1.05, 0, 0));
-    drop.inside = RegionId{side + 1};
-    drop.outside = RegionId{0};
-    drop.C0 = 200 / (4.0 * std::numbers::pi);
-    drop.volume = drop.initial_volume = enclosed_volume(drop.mesh);
-    scene.interfaces.push_back(drop);
-    scene.liquids.add(Liquid{});
-  }
-  return scene;
-}
 
 Scene remeshed(double gap_layers, int steps) {
   EvolutionOptions options;
@@ -37,7 +19,7 @@ Scene remeshed(double gap_layers, int steps) {
   options.max_step = 1e-3;
   options.end = 1.0;
   Evolution evolution(
-      near_pair(), options,
+      test::near_pair(), options,
       std::make_unique<PrescribedFlow>([](const Vec3&, double) { return Vec3(Vec3::Zero()); }));
   EXPECT_TRUE(evolution.prepare().ok());
   for (int step = 0; step < steps; ++step) {

@@ -24,8 +24,8 @@ USES = {
     "flow": ["core", "geometry", "mesh", "scene", "volume"],
     "flow/fem": ["core", "geometry", "mesh", "linear", "scene", "surface", "volume", "flow"],
     "flow/bem": ["core", "geometry", "mesh", "linear", "scene", "surface", "flow"],
-    "evolve": ["core", "geometry", "mesh", "scene", "surface", "surface/repair", "topology",
-               "volume", "flow"],
+    "evolve": ["core", "geometry", "mesh", "linear", "scene", "surface", "surface/repair",
+               "topology", "volume", "flow"],
     "case": ["core", "geometry", "mesh", "io", "scene", "surface", "surface/repair", "topology",
              "volume", "flow", "flow/fem", "flow/bem", "evolve"],
     "report": ["core", "geometry", "mesh", "io"],
@@ -49,7 +49,7 @@ LIBRARIES = [
     ("libmicrohttpd", re.compile(r"microhttpd"), ["app"]),
     ("librsvg and cairo", re.compile(r"librsvg|cairo"), ["report"]),
     ("zlib", re.compile(r"zlib"), ["report"]),
-    ("nlohmann-json", re.compile(r"nlohmann/"), ["case", "report", "app"]),
+    ("nlohmann-json", re.compile(r"nlohmann/"), ["linear", "case", "report", "app"]),
 ]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "meniscus/core/archive.hpp"
+#include "meniscus/linear/communicator.hpp"
+
+namespace meniscus::linear {
+
+/// The rank that does each piece of work: the largest piece first, each by the rank that has least
+/// to do so far.
+[[nodiscard]] std::vector<int> ranks_for(std::span<const double> work, int num_ranks);
+
+/// Makes piece k and saves it for the ranks that do not make it.
+using MakePiece = std::function<void(std::size_t k, Archive& archive)>;
+/// Takes piece k as another rank saved it.
+using TakePiece = std::function<void(std::size_t k, const Archive& archive)>;
+
+/// Shares independent pieces of work of about the given sizes, the same on all ranks: each is made
+/// by one rank and taken by the others. What `make` throws on one rank is thrown on all, as
+/// RunFailure, with the text of the first rank that threw. Collective.
+void share_work(Communicator communicator, std::span<const double> work, const MakePiece& make,
+                const TakePiece& take);
+
+}  // namespace meniscus::linear
