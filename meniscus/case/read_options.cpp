@@ -113,6 +113,9 @@ EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elem
   options.edge_floor =
       settings.number_or("interface.edge-floor", 0.5 * settings.number("topology.breakup-radius"));
   options.topology = read_topology(settings, options.edge_floor);
+  settings.prefer("interface.neck-edges",
+                  std::int64_t{options.surface == SurfaceShape::splined ? kDefaultNeckEdges : 0});
+  options.neck_edges = settings.whole("interface.neck-edges");
   options.gap_layers = settings.whole("interface.gap-layers");
   return options;
 }

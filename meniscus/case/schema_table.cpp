@@ -465,6 +465,12 @@ const std::vector<Key> kKeys{
          "No interface edge is asked to be shorter, however curved the interface. A floor above "
          "half the edge length with which a drop has 42 vertices is lowered to that, for "
          "this drop."},
+    {.path = "interface.neck-edges",
+     .type = whole,
+     .range = {.min = 0, .max = 100},
+     .default_note = "15 with P2-P1; 0 without",
+     .sentence = "Edges asked for around a neck or a thread, however thin, down to the edge floor; "
+                 "0: as many as nodes gives."},
     {.path = "interface.gap-layers",
      .type = whole,
      .range = {.min = 0, .max = 100},

@@ -18,6 +18,7 @@
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/carry_fields.hpp"
+#include "meniscus/volume/tetrahedralize.hpp"
 
 namespace meniscus {
 namespace {
@@ -235,11 +236,15 @@ bool Evolution::is_remesh_due() {
   return !are_interfaces_fit(state_.scene, options_);
 }
 
-/// Moves the mesh with interfaces of the same connectivity.
+/// Moves the mesh with interfaces of the same connectivity. A fault if it is to be made anew.
 Report Evolution::keep_mesh(const Scene& start, const FlowSolution& flow, double dt) {
   Report moved = move_mesh(start, mean_motion(start, state_.scene, dt), flow, dt);
-  if (moved.ok() && state_.mesh && is_remeshed_as_needed() && !state_.mesh->is_fit())
+  if (!moved.ok() || !state_.mesh) return moved;
+  state_.mesh->place_interfaces(state_.scene);
+  if (is_remeshed_as_needed() && !state_.mesh->is_fit())
     moved.fault = Fault{FaultKind::poor_cell, "a cell of the moved mesh has too small an angle"};
+  else if ((state_.step + 1) % kStepsBetweenChecks == 0)
+    moved.fault = find_defect(state_.mesh->tetrahedra(), state_.scene);
   return moved;
 }
 

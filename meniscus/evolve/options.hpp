@@ -46,6 +46,7 @@ struct EvolutionOptions {
   double spring_tolerance =
       0.0;                  ///< tolerance of the springs (RemeshOptions); 0: the remesher's default
   double edge_floor = 0.0;  ///< [R0] smallest target length of interface edges
+  double neck_edges = 0.0;  ///< edges around a neck or a thread; 0: not controlled
   double gap_layers = 0.0;  ///< layers of tetrahedra between close sheets; 0: not controlled
   /// Which processes share the remeshing of the interfaces; all have the same state.
   linear::Processes processes = linear::Processes::alone;

@@ -17,6 +17,7 @@ RemeshOptions remesh_options(const Interface& interface, const EvolutionOptions&
   options.restores_volume = run.surface == SurfaceShape::faceted;
   if (options.restores_volume) options.volume = interface.volume;
   options.spring_tolerance = run.spring_tolerance;
+  options.neck_edges = run.neck_edges;
   options.gap_layers = run.gap_layers;
   options.neighbours = std::move(neighbours);
   return options;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
 
 #include <Eigen/LU>
@@ -19,6 +20,11 @@ constexpr Eigen::Index kTerms = 1 + num_monomials(4);
 constexpr std::size_t kMostPoints = 32;
 
 using Vec2 = Eigen::Vector2d;
+// Of a spline's equations: of bounded size, so that no memory is allocated for each edge.
+constexpr int kMostUnknowns = static_cast<int>(kMostPoints + kTerms);
+using Matrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostUnknowns, kMostUnknowns>;
+using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostUnknowns, 1>;
 
 double spline(const Vec2& d) {
   const double squared = d.squaredNorm();
@@ -48,8 +54,8 @@ double interpolated_level(const LevelFrame& frame, std::span<const Vec3> points)
     const Vec3 d = (p - frame.axes.x) / h;
     at.emplace_back(d.dot(frame.axes.t1), d.dot(frame.axes.t2));
   }
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count + kTerms, count + kTerms);
-  Eigen::VectorXd side(count + kTerms);
+  Matrix matrix = Matrix::Zero(count + kTerms, count + kTerms);
+  Vector side(count + kTerms);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Vec2& here = at[static_cast<std::size_t>(i)];
     for (Eigen::Index j = 0; j < i; ++j)
@@ -59,7 +65,7 @@ double interpolated_level(const LevelFrame& frame, std::span<const Vec3> points)
     side[i] = spline(here);
   }
   side.tail<kTerms>() << 1.0, Eigen::Matrix<double, num_monomials(4), 1>::Zero();
-  const Eigen::VectorXd weights = matrix.partialPivLu().solve(side).head(count);
+  const Vector weights = matrix.partialPivLu().solve(side).head(count);
   const double amplification = weights.lpNorm<1>();
   // A singular matrix leaves weights that are large or not numbers.
   if (!(amplification < 2.0 * kMostAmplification)) return 0.0;
@@ -80,12 +86,14 @@ void gather(RingGatherer& rings, const SurfaceEdge& edge, const Vec3& center,
   points.clear();
   for (const VertexId end : {edge.a, edge.b})
     for (const Vec3& p : rings.gather(end, true)) points.push_back(p);
-  const auto key = [&](const Vec3& p) {
-    return std::tuple((p - center).squaredNorm(), p.x(), p.y(), p.z());
-  };
-  std::ranges::sort(points, {}, key);
-  points.erase(std::ranges::unique(points).begin(), points.end());
-  if (points.size() > kMostPoints) points.resize(kMostPoints);
+  std::vector<std::tuple<double, double, double, double>> keys;
+  keys.reserve(points.size());
+  for (const Vec3& p : points) keys.emplace_back((p - center).squaredNorm(), p.x(), p.y(), p.z());
+  std::ranges::sort(keys);
+  keys.erase(std::ranges::unique(keys).begin(), keys.end());
+  if (keys.size() > kMostPoints) keys.resize(kMostPoints);
+  points.clear();
+  for (const auto& [distance, x, y, z] : keys) points.emplace_back(x, y, z);
 }
 
 std::vector<Vec3> straight_middles(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
@@ -140,11 +148,19 @@ std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh, const SurfaceTopol
 
 std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                                      const SmoothSurface& smooth) {
+  return middles_on_splines(mesh, topology, smooth, 0, topology.edges().size());
+}
+
+std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh, const SurfaceTopology& topology,
+                                     const SmoothSurface& smooth, std::size_t first,
+                                     std::size_t end) {
+  MENISCUS_ASSERT(first <= end && end <= topology.edges().size(), "edges {} to {} of {}", first,
+                  end, topology.edges().size());
   const VertexField<VertexCurvature>& curvature = smooth.vertex_curvature();
   RingGatherer rings(mesh, topology);
   std::vector<Vec3> points, middles;
-  middles.reserve(topology.edges().size());
-  for (const SurfaceEdge& edge : topology.edges()) {
+  middles.reserve(end - first);
+  for (const SurfaceEdge& edge : std::span(topology.edges()).subspan(first, end - first)) {
     const VertexCurvature &at_a = curvature[edge.a], &at_b = curvature[edge.b];
     const LevelFrame frame{
         flat_patch(smooth.edge_point(edge.a, edge.b, 0.5), (at_a.n + at_b.n).normalized()),

@@ -44,5 +44,10 @@ enum class SurfaceShape { faceted, patched, splined };
 [[nodiscard]] std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh,
                                                    const SurfaceTopology& topology,
                                                    const SmoothSurface& smooth);
+/// Those of the edges from number `first` to before `end`, as ranks share them out.
+[[nodiscard]] std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh,
+                                                   const SurfaceTopology& topology,
+                                                   const SmoothSurface& smooth, std::size_t first,
+                                                   std::size_t end);
 
 }  // namespace meniscus

@@ -201,6 +201,7 @@ void RemeshOptions::validate() const {
           "zero or positive");
   require(edge_ceiling > edge_floor, "edge_ceiling", edge_ceiling, "larger than edge_floor");
   require(gradation > 0.0, "gradation", gradation, "positive");
+  require(neck_edges >= 0.0 && neck_edges <= 100.0, "neck_edges", neck_edges, "between 0 and 100");
   require(gap_layers >= 0.0 && gap_layers <= 100.0, "gap_layers", gap_layers, "between 0 and 100");
   require(min_vertices >= 4, "min_vertices", min_vertices, "at least 4");
   require(max_sweeps >= 1, "max_sweeps", max_sweeps, "at least 1");

@@ -30,6 +30,7 @@ struct RemeshOptions {
   std::function<double(const Vec3& x)> size_bound = {};
   /// What else makes the result unfit (such as `find_self_intersection`); may be empty.
   std::function<std::optional<Fault>(const SurfaceMesh&)> find_fault = {};
+  double neck_edges = 0.0;  ///< edges asked for around a neck or a thread; 0: none
   double gap_layers = 0.0;  ///< layers of tetrahedra asked for where sheets are close; 0: none
   /// Other surfaces that may be close; they must outlive the call.
   std::vector<const SurfaceTree*> neighbours = {};

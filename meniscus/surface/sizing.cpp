@@ -92,14 +92,19 @@ FaceField<double> excess(const FaceField<double>& values, const VertexField<doub
 /// exceeds the mean of these over the cell by: back from that mean, 5h²/12 above the vertex's value
 /// for a peak, that of face means 2h²/3; but a d of a few per cent is noise of the fits, which
 /// would only make coarse meshes uneven.
-VertexField<double> squared_rms(const SurfaceMesh& mesh, const SmoothSurface& surface) {
+struct CellCurvature {
+  VertexField<double> squared_rms;  // ⟨κ⟩²
+  VertexField<double> gaussian;     // K
+};
+CellCurvature cell_curvature(const SurfaceMesh& mesh, const SmoothSurface& surface) {
   constexpr double kFirst = 1.0 / 8.0, kSecond = 1.2, kSharper = 5.0 / 8.0, kNoise = 0.1;
   FaceField<FaceTurn> turns;
-  FaceField<double> H;
+  FaceField<double> H, K;
   for (const FaceVertices& v : mesh.faces) {
     const FaceTurn turn = face_turn(v, mesh, surface);
     turns.add(turn);
     H.add(turn.H);
+    K.add(turn.K);
   }
   const CellMeans cells(mesh, turns);
   const VertexField<double> corner_H = cells.of(H);
@@ -122,7 +127,7 @@ VertexField<double> squared_rms(const SurfaceMesh& mesh, const SmoothSurface& su
     // No shape operator has less: noise of K must not feign a flat place.
     result[v] = std::max(result[v], least[v] * least[v]);
   }
-  return result;
+  return {std::move(result), cells.of(K)};
 }
 
 /// Determinant over squared trace below which a ring shows a slope in one direction only.
@@ -150,6 +155,23 @@ Allowance allowance(const VertexField<double>& squared_curvature, const SurfaceM
     integral += areas[v] * squared_curvature[v];
   }
   return {std::max(options.C0, options.min_vertices / integral), lowered_floor(area, options)};
+}
+
+/// Lowers rest lengths on necks and threads, k1 being the largest principal curvature:
+///   l0 ← l0^(1−w) min(l0, 2π/(n k1))^w,   w = 1 − 2K/⟨κ⟩² within [0, 1],
+/// which is 1 on cylinders and saddles and 0 where the smaller principal curvature is more than
+/// 0.27 of the larger one.
+void bound_by_necks(VertexField<double>& length, const CellCurvature& curvature,
+                    double neck_edges) {
+  for (const VertexId v : length.ids()) {
+    const double squared = curvature.squared_rms[v];
+    if (!(squared > 0.0)) continue;
+    const double K = std::clamp(curvature.gaussian[v], -squared, squared);
+    const double k1 = std::sqrt(0.5 * (squared + K)) + std::sqrt(0.5 * (squared - K));
+    const double w = std::clamp(1.0 - 2.0 * K / squared, 0.0, 1.0);
+    const double bound = 2.0 * std::numbers::pi / (neck_edges * k1);
+    if (bound < length[v]) length[v] *= std::pow(bound / length[v], w);
+  }
 }
 
 }  // namespace
@@ -212,7 +234,8 @@ VertexField<double> rest_lengths(const SurfaceMesh& mesh, const SurfaceTopology&
   if (const double least = lowered_floor(surface_area(mesh), options);
       options.edge_ceiling <= least * (1.0 + kEqualBounds))
     return {mesh.num_vertices(), least};
-  const VertexField<double> squared = squared_rms(mesh, surface);
+  const CellCurvature curvature = cell_curvature(mesh, surface);
+  const VertexField<double>& squared = curvature.squared_rms;
   const auto [C0, edge_floor] = allowance(squared, mesh, options);
   VertexField<double> length(mesh.num_vertices());
   for (const VertexId v : mesh.x.ids()) {
@@ -220,9 +243,9 @@ VertexField<double> rest_lengths(const SurfaceMesh& mesh, const SurfaceTopology&
     if (options.size_bound) l = std::min(l, options.size_bound(mesh.x[v]));
     length[v] = l;
   }
-  if (options.gap_layers > 0.0) {
+  if (options.neck_edges > 0.0) bound_by_necks(length, curvature, options.neck_edges);
+  if (options.gap_layers > 0.0)
     bound_by_gaps(length, mesh, surface.vertex_normals(), options.gap_layers, options.neighbours);
-  }
   for (double& l : length) l = std::max(l, edge_floor);
   limit_gradation(length, mesh, topology, options.gradation);
   return length;

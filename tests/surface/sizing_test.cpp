@@ -25,6 +25,35 @@ TEST(RestLengths, SphereAsksForItsNodes) {
   EXPECT_DOUBLE_EQ(density_of_length(length_of_density(3.7)), 3.7);
 }
 
+TEST(RestLengths, AThreadHasItsEdgesAround) {
+  const double C0 = 110 / (4.0 * std::numbers::pi);
+  // At the waist of a prolate ellipsoid of axes a, 1, 1 the curvatures are 1 and 1/a².
+  const SurfaceMesh thread = stretched_sphere(4000, Vec3(6, 1, 1));
+  const auto plain = lengths(thread, {.C0 = C0}),
+             bounded = lengths(thread, {.C0 = C0, .neck_edges = 15.0}),
+             few = lengths(thread, {.C0 = C0, .neck_edges = 8.0});
+  int at_waist = 0, at_tips = 0;
+  for (const VertexId v : thread.x.ids()) {
+    EXPECT_LE(bounded[v], plain[v]);
+    EXPECT_DOUBLE_EQ(few[v], plain[v]);  // a cylinder has 12.2 of its own
+    if (std::abs(thread.x[v].x()) < 0.3) {
+      ++at_waist;
+      EXPECT_NEAR(2.0 * std::numbers::pi / plain[v], 12.2, 0.1);
+      // w = 1 − 4/a² to the second order in 1/a².
+      EXPECT_NEAR(2.0 * std::numbers::pi / bounded[v], 15.0 * std::pow(12.2 / 15.0, 4.0 / 36.0),
+                  0.1);
+    }
+    if (std::abs(thread.x[v].x()) > 5.98) {
+      ++at_tips;
+      EXPECT_DOUBLE_EQ(bounded[v], plain[v]);
+    }
+  }
+  EXPECT_GT(at_waist, 50);
+  EXPECT_GT(at_tips, 3);
+  const SurfaceMesh ball = sphere(300);
+  EXPECT_EQ(lengths(ball, {.C0 = C0, .neck_edges = 30.0}), lengths(ball, {.C0 = C0}));
+}
+
 TEST(RestLengths, ObeyFloorCeilingAndBound) {
   const SurfaceMesh mesh = stretched_sphere(500, Vec3(3, 1, 1));
   const auto plain = lengths(mesh, {.C0 = 40.0});

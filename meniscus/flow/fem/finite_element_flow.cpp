@@ -206,9 +206,9 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
     if (!(signed_volume(mesh, c) > 0.0))
       return failed_flow({FaultKind::inverted_cell, "a cell of the volume mesh is inverted",
                           mesh.x[mesh.cells[c][0]]});
-  const InstantProblem problem =
-      instant_problem(domain.scene, mesh, space_, node_positions(domain.scene, mesh, space_),
-                      options_.capillary, instant.t);
+  const InstantProblem problem = instant_problem(
+      domain.scene, mesh, space_, node_positions(domain.scene, mesh, space_, options_.processes),
+      options_.capillary, instant.t);
   if (problem.fault) return failed_flow(*problem.fault);
   StokesState state = first_guess(problem.stokes);
   const bool is_kept = prepared_at_.has_value();

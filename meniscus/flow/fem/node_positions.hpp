@@ -3,6 +3,7 @@
 #include <span>
 
 #include "meniscus/flow/fem/spaces.hpp"
+#include "meniscus/linear/communicator.hpp"
 #include "meniscus/scene/scene.hpp"
 
 namespace meniscus::fem {
@@ -30,7 +31,9 @@ void settle_curved_cells(const TetMesh& mesh, const FlowSpace& space, NodePositi
 
 /// The positions of all nodes for a scene. Edges of interfaces are curved through the middles that
 /// belong to the interface, edges of the outer boundary as its patches say; others are straight.
+/// The processes share out the interfaces' edges; all get the same positions. Collective.
 [[nodiscard]] NodePositions node_positions(const Scene& scene, const TetMesh& mesh,
-                                           const FlowSpace& space);
+                                           const FlowSpace& space,
+                                           linear::Processes processes = linear::Processes::alone);
 
 }  // namespace meniscus::fem
