@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 
 #include <nlohmann/json.hpp>
@@ -19,15 +20,21 @@ using Bytes = std::vector<std::uint8_t>;
 struct Share {
   std::vector<Archive> pieces;
   std::string error;
+  bool is_input_wrong = false;  // the error is an InvalidInput
 };
+
+constexpr const char* kNoText = "an error without a text";
 
 Share made(std::span<const int> owner, int rank, const MakePiece& make) {
   Share share;
   try {
     for (std::size_t k = 0; k < owner.size(); ++k)
       if (owner[k] == rank) make(k, share.pieces.emplace_back());
+  } catch (const InvalidInput& error) {
+    share = {{}, error.what(), true};
   } catch (const std::exception& error) {
-    share = {{}, *error.what() == '\0' ? "an error without a text" : error.what()};
+    share = {{}, error.what()};
+    if (share.error.empty()) share.error = kNoText;
   }
   return share;
 }
@@ -37,13 +44,16 @@ Bytes packed(const Share& share) {
   for (const Archive& piece : share.pieces)
     pieces.push_back(
         {{"reals", piece.reals}, {"integers", piece.integers}, {"texts", piece.texts}});
-  return json::to_msgpack({{"error", share.error}, {"pieces", std::move(pieces)}});
+  return json::to_msgpack({{"error", share.error},
+                           {"is_input_wrong", share.is_input_wrong},
+                           {"pieces", std::move(pieces)}});
 }
 
 Share unpacked(const Bytes& bytes) {
   const json all = json::from_msgpack(bytes);
   Share share;
   all.at("error").get_to(share.error);
+  all.at("is_input_wrong").get_to(share.is_input_wrong);
   for (const json& piece : all.at("pieces")) {
     Archive& archive = share.pieces.emplace_back();
     piece.at("reals").get_to(archive.reals);
@@ -110,8 +120,10 @@ void share_work(Communicator communicator, std::span<const double> work, const M
   std::vector<Share> shares;
   for (const Bytes& bytes : exchanged(communicator, packed(made(owner, rank, make))))
     shares.push_back(unpacked(bytes));
-  for (const Share& share : shares)
+  for (const Share& share : shares) {
+    if (share.is_input_wrong) throw InvalidInput(share.error);
     if (!share.error.empty()) throw RunFailure(share.error);
+  }
   take_all(owner, rank, shares, take);
 }
 

@@ -67,6 +67,14 @@ TEST(RanksShareWork, EveryPieceIsMadeOnceAndReachesAllBitForBit) {
   }
 }
 
+TEST(RanksShareWork, WrongInputStaysWrongInput) {
+  const std::vector<double> work = {2, 1};
+  const auto make = [](std::size_t k, Archive&) {
+    if (k == 1) throw InvalidInput("piece 1 is wrong");
+  };
+  EXPECT_THROW(share_work(world(), work, make, [](std::size_t, const Archive&) {}), InvalidInput);
+}
+
 TEST(RanksShareWork, WhatOneThrowsAllThrow) {
   const std::vector<double> work = {2, 1};
   const auto make = [](std::size_t k, Archive&) {
