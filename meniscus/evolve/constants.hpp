@@ -21,16 +21,19 @@ inline constexpr double kLeastVolumeKept = 0.5, kMostVolumeKept = 2.0;
 /// The semi-implicit scheme damps what this share of a step would change, 1 − 1/√2: short waves
 /// then vanish in a long step (docs/time-stepping.md).
 inline constexpr double kDampedShare = 1.0 - 0.5 * std::numbers::sqrt2;
+/// Waves that change by less than this in the damped share of a step are damped by the square of
+/// that change only: explicit steps bear them, and damping would make slow motions late.
+inline constexpr double kUndampedShare = 0.5;
 /// [1/R²] What damping adds to −Δ_s, which has 6 in the slowest mode of a sphere of radius R.
 inline constexpr double kSphereStiffness = 6.0;
 /// How much more waves on flat faces are damped: where the drop is viscous, linear elements let the
 /// shortest decay up to a fifth faster than the exact flow does.
-inline constexpr double kFacetedStiffness = 1.1;
+inline constexpr double kFacetedStiffness = 1.2;
 /// A shape whose turning moves it along its normals by less than the root of this, relative to the
 /// turning itself, is too round to have a spin: ellipsoids of D below 0.02.
 inline constexpr double kRoundness = 1e-3;
 /// [shortest edge] The tolerance of the error in a step where a case does not set one.
-inline constexpr double kDefaultTolerance = 0.05;
+inline constexpr double kDefaultTolerance = 0.03;
 /// [1/G] The longest step under error control where a case does not set one.
 inline constexpr double kDefaultLongestStep = 1.0;
 /// Edges around a neck where a case does not say how many and faces are splined. In a thinning
@@ -75,6 +78,7 @@ inline constexpr std::array kEvolveConstants{
     NamedConstant{"least-volume-kept", kLeastVolumeKept},
     NamedConstant{"most-volume-kept", kMostVolumeKept},
     NamedConstant{"damped-share", kDampedShare},
+    NamedConstant{"undamped-share", kUndampedShare},
     NamedConstant{"sphere-stiffness", kSphereStiffness},
     NamedConstant{"faceted-stiffness", kFacetedStiffness},
     NamedConstant{"roundness", kRoundness},

@@ -8,6 +8,8 @@
 #include "meniscus/evolve/constants.hpp"
 #include "meniscus/evolve/vertex_travel.hpp"
 #include "meniscus/evolve/wave_damping.hpp"
+#include "meniscus/mesh/sphere_radius.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
 
 namespace meniscus {
 namespace {
@@ -40,6 +42,29 @@ std::vector<double> least_viscosities(const FlowSolution& flow, const Scene& sce
   std::vector<double> viscosities;
   for (const Liquid& liquid : scene.liquids) viscosities.push_back(liquid.viscosity);
   return viscosities;
+}
+
+double mean(const VertexField<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / values.size();
+}
+
+VertexField<double> difference(VertexField<double> a, const VertexField<double>& b) {
+  for (const VertexId v : a.ids()) a[v] -= b[v];
+  return a;
+}
+
+/// n·c, c the velocity ∮(x − x_c) s dS/V of the enclosed centroid x_c at normal speeds s.
+VertexField<double> translation_speeds(const SurfaceMesh& mesh, const VertexField<double>& s) {
+  const VertexField<Vec3> area = vertex_area_vectors(mesh);
+  const Vec3 centroid = enclosed_centroid(mesh);
+  Vec3 c = Vec3::Zero();
+  for (const VertexId v : s.ids()) c += area[v].norm() * s[v] * (mesh.x[v] - centroid);
+  c /= enclosed_volume(mesh);
+  VertexField<double> speeds;
+  for (const Vec3& a : area) speeds.add(a.normalized().dot(c));
+  return speeds;
 }
 
 }  // namespace
@@ -123,11 +148,23 @@ StageFlow chebyshev_step(const StageFlow& first, const Step& step, int num_stage
 
 double step_error(const Step& step, const NormalSpeeds& second, const NormalSpeeds& first) {
   MENISCUS_ASSERT(first.size() == second.size(), "{} {}", first.size(), second.size());
+  std::vector<VertexField<double>> edges;
+  double coarse_edge = 0.0;
+  for (const Interface& interface : step.start.interfaces) {
+    edges.push_back(shortest_edges(interface.mesh));
+    coarse_edge = std::max(coarse_edge, mean(edges.back()));
+  }
   double largest = 0.0;
   for (std::size_t i = 0; i < second.size(); ++i) {
-    const VertexField<double> edges = shortest_edges(step.start.interfaces[i].mesh);
-    for (const VertexId v : edges.ids())
-      largest = std::max(largest, step.dt * std::abs(second[i][v] - first[i][v]) / edges[v]);
+    const Interface& interface = step.start.interfaces[i];
+    const double way = std::min(coarse_edge, sphere_radius(interface.volume));
+    const VertexField<double> apart = difference(second[i], first[i]),
+                              carried = translation_speeds(interface.mesh, apart);
+    for (const VertexId v : apart.ids()) {
+      const double edge = edges[i][v];
+      const double error = (apart[v] - carried[v]) / edge + carried[v] / std::max(edge, way);
+      largest = std::max(largest, step.dt * std::abs(error));
+    }
   }
   return largest;
 }

@@ -35,7 +35,8 @@ SparseMatrix stiffness(const SurfaceMesh& mesh) {
   return K;
 }
 
-/// 1/(1 + αΛ^½) = (2/π)∫αs²/((1 + α²s²)(s² + Λ)) ds over s > 0, by the trapezoidal rule in ln s.
+/// 1/(1 + b(αΛ^½)) with b(q) = q²/(q + q0), by the trapezoidal rule in ln s for
+///   (2/π)∫ y³s/(((q0 − y²)² + y²)(s² + Λ)) ds,   y = αs,   over s > 0.
 /// Where s² is far above all Λ of a matrix, the terms are multiples of the identity.
 struct InverseSum {
   struct Term {
@@ -46,21 +47,22 @@ struct InverseSum {
 };
 
 InverseSum inverse_sum(double alpha, double least, double most) {
-  constexpr double kSpacing = 1.0, kBelow = 0.1, kAbove = 4.0, kSmallest = 1e-9;
+  constexpr double kSpacing = 0.5, kBelow = 0.05, kAbove = 4.0, kSmallest = 1e-9;
   InverseSum sum;
   const double factor = 2.0 / std::numbers::pi * kSpacing, growth = std::exp(kSpacing);
   for (double s = kBelow * std::sqrt(least);; s *= growth) {
-    const double weight = factor * alpha * s / (1.0 + alpha * alpha * s * s);
+    const double y = alpha * s, square = y * y, rest = kUndampedShare - square;
+    const double weight = factor * square * y / (rest * rest + square);
     if (s < kAbove * std::sqrt(most)) {
       sum.terms.push_back({s * s, weight * s * s});
       continue;
     }
     sum.rest += weight;
-    if (alpha * s > 1.0 && weight < kSmallest) return sum;
+    if (y > 1.0 && weight < kSmallest) return sum;
   }
 }
 
-/// What 1/(1 + α(M⁻¹K + k)^½) makes of s.
+/// What 1/(1 + b(α(M⁻¹K + k)^½)) makes of s.
 Eigen::VectorXd damped(const SparseMatrix& K, const Eigen::VectorXd& mass, double k, double alpha,
                        const Eigen::VectorXd& s) {
   const double most = 2.0 * (K.diagonal().array() / mass.array()).maxCoeff() + k;

@@ -10,7 +10,8 @@ using fem::Elements;
 
 TEST(SemiImplicitLong, QuadraticElementsAreOfSecondOrderInTime) {
   for (const double order : orders_in_relaxation(Elements::p2_p1)) EXPECT_NEAR(order, 2.0, 0.2);
-  for (const double order : orders_in_shear(Elements::p2_p1)) EXPECT_NEAR(order, 2.0, 0.2);
+  // The midpoint rule is of second order itself; damping differs from it by the third.
+  for (const double order : orders_beside_midpoint(Elements::p2_p1)) EXPECT_GT(order, 1.8);
 }
 
 struct Way {

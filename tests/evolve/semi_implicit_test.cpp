@@ -13,7 +13,6 @@ using fem::Elements;
 class SemiImplicit : public testing::TestWithParam<Elements> {};
 INSTANTIATE_TEST_SUITE_P(P1AndP2, SemiImplicit, testing::Values(Elements::p1_p1, Elements::p2_p1));
 
-// Against the midpoint rule, of second order itself: what both have in common is left out.
 TEST(SemiImplicit, IsOfSecondOrderInTime) {
   for (const double order : orders_in_relaxation(Elements::p1_p1)) EXPECT_NEAR(order, 2.0, 0.2);
   for (const double order : orders_in_shear(Elements::p1_p1)) EXPECT_NEAR(order, 2.0, 0.2);
