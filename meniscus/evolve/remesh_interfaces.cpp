@@ -15,7 +15,6 @@ RemeshOptions remesh_options(const Interface& interface, const EvolutionOptions&
                              std::vector<const SurfaceTree*> neighbours) {
   RemeshOptions options = sound_remeshing(interface.C0, run.edge_floor);
   options.restores_volume = run.surface == SurfaceShape::faceted;
-  options.is_splined = run.surface == SurfaceShape::splined;
   if (options.restores_volume) options.volume = interface.volume;
   options.spring_tolerance = run.spring_tolerance;
   options.neck_edges = run.neck_edges;

@@ -14,7 +14,6 @@
 #include "meniscus/surface/restore_volume.hpp"
 #include "meniscus/surface/restructure.hpp"
 #include "meniscus/surface/sizing.hpp"
-#include "meniscus/surface/spline_surface.hpp"
 #include "meniscus/surface/springs.hpp"
 
 namespace meniscus {
@@ -93,13 +92,6 @@ NewSurface new_surface(const RemeshState& state) {
   return result;
 }
 
-/// Puts the vertices of a new surface on the splines through those of the old one.
-void put_on_splines(NewSurface& made, const SurfaceMesh& mesh, const SurfaceTopology& topology,
-                    const SmoothSurface& smooth) {
-  SplineSurface splines(mesh, topology, smooth);
-  for (const VertexId v : made.points.ids()) made.mesh.x[v] = splines.point(made.points[v]);
-}
-
 /// Restores the volume and records by how much it had changed and how far vertices moved for it:
 /// all by the same fraction of their edges, as a face lies below the surface by κl²/16 and κl is
 /// about the same everywhere.
@@ -164,9 +156,7 @@ std::optional<Fault> rebuild(SurfaceMesh& mesh, const RemeshOptions& options, Su
   report.expected_vertices = expected_vertices(state);
   if (auto fault = find_fold(state)) return fault;
 
-  NewSurface made = new_surface(state);
-  if (options.is_splined) put_on_splines(made, mesh, topology, reference.surface);
-  auto& [result, points] = made;
+  auto [result, points] = new_surface(state);
   correct_volume(result, enclosed_volume(mesh), options, report);
   report.min_angle_deg = smallest_angle_deg(result);
   if (auto fault = find_fault(result, smallest_angle_deg(mesh), options, report)) return fault;

@@ -13,11 +13,9 @@
 namespace meniscus {
 
 struct RemeshOptions {
-  double C0 = 8.75;             ///< ρ = C0⟨κ⟩² (eq. 1); C0 = N0/4π
-  double volume = 0.0;          ///< volume to restore [R0³]; 0: that of the surface as given
-  bool restores_volume = true;  ///< false: the change is reported and left
-  /// New vertices lie on splines through the old ones (`SplineSurface`), not on SmoothSurface.
-  bool is_splined = false;
+  double C0 = 8.75;               ///< ρ = C0⟨κ⟩² (eq. 1); C0 = N0/4π
+  double volume = 0.0;            ///< volume to restore [R0³]; 0: that of the surface as given
+  bool restores_volume = true;    ///< false: the change is reported and left
   double edge_floor = 0.0;        ///< [R0] no edge is asked to be shorter
   double edge_ceiling = 1e300;    ///< [R0] no edge is asked to be longer
   double gradation = kGradation;  ///< largest |∇l0| of the rest length

@@ -132,7 +132,7 @@ Mat3 simple_shear() {
 }
 
 std::array<double, 2> orders_in_relaxation(fem::Elements elements) {
-  return orders({.elements = elements, .Ca = 0.5, .D = 0.0, .l4 = 0.1, .rtol = 1e-9}, 0.0625,
+  return orders({.elements = elements, .Ca = 0.5, .D = 0.0, .l4 = 0.1, .rtol = 1e-9}, 0.05,
                 [&](const Evolution& evolution) { return area_in(evolution, elements); });
 }
 
