@@ -21,13 +21,15 @@ inline constexpr double kLeastVolumeKept = 0.5, kMostVolumeKept = 2.0;
 /// The semi-implicit scheme damps what this share of a step would change, 1 − 1/√2: short waves
 /// then vanish in a long step (docs/time-stepping.md).
 inline constexpr double kDampedShare = 1.0 - 0.5 * std::numbers::sqrt2;
-/// Waves that change by less than this in the damped share of a step are damped by the square of
-/// that change only: explicit steps bear them, and damping would make slow motions late.
+/// q0 of b(q) = q²/(q + q0), what damping adds to a wave that changes by q in the damped share of a
+/// step. It is q²/q0 for q below q0: explicit steps bear such waves, and damping would make slow
+/// motions late. Above ½ waves that tension moves as fast as the exact flow could grow.
 inline constexpr double kUndampedShare = 0.5;
 /// [1/R²] What damping adds to −Δ_s, which has 6 in the slowest mode of a sphere of radius R.
 inline constexpr double kSphereStiffness = 6.0;
 /// How much more waves on flat faces are damped: where the drop is viscous, linear elements let the
-/// shortest decay up to a fifth faster than the exact flow does.
+/// shortest decay up to a fifth faster than the exact flow does. With 1.1 a deformed drop of a
+/// hundredfold viscosity became unstable (tests/evolve/semi_implicit_long_test.cpp).
 inline constexpr double kFacetedStiffness = 1.2;
 /// A shape whose turning moves it along its normals by less than the root of this, relative to the
 /// turning itself, is too round to have a spin: ellipsoids of D below 0.02.

@@ -11,13 +11,6 @@
 namespace meniscus {
 namespace {
 
-Vec3 centroid_velocity(const SurfaceMesh& mesh, const VertexField<Vec3>& area, const Vec3& centroid,
-                       const VertexField<Vec3>& velocity) {
-  Vec3 moment = Vec3::Zero();
-  for (const VertexId v : area.ids()) moment += area[v].dot(velocity[v]) * (mesh.x[v] - centroid);
-  return moment / enclosed_volume(mesh);
-}
-
 /// Where a point at x of the start is after `duration` of the rigid part of a motion, about the
 /// center that the shape had at the start.
 Vec3 carried(const Vec3& x, const RigidMotion& first, RigidMotion motion, double duration) {
@@ -27,10 +20,19 @@ Vec3 carried(const Vec3& x, const RigidMotion& first, RigidMotion motion, double
 
 }  // namespace
 
+Vec3 centroid_velocity(const SurfaceMesh& mesh, const VertexField<double>& swept) {
+  const Vec3 centroid = enclosed_centroid(mesh);
+  Vec3 moment = Vec3::Zero();
+  for (const VertexId v : swept.ids()) moment += swept[v] * (mesh.x[v] - centroid);
+  return moment / enclosed_volume(mesh);
+}
+
 RigidMotion rigid_motion_of_shape(const SurfaceMesh& mesh, const VertexField<Vec3>& velocity) {
   const VertexField<Vec3> area = vertex_area_vectors(mesh);
   RigidMotion shape{.center = enclosed_centroid(mesh)};
-  shape.velocity = centroid_velocity(mesh, area, shape.center, velocity);
+  VertexField<double> swept;
+  for (const VertexId v : area.ids()) swept.add(area[v].dot(velocity[v]));
+  shape.velocity = centroid_velocity(mesh, swept);
   const Vec3 spin =
       RigidProjection(mesh)([&](VertexId v) -> const Vec3& { return velocity[v]; }).spin;
   double agreement = 0.0, scale = 0.0;

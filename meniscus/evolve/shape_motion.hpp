@@ -19,6 +19,10 @@ struct ShapeMotion {
 [[nodiscard]] ShapeMotion shape_motion(const Scene& scene, const InterfaceNormals& normals,
                                        std::span<const VertexField<Vec3>> velocity);
 
+/// The velocity ∮(x − x_c) n·v dS/V of the enclosed centroid x_c [G R0]. `swept` is the volume that
+/// each vertex sweeps per time, ∂V/∂x_v·v_v [G R0³].
+[[nodiscard]] Vec3 centroid_velocity(const SurfaceMesh& mesh, const VertexField<double>& swept);
+
 /// The rigid motion of an interface's shape: the velocity of the enclosed centroid, ∮x n·v dS/V,
 /// and the part sΩ, 0 ≤ s ≤ 1, of the mean spin Ω of v with which its normal speeds agree best. A
 /// drop that stands while its liquid goes round has none; one that is carried and turns has all of

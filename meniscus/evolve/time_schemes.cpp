@@ -55,14 +55,12 @@ VertexField<double> difference(VertexField<double> a, const VertexField<double>&
   return a;
 }
 
-/// n·c, c the velocity ∮(x − x_c) s dS/V of the enclosed centroid x_c at normal speeds s.
+/// n·c, c the velocity of the enclosed centroid at normal speeds s.
 VertexField<double> translation_speeds(const SurfaceMesh& mesh, const VertexField<double>& s) {
   const VertexField<Vec3> area = vertex_area_vectors(mesh);
-  const Vec3 centroid = enclosed_centroid(mesh);
-  Vec3 c = Vec3::Zero();
-  for (const VertexId v : s.ids()) c += area[v].norm() * s[v] * (mesh.x[v] - centroid);
-  c /= enclosed_volume(mesh);
-  VertexField<double> speeds;
+  VertexField<double> swept = s, speeds;
+  for (const VertexId v : s.ids()) swept[v] *= area[v].norm();
+  const Vec3 c = centroid_velocity(mesh, swept);
   for (const Vec3& a : area) speeds.add(a.normalized().dot(c));
   return speeds;
 }

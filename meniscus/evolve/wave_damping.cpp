@@ -35,7 +35,8 @@ SparseMatrix stiffness(const SurfaceMesh& mesh) {
   return K;
 }
 
-/// 1/(1 + b(αΛ^½)) with b(q) = q²/(q + q0), by the trapezoidal rule in ln s for
+/// 1/(1 + b(αΛ^½)) with b(q) = q²/(q + q0), q0 = `kUndampedShare`, by the trapezoidal rule in ln s
+/// for
 ///   (2/π)∫ y³s/(((q0 − y²)² + y²)(s² + Λ)) ds,   y = αs,   over s > 0.
 /// Where s² is far above all Λ of a matrix, the terms are multiples of the identity.
 struct InverseSum {

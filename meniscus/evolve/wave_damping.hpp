@@ -7,13 +7,15 @@
 namespace meniscus {
 
 /// What the semi-implicit scheme makes of normal speeds s: s* with
-///   (1 + τA)(s* − s0) = s − s0,   A = σ/(2(μ_in + μ_out)) (−Δ_s + k/R²)^½,   τ = `duration`.
+///   (1 + b(τA))(s* − s0) = s − s0,   A = σ/(2(μ_in + μ_out)) (−Δ_s + k/R²)^½,   τ = `duration`,
+///   b(q) = q²/(q + q0),   q0 = `kUndampedShare`.
 /// σ|q|/(2(μ_in + μ_out)) is the rate at which waves of wave number q decay that are short against
 /// all other lengths; long ones decay more slowly. k is `kSphereStiffness`, R the radius of the
 /// sphere of the drop's volume, s0 = `about`. `viscosity` is by region.
 ///
 /// −Δ_s is the cotangent Laplacian with the masses |∂V/∂x_v|, so that the volume's rate
-/// Σ|∂V/∂x_v| s_v stays zero if it is. (1 + τA)⁻¹ is a sum of shifted inverses of −Δ_s, within 3 %.
+/// Σ|∂V/∂x_v| s_v stays zero if it is. (1 + b(τA))⁻¹ is a sum of shifted inverses of −Δ_s, within
+/// 3 %.
 [[nodiscard]] NormalSpeeds damped_speeds(const Scene& scene, std::span<const double> viscosity,
                                          const NormalSpeeds& speeds, const NormalSpeeds& about,
                                          double duration);
