@@ -74,7 +74,12 @@ constexpr std::array<Column<HistoryRow>, 25> kHistory{{
      }},
 }};
 
-constexpr std::array<Column<Drop>, 20> kDrops{{
+template <double SurfactantSpread::*Member>
+Cell surfactant(const Drop& d) {
+  return d.row.surfactant ? Cell((*d.row.surfactant).*Member) : Cell();
+}
+
+constexpr std::array<Column<Drop>, 24> kDrops{{
     {"step", "", [](const Drop& d) { return Cell(d.step); }},
     {"t", "1/G", [](const Drop& d) { return Cell(d.t); }},
     {"drop", "", [](const Drop& d) { return Cell(std::int64_t{d.row.drop}); }},
@@ -96,6 +101,10 @@ constexpr std::array<Column<Drop>, 20> kDrops{{
     {"H_max", "1/R0", [](const Drop& d) { return Cell(d.row.shape.H_max); }},
     {"D_inertia", "", [](const Drop& d) { return Cell(d.row.shape.D_inertia); }},
     {"neck_radius", "R0", [](const Drop& d) { return cell(d.row.neck_radius); }},
+    {"surfactant", "R0²", surfactant<&SurfactantSpread::amount>},
+    {"surfactant_min", "", surfactant<&SurfactantSpread::least>},
+    {"surfactant_max", "", surfactant<&SurfactantSpread::most>},
+    {"tension_min", "", surfactant<&SurfactantSpread::least_tension>},
 }};
 
 constexpr std::array<Column<Event>, 16> kEvents{{

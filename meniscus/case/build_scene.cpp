@@ -12,6 +12,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/scene/interface_tension.hpp"
 #include "meniscus/surface/reconstructed_surface.hpp"
 
 namespace meniscus {
@@ -67,7 +68,20 @@ Interface make_interface(const Case& c, int index) {
   result.volume = result.initial_volume =
       ReconstructedSurface(result.mesh, c.evolution.surface).volume();
   MENISCUS_ASSERT(result.volume > 0.0, "drop {} has a volume of {:g}", index, result.volume);
+  result.surfactant = drop.surfactant;
   return result;
+}
+
+/// Gives every interface a concentration if one has a surfactant: 1, or 0 where there is none.
+void spread_surfactants(Scene& scene) {
+  if (!has_surfactant(scene)) return;
+  for (Interface& interface : scene.interfaces)
+    interface.fields.on_vertices.push_back(
+        {.name = kSurfactantField,
+         .unit = "",
+         .transfer = FieldTransfer::conserved,
+         .values =
+             VertexField<double>(interface.mesh.num_vertices(), interface.surfactant ? 1.0 : 0.0)});
 }
 
 /// Sets the region outside each interface: the smallest drop that encloses it, else the matrix.
@@ -185,6 +199,7 @@ Scene build_scene(const Case& c) {
   add_drops(c, scene);
   MENISCUS_ASSERT(scene.interfaces.size() == c.drops.size(), "{} interfaces of {} drops",
                   scene.interfaces.size(), c.drops.size());
+  spread_surfactants(scene);
   require_no_conflict(c, scene);
   require_no_net_inflow(c, scene);
   return scene;

@@ -64,6 +64,16 @@ void require_capillary_time(const Case& c) {
                       "in mu_out R0/sigma");
 }
 
+/// Throws InvalidInput where tension varies along a surface and its form knows no gradient of it.
+void require_weak_form(const Case& c) {
+  const bool has_surfactant = std::ranges::any_of(
+      c.drops, [](const DropCase& drop) { return drop.surfactant.has_value(); });
+  if (has_surfactant && c.flow_solver.capillary != fem::CapillaryForm::weak)
+    c.settings.reject("interface.surface-tension",
+                      "must be \"weak\" where a drop has a surfactant: the other forms know no "
+                      "gradient of tension");
+}
+
 /// The keys that are used when the file is read without overrides; none if it is no valid case
 /// alone.
 std::map<std::string, schema::Value> used_by_file(std::string_view text, const std::string& name,
@@ -95,6 +105,7 @@ Case parse_case(std::string_view text, const std::string& name, const std::files
     c.boundary_integral = read_boundary_integrals(c.settings);
   } else {
     c.flow_solver = read_finite_elements(c.settings);
+    require_weak_form(c);
     c.volume_mesh = read_volume_mesh(c.settings, c.flow_solver.elements);
   }
   c.evolution = read_evolution(c.settings, c.method, c.flow_solver.elements);

@@ -40,6 +40,7 @@ struct DropCase {
   double tension_ratio = 1.0;
   int nodes = 110;  ///< N0
   Vec3 body_force = Vec3::Zero();
+  std::optional<Surfactant> surfactant;
 };
 
 /// One [[domain.patch]]: the condition on a part of the outer boundary.

@@ -185,19 +185,24 @@ void require_tables(Document& document, const std::string& path, const std::stri
   }
 }
 
-/// The array of tables in a path without index, "drop" for "drop.nodes"; empty for other paths.
-/// Arrays are not nested.
+/// The array of tables in a path without index, "drop" for "drop.nodes" and for
+/// "drop.surfactant.peclet"; empty for other paths. Arrays are not nested.
 std::string unindexed_array(std::string_view path) {
   if (path.find('[') != std::string_view::npos) return {};
-  const std::string parent(parent_path(path));
-  return find_table(parent + "[]") != nullptr ? parent : std::string();
+  for (std::size_t dot = path.find('.'); dot != std::string_view::npos;
+       dot = path.find('.', dot + 1))
+    if (find_table(fmt::format("{}[]", path.substr(0, dot))) != nullptr)
+      return std::string(path.substr(0, dot));
+  return {};
 }
 
 /// The path with the optional index filled in: "drop[0].nodes" for "drop.nodes".
 std::string indexed_path(const Document& document, const std::string& path,
                          const std::string& source) {
-  const std::string array = unindexed_array(path), key(leaf(path));
-  if (array.empty() || find_key(fmt::format("{}[].{}", array, key)) == nullptr) return path;
+  const std::string array = unindexed_array(path);
+  if (array.empty()) return path;
+  const std::string key = path.substr(array.size() + 1);
+  if (find_key(fmt::format("{}[].{}", array, key)) == nullptr) return path;
   const int count = document.count(array);
   if (count != 1)
     reject_input("{}: {}: there are {} [[{}]]; say which by an index, as in {}[0].{}", source, path,
@@ -224,7 +229,7 @@ std::string indexed_path(const Document& document, const std::string& path,
     const std::string element = has_index                    ? path.substr(0, close + 1)
                                 : document.count(array) == 1 ? array
                                                              : array + "[0]";
-    near = fmt::format("{}.{}", element, leaf(near));
+    near = element + near.substr(array.size());
   }
   reject_input("{}: {}: unknown key; did you mean \"{}\"?", source, path, near);
 }

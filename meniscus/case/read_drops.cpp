@@ -1,6 +1,9 @@
+#include <cmath>
+#include <optional>
 #include <string>
 
 #include "meniscus/case/case_parts.hpp"
+#include "meniscus/case/words.hpp"
 
 namespace meniscus {
 namespace {
@@ -41,6 +44,29 @@ DropShapeCase read_shape(Settings& settings, const std::string& table) {
   return shape;
 }
 
+EquationOfState read_equation_of_state(Settings& settings, const std::string& table) {
+  const auto kind = settings.choice(table + ".equation-of-state", words::equations_of_state);
+  const std::string path = table + ".elasticity";
+  const double elasticity = settings.number(path);
+  if (kind == words::StateKind::linear) return LinearState{elasticity};
+  const LangmuirState law{elasticity, settings.number(table + ".coverage")};
+  if (!(zero_tension_concentration(law) > 1.0))
+    settings.reject(path,
+                    "leaves no tension at the initial concentration; with this coverage it "
+                    "must be below {:.6g}",
+                    -1.0 / std::log1p(-law.coverage));
+  return law;
+}
+
+std::optional<Surfactant> read_surfactant(Settings& settings, const std::string& table) {
+  bool is_given = settings.has_table(table);
+  for (const char* key : {"equation-of-state", "elasticity", "coverage", "peclet"})
+    is_given |= settings.is_given(fmt::format("{}.{}", table, key));
+  if (!is_given) return {};
+  return Surfactant{.state = read_equation_of_state(settings, table),
+                    .diffusivity = 1.0 / settings.number(table + ".peclet")};
+}
+
 }  // namespace
 
 std::vector<DropCase> read_drops(Settings& settings) {
@@ -55,7 +81,8 @@ std::vector<DropCase> read_drops(Settings& settings) {
                      .law = read_viscosity_law(settings, table),
                      .tension_ratio = settings.number(table + ".tension-ratio"),
                      .nodes = settings.whole(table + ".nodes"),
-                     .body_force = settings.vector(table + ".body-force")});
+                     .body_force = settings.vector(table + ".body-force"),
+                     .surfactant = read_surfactant(settings, table + ".surfactant")});
   }
   return drops;
 }

@@ -63,6 +63,9 @@ const std::vector<Table> kTables{
     {"drop[]", true,
      "A drop. Its shape is one of radius, axes, surface, from-run. Drops may lie in one another; "
      "the liquid between is the outer drop's."},
+    {"drop[].surfactant", false,
+     "An insoluble surfactant on the drop, spread evenly at first. Concentrations Gamma are over "
+     "that initial one, and tension-ratio and the capillary number mean the tension at Gamma = 1."},
     {"domain", false,
      "The outer boundary, centred at the origin; its triangulation never changes. By default the "
      "imposed flow v = G·x holds on all of it, except that the z-faces of a box in a simple shear "
@@ -278,6 +281,27 @@ const std::vector<Key> kKeys{
      .range = kFinite,
      .value = Vec3(Vec3::Zero()),
      .sentence = "Uniform force per volume on the liquid of the drop: makes it rise or settle."},
+
+    {.path = "drop[].surfactant.equation-of-state",
+     .type = word,
+     .words = words::list(words::equations_of_state),
+     .value = "linear"s,
+     .sentence = "Tension over that at Gamma = 1: 1 - beta (Gamma - 1), or [1 + E ln(1 - X Gamma)]"
+                 "/[1 + E ln(1 - X)]."},
+    {.path = "drop[].surfactant.elasticity",
+     .range = kNotNegative,
+     .default_note = "required",
+     .sentence = "beta of the linear law, E of Langmuir's."},
+    {.path = "drop[].surfactant.coverage",
+     .range = {.min = 0.0, .max = 1.0, .open_min = true, .open_max = true},
+     .default_note = "required with langmuir",
+     .applies = "with equation-of-state = \"langmuir\"",
+     .sentence = "X: the initial concentration over that of close packing."},
+    {.path = "drop[].surfactant.peclet",
+     .range = {.min = 0.0, .open_min = true, .infinity = true},
+     .value = std::numeric_limits<double>::infinity(),
+     .sentence = "Pe_s = G R0²/D_s, in quiescent cases sigma R0/(mu_out D_s): convection along the "
+                 "surface over diffusion; inf: no diffusion."},
 
     {.path = "domain.shape",
      .type = word,

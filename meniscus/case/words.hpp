@@ -33,6 +33,10 @@ inline constexpr std::array viscosity_laws{Word<LawKind>{"newtonian", LawKind::n
                                            Word<LawKind>{"carreau-yasuda", LawKind::carreau_yasuda},
                                            Word<LawKind>{"power-law", LawKind::power_law}};
 
+enum class StateKind { linear, langmuir };
+inline constexpr std::array equations_of_state{Word<StateKind>{"linear", StateKind::linear},
+                                               Word<StateKind>{"langmuir", StateKind::langmuir}};
+
 /// The shapes of the domain but for a surface file, which has its own key.
 inline constexpr std::array domain_shapes{
     Word<DomainCase::Shape>{"box", DomainCase::Shape::box},

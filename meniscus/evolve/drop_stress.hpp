@@ -10,7 +10,7 @@ namespace meniscus {
 
 /// The drops' contribution to the stress of a dilute suspension, per unit volume fraction [μ_out
 /// G]:
-///   Σ = V⁻¹ Σ_drops [ tension ∫_S (I − nn − 2/3 I) dS + (λ − λ_out) ∫_S (un + nu) dS ]
+///   Σ = V⁻¹ Σ_drops [ ∫_S σ(I − nn − 2/3 I) dS + (λ − λ_out) ∫_S (un + nu) dS ]
 /// (kennedy1994, eq. 10; loewenberg1996, eq. 8), V the volume the outermost interfaces enclose,
 /// λ and λ_out the viscosities inside and outside each interface. `excess`, by region, is what the
 /// laws of generalised-Newtonian drops add to the stress in them (FlowSolver::excess_stress); the

@@ -7,6 +7,7 @@
 
 #include "meniscus/evolve/constants.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/scene/interface_tension.hpp"
 
 namespace meniscus {
 namespace {
@@ -26,12 +27,12 @@ double gross_power(const Scene& scene, const InterfaceMotion& motion) {
 
 double interface_energy(const Scene& scene) {
   double energy = 0.0;
-  for (const Interface& interface : scene.interfaces)
-    energy += interface.tension * surface_area(interface.mesh);
+  for (const Interface& interface : scene.interfaces) energy += tension_energy(interface);
   return energy;
 }
 
 std::optional<Fault> find_energy_fault(const Step& step, const StageFlow& whole, const Scene& end) {
+  if (has_surfactant(step.start)) return {};
   const double before = interface_energy(step.start), gain = interface_energy(end) - before,
                predicted = step.dt * whole.surface_rate,
                allowed = kMostEnergyShare * step.dt * gross_power(step.start, whole.motion) +

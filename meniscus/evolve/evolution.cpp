@@ -17,6 +17,7 @@
 #include "meniscus/evolve/volume_restoration.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/scene/interface_tension.hpp"
 #include "meniscus/surface/carry_fields.hpp"
 #include "meniscus/volume/tetrahedralize.hpp"
 
@@ -139,13 +140,19 @@ StageFlow Evolution::time_scheme_step(const Scene& start, double dt) {
     return solve_stage(start, stage, duration, instant);
   };
   const double stiffness = options_.surface == SurfaceShape::faceted ? kFacetedStiffness : 1.0;
-  const StageDamper damp = [&](StageFlow& stage, const NormalSpeeds& about) {
-    const PhaseTimer timer(times_, "move interfaces");
-    meniscus::damp(stage, state_.scene, about, kDampedShare * stiffness * dt);
-  };
+  const double duration = kDampedShare * stiffness * dt;
+  const StageDampers damp{[&](StageFlow& stage, const NormalSpeeds& about) {
+                            const PhaseTimer timer(times_, "move interfaces");
+                            meniscus::damp(stage, state_.scene, about, duration);
+                          },
+                          [&](const StageFlow& stage, const Scene& end,
+                              const ConcentrationRates& rates, const ConcentrationRates& about) {
+                            const PhaseTimer timer(times_, "move interfaces");
+                            return damped(stage, end, rates, about, duration);
+                          }};
   switch (options_.scheme) {
     case TimeScheme::euler:
-      return euler_step(first_);
+      return euler_step(first_, step);
     case TimeScheme::rk2:
       return midpoint_step(first_, step, solve);
     case TimeScheme::semi_implicit:
@@ -171,6 +178,7 @@ StageFlow Evolution::solve_stage(const Scene& start, const StageFlow& stage, dou
   time_phase(times_, "move interfaces", [&] {
     state_.scene = start;
     move_interfaces(state_.scene, stage.motion, duration);
+    move_surfactant(state_.scene, start, stage.amount_rates, duration);
   });
   if (Report moved = move_mesh(start, stage.motion, stage.flow, duration); !moved.ok())
     return {std::move(moved)};
@@ -179,6 +187,8 @@ StageFlow Evolution::solve_stage(const Scene& start, const StageFlow& stage, dou
 
 StageFlow Evolution::flow_at(const Instant& instant) {
   StageFlow stage;
+  stage.fault = find_surfactant_fault(state_.scene);
+  if (!stage.ok()) return stage;
   stage.flow = solve_flow(instant);
   stage.fault = stage.flow.fault;
   if (!stage.ok()) return stage;
@@ -199,6 +209,8 @@ StageFlow Evolution::flow_at(const Instant& instant) {
     stage.motion = normal_motion(stage.normals, stage.normal_speed);
   }
   stage.surface_rate = surface_energy_rate(state_.scene, stage.motion);
+  stage.surfactant = surfactant_transport(state_.scene, stage.flow.velocity, stage.motion);
+  stage.amount_rates = amount_rates(stage.surfactant, state_.scene);
   return stage;
 }
 
@@ -219,6 +231,7 @@ Report Evolution::finish_step(const Scene& start, const StageFlow& whole, double
   if (Report apart = refuse_contact(are_remeshed); !apart.ok()) return apart;
   if (is_due || is_remeshed_as_needed())
     if (Report changed = change_topology(moved, whole.motion); !changed.ok()) return changed;
+  if (auto fault = find_surfactant_fault(state_.scene)) return {std::move(fault)};
   if (Report kept = judge_volume_shift(dt); !kept.ok()) return kept;
   if (!is_due && state_.events.empty()) {
     Report kept = keep_mesh(start, whole.flow, dt);
@@ -260,6 +273,7 @@ Report Evolution::move_whole_step(const Scene& start, const StageFlow& whole, do
     translate_interfaces(scene, state_.start_centroid - centroid_of_drops(scene));
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
     carry_fields(state_, i, start.interfaces[i].mesh);
+  move_surfactant(scene, start, whole.amount_rates, dt);
   return {};
 }
 

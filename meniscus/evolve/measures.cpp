@@ -6,7 +6,9 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/evolve/drop_stress.hpp"
 #include "meniscus/mesh/sphere_radius.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
+#include "meniscus/scene/interface_tension.hpp"
 #include "meniscus/scene/scene_gap.hpp"
 #include "meniscus/topology/necks.hpp"
 #include "meniscus/volume/quality.hpp"
@@ -31,6 +33,28 @@ std::optional<double> thinnest_neck(const Interface& interface, const Reconstruc
     if (there.kind == SectionKind::closed) area = smooth_area(there.section, mesh, *faces.smooth());
   }
   return std::sqrt(area / std::numbers::pi);
+}
+
+/// The power spent against tension: σ dS/dt, for which the motion along the normal is enough where
+/// σ is constant.
+double tension_power(const Interface& interface, const ReconstructedSurface& faces,
+                     const VertexField<Vec3>& motion, const VertexField<Vec3>& velocity) {
+  if (interface.surfactant) return faces.tension_power(vertex_tension(interface), velocity);
+  return interface.tension * faces.area_rate(motion);
+}
+
+/// How a drop's surfactant is spread.
+SurfactantSpread surfactant_spread(const Interface& interface,
+                                   const VertexField<double>& concentration,
+                                   const ReconstructedSurface& faces) {
+  const VertexField<double> area = vertex_areas(interface.mesh);
+  SurfactantSpread spread;
+  for (const VertexId v : area.ids()) spread.amount += area[v] * concentration[v];
+  const auto [least, most] = faces.range_of(concentration);
+  spread.least = least;
+  spread.most = most;
+  spread.least_tension = relative_tension(interface.surfactant->state, most).value;
+  return spread;
 }
 
 }  // namespace
@@ -72,7 +96,7 @@ HistoryRow history_row(const State& state, const FlowSolution& flow, const Inter
     row.dissipation = flow.power->dissipation;
   }
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
-    row.surface_rate += scene.interfaces[i].tension * faces[i].area_rate(motion[i]);
+    row.surface_rate += tension_power(scene.interfaces[i], faces[i], motion[i], flow.velocity[i]);
   if (is_newtonian(scene.liquids[RegionId{0}].law))
     row.stress = drop_stress(scene, flow.velocity, faces, flow.excess_stress);
   return row;
@@ -92,6 +116,8 @@ std::vector<DropRow> drop_rows(const State& state, std::span<const Reconstructed
     row.shape = drop_shape(interface.mesh, state.scene.flow.family(), faces[i]);
     row.volume_drift = row.shape.volume / interface.initial_volume - 1.0;
     row.volume_correction = state.volume_shift[i];
+    if (const VertexField<double>* concentration = surfactant_concentration(interface))
+      row.surfactant = surfactant_spread(interface, *concentration, faces[i]);
     if (breakup_radius > 0.0) row.neck_radius = thinnest_neck(interface, faces[i]);
   }
   return rows;

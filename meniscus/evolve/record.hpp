@@ -33,6 +33,13 @@ struct HistoryRow {
   }
 };
 
+/// The surfactant on a drop. Concentrations are over the initial one, tensions over that at it.
+struct SurfactantSpread {
+  double amount = 0.0;             ///< Σ Γ_v S_v over the vertices [R0²]
+  double least = 0.0, most = 0.0;  ///< concentrations, as interpolated over the faces
+  double least_tension = 0.0;      ///< where the concentration is largest
+};
+
 struct DropRow {
   int drop = 0;
   int parent = -1;
@@ -42,6 +49,7 @@ struct DropRow {
   /// (area/π)^½ of the section of the thinnest neck thinner than half of the sphere of the same
   /// volume [R0]; empty where there is none, and in runs without breakup.
   std::optional<double> neck_radius;
+  std::optional<SurfactantSpread> surfactant;  ///< empty where there is none
 };
 
 }  // namespace meniscus

@@ -12,6 +12,7 @@
 #include "meniscus/mesh/field_archive.hpp"
 #include "meniscus/mesh/surface_archive.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/scene/interface_tension.hpp"
 #include "meniscus/surface/carry_fields.hpp"
 
 namespace meniscus {
@@ -23,6 +24,31 @@ std::string interface_path(std::size_t i, const char* name) {
   return fmt::format("{}/{}", interface_path(i), name);
 }
 
+/// Kind and constants of the equation of state, and the diffusivity.
+void save_surfactant(const Surfactant& surfactant, std::size_t i, Archive& archive) {
+  std::array<double, 4> values{static_cast<double>(surfactant.state.index()), 0.0, 0.0,
+                               surfactant.diffusivity};
+  if (const auto* law = std::get_if<LinearState>(&surfactant.state)) values[1] = law->elasticity;
+  if (const auto* law = std::get_if<LangmuirState>(&surfactant.state)) {
+    values[1] = law->elasticity;
+    values[2] = law->coverage;
+  }
+  archive.reals[interface_path(i, "surfactant")].assign(values.begin(), values.end());
+}
+
+/// Throws InvalidInput where the concentration saved with it leaves no tension.
+void load_surfactant(Interface& interface, std::size_t i, const Archive& archive) {
+  const std::string path = interface_path(i, "surfactant");
+  if (!archive.reals.contains(path)) return;
+  const auto& values = entry_of_size(archive.reals, path, 4);
+  Surfactant surfactant{LinearState{values[1]}, values[3]};
+  if (values[0] == 1.0) surfactant.state = LangmuirState{values[1], values[2]};
+  const auto& fields = interface.fields.on_vertices;
+  if (std::ranges::find(fields, kSurfactantField, &CarriedField<VertexId>::name) == fields.end())
+    reject_input("checkpoint: drop {} has a surfactant and no concentration", interface.drop);
+  interface.surfactant = surfactant;
+}
+
 void save_interface(const Interface& interface, std::size_t i, Archive& archive) {
   save(interface.mesh, archive, interface_path(i));
   archive.integers[interface_path(i, "ids")] = {interface.drop, interface.parent,
@@ -30,6 +56,7 @@ void save_interface(const Interface& interface, std::size_t i, Archive& archive)
   archive.reals[interface_path(i, "properties")] = {interface.tension, interface.C0,
                                                     interface.volume, interface.initial_volume};
   save(interface.fields, archive, interface_path(i, "fields"));
+  if (interface.surfactant) save_surfactant(*interface.surfactant, i, archive);
 }
 
 /// Throws InvalidInput unless the surface is closed and encloses about the volume saved with it, as
@@ -59,6 +86,7 @@ Interface load_interface(const Archive& archive, std::size_t i) {
   interface.initial_volume = properties[3];
   require_sound(interface);
   interface.fields = load_fields(archive, interface_path(i, "fields"), interface.mesh);
+  load_surfactant(interface, i, archive);
   return interface;
 }
 
@@ -134,6 +162,13 @@ StepRecord load_record(const Archive& archive) {
   return record;
 }
 
+/// Adds the concentration that an interface of a scene with surfactant carries to its new fields.
+void keep_concentration(const Interface& interface, SurfaceFields& fields) {
+  const auto& old = interface.fields.on_vertices;
+  const auto at = std::ranges::find(old, kSurfactantField, &CarriedField<VertexId>::name);
+  if (at != old.end()) fields.on_vertices.push_back(*at);
+}
+
 }  // namespace
 
 void set_interface_fields(State& state, std::vector<SurfaceFields> fields) {
@@ -141,6 +176,7 @@ void set_interface_fields(State& state, std::vector<SurfaceFields> fields) {
   if (fields.size() != interfaces.size())
     reject_input("fields are given for {} interfaces of {}", fields.size(), interfaces.size());
   for (std::size_t i = 0; i < fields.size(); ++i) {
+    keep_concentration(interfaces[i], fields[i]);
     check_fields(fields[i], interfaces[i].mesh);
     if (!have_same_fields(fields[0], fields[i]))
       reject_input("interface {} has other fields than interface 0", i);
@@ -181,6 +217,8 @@ void load(State& state, const Archive& archive) {
   state.scene.interfaces.clear();
   for (std::size_t i = 0; i < count; ++i)
     state.scene.interfaces.push_back(load_interface(archive, i));
+  if (const auto fault = find_surfactant_fault(state.scene))
+    reject_input("checkpoint: {}", fault->text);
   state.scene.liquids = load_liquids(archive, count);
   state.events = load_events(archive);
   state.volume_shift = entry_of_size(archive.reals, "evolution/corrections", count);

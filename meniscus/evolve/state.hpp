@@ -39,7 +39,8 @@ struct State {
 };
 
 /// Sets the carried fields of the interfaces, one list per interface; all lists have the same
-/// names. Throws InvalidInput naming what does not fit (`check_fields`).
+/// names. The concentration of a surfactant stays beside them. Throws InvalidInput naming what does
+/// not fit (`check_fields`).
 void set_interface_fields(State& state, std::vector<SurfaceFields> fields);
 
 /// Saves a state bit for bit. Imposed flow, outer boundary and mesh options are not saved: loading

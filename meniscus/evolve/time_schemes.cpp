@@ -10,22 +10,42 @@
 #include "meniscus/evolve/wave_damping.hpp"
 #include "meniscus/mesh/sphere_radius.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/scene/interface_tension.hpp"
 
 namespace meniscus {
 namespace {
 
-/// sum ← sum + factor · term.
-void add(InterfaceMotion& sum, double factor, const InterfaceMotion& term) {
+/// sum ← sum + factor · term, for motions and for rates of amounts.
+template <class Value>
+void add(std::vector<VertexField<Value>>& sum, double factor,
+         const std::vector<VertexField<Value>>& term) {
   for (std::size_t i = 0; i < sum.size(); ++i)
     for (const VertexId v : sum[i].ids()) sum[i][v] += factor * term[i][v];
 }
 
-/// factor · motion.
-InterfaceMotion scaled(double factor, const InterfaceMotion& motion) {
-  InterfaceMotion result = motion;
-  for (VertexField<Vec3>& field : result)
-    for (Vec3& w : field) w *= factor;
+/// factor · fields.
+template <class Value>
+std::vector<VertexField<Value>> scaled(double factor,
+                                       const std::vector<VertexField<Value>>& fields) {
+  std::vector<VertexField<Value>> result = fields;
+  for (VertexField<Value>& field : result)
+    for (Value& each : field) each *= factor;
   return result;
+}
+
+/// What a scheme takes along: how far from the start, over dt.
+struct Displacement {
+  InterfaceMotion vertices;
+  AmountRates amounts;
+};
+
+Displacement scaled(double factor, const Displacement& displacement) {
+  return {scaled(factor, displacement.vertices), scaled(factor, displacement.amounts)};
+}
+
+void add(Displacement& sum, double factor, const Displacement& term) {
+  add(sum.vertices, factor, term.vertices);
+  add(sum.amounts, factor, term.amounts);
 }
 
 /// The stage nearest to the middle of the step; never the first, which is of first order only.
@@ -65,32 +85,66 @@ VertexField<double> translation_speeds(const SurfaceMesh& mesh, const VertexFiel
   return speeds;
 }
 
+/// Gives a stage the rates with which the amounts of surfactant go from the start of the step for
+/// `duration`.
+void set_mean_rates(StageFlow& stage, const Scene& start, double duration) {
+  stage.amount_rates = mean_amount_rates(stage.surfactant, start, stage.motion, duration);
+}
+
+/// The same, damped about other rates of concentrations (none: zero). Returns these rates.
+ConcentrationRates set_damped_rates(StageFlow& stage, const Scene& start, double duration,
+                                    const ConcentrationRates& about, const StageDampers& damp) {
+  set_mean_rates(stage, start, duration);
+  if (!has_surfactant(start)) return {};
+  Scene end = start;
+  move_interfaces(end, stage.motion, duration);
+  ConcentrationRates rates = concentration_rates(start, end, stage.amount_rates, duration);
+  rates = damp.concentrations(stage, end, rates, about.empty() ? scaled(0.0, rates) : about);
+  stage.amount_rates = amount_rates_of(start, end, rates, duration);
+  return rates;
+}
+
+double stage_error(const Step& step, const StageFlow& second, const StageFlow& first) {
+  return std::max(step_error(step, second.normal_speed, first.normal_speed),
+                  surfactant_error(step.start, second.amount_rates, first.amount_rates, step.dt));
+}
+
 }  // namespace
 
-StageFlow euler_step(const StageFlow& first) { return first; }
+StageFlow euler_step(const StageFlow& first, const Step& step) {
+  StageFlow whole = first;
+  set_mean_rates(whole, step.start, step.dt);
+  return whole;
+}
 
 StageFlow midpoint_step(const StageFlow& first, const Step& step, const StageSolver& solve) {
   const double half = 0.5 * step.dt;
+  StageFlow start = first;
+  set_mean_rates(start, step.start, half);
   StageFlow middle =
-      solve(first, half, {.t = step.t + half, .dt = step.dt, .stage = Stage::middle});
-  if (middle.ok()) middle.error = step_error(step, middle.normal_speed, first.normal_speed);
+      solve(start, half, {.t = step.t + half, .dt = step.dt, .stage = Stage::middle});
+  if (!middle.ok()) return middle;
+  set_mean_rates(middle, step.start, step.dt);
+  middle.error = stage_error(step, middle, start);
   return middle;
 }
 
 StageFlow semi_implicit_step(const StageFlow& first, const Step& step, const StageSolver& solve,
-                             const StageDamper& damp) {
+                             const StageDampers& damp) {
   const double half = 0.5 * step.dt;
   NormalSpeeds none = first.normal_speed;
   for (VertexField<double>& speeds : none) std::ranges::fill(speeds, 0.0);
   StageFlow start = first;
-  damp(start, none);
+  damp.speeds(start, none);
   start.motion = mean_motion(step.start, first.shape, start.shape, half);
+  const ConcentrationRates at_start = set_damped_rates(start, step.start, half, {}, damp);
   StageFlow middle =
       solve(start, half, {.t = step.t + half, .dt = step.dt, .stage = Stage::middle});
   if (!middle.ok()) return middle;
-  damp(middle, normal_speeds(start.normals, start.shape.rest));
+  damp.speeds(middle, normal_speeds(start.normals, start.shape.rest));
   middle.motion = mean_motion(step.start, first.shape, middle.shape, step.dt);
-  middle.error = step_error(step, middle.normal_speed, start.normal_speed);
+  set_damped_rates(middle, step.start, step.dt, at_start, damp);
+  middle.error = stage_error(step, middle, start);
   middle.damps_waves = true;
   return middle;
 }
@@ -109,23 +163,31 @@ void damp(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, doubl
   stage.surface_rate = surface_energy_rate(scene, velocity_of(stage.shape, scene));
 }
 
+ConcentrationRates damped(const StageFlow& stage, const Scene& end, const ConcentrationRates& rates,
+                          const ConcentrationRates& about, double duration) {
+  return damped_concentration_rates(end, least_viscosities(stage.flow, end), rates, about,
+                                    duration);
+}
+
 StageFlow chebyshev_step(const StageFlow& first, const Step& step, int num_stages,
                          const StageSolver& solve) {
   const ChebyshevScheme scheme(num_stages);
   const std::size_t middle = middle_stage(scheme.stages());
   // Displacements from the start over dt: of the last two stages, and of the middle one.
-  InterfaceMotion before = scaled(0.0, first.motion), now = before, to_middle;
+  const Displacement at_first{first.motion, first.amount_rates};
+  Displacement before = scaled(0.0, at_first), now = before, to_middle;
   StageFlow stage = first;
   double middle_rate = 0.0;
   for (std::size_t j = 0; j < scheme.stages().size(); ++j) {
     const ChebyshevScheme::Stage& c = scheme.stages()[j];
-    InterfaceMotion next = scaled(c.mu, now);
+    Displacement next = scaled(c.mu, now);
     add(next, c.nu, before);
-    add(next, c.mu_F, stage.motion);
-    add(next, c.gamma_F, first.motion);
+    add(next, c.mu_F, Displacement{stage.motion, stage.amount_rates});
+    add(next, c.gamma_F, at_first);
     before = std::exchange(now, std::move(next));
     if (j + 1 == scheme.stages().size()) break;
-    stage.motion = scaled(1.0 / c.c, now);
+    stage.motion = scaled(1.0 / c.c, now.vertices);
+    stage.amount_rates = scaled(1.0 / c.c, now.amounts);
     stage = solve(stage, c.c * step.dt,
                   {.t = step.t + c.c * step.dt, .dt = step.dt, .stage = Stage::middle});
     if (!stage.ok()) return stage;
@@ -135,11 +197,14 @@ StageFlow chebyshev_step(const StageFlow& first, const Step& step, int num_stage
   }
   const double c = scheme.stages()[middle].c;
   const InterfaceNormals normals = interface_normals(step.start, MotionNormal::area_vector);
-  stage.error = step_error(step, normal_speeds(normals, now),
-                           normal_speeds(normals, scaled(1.0 / c, to_middle))) /
+  const Displacement line = scaled(1.0 / c, to_middle);
+  stage.error = std::max(step_error(step, normal_speeds(normals, now.vertices),
+                                    normal_speeds(normals, line.vertices)),
+                         surfactant_error(step.start, now.amounts, line.amounts, step.dt)) /
                 (1.0 - c);
   stage.surface_rate = first.surface_rate + (middle_rate - first.surface_rate) / (2.0 * c);
-  stage.motion = std::move(now);
+  stage.motion = std::move(now.vertices);
+  stage.amount_rates = std::move(now.amounts);
   stage.damps_waves = true;
   return stage;
 }

@@ -4,6 +4,7 @@
 
 #include "meniscus/evolve/interface_motion.hpp"
 #include "meniscus/evolve/shape_motion.hpp"
+#include "meniscus/evolve/surfactant_motion.hpp"
 #include "meniscus/flow/flow_solver.hpp"
 
 namespace meniscus {
@@ -16,6 +17,9 @@ struct StageFlow : Report {
   NormalSpeeds normal_speed = {};  ///< n·v at the vertices
   /// What `motion` is made of; empty where the scheme moves vertices along normals alone.
   ShapeMotion shape = {};
+  SurfactantTransport surfactant = {};  ///< at this instant
+  /// With which the amounts of surfactant change where the vertices move with `motion`.
+  AmountRates amount_rates = {};
   /// Σ tension · dS/dt of the triangulations as they move at this stage; of a whole step the mean
   /// over the step, of the order of the scheme [μ_out G² R0³].
   double surface_rate = 0.0;
@@ -43,18 +47,34 @@ using StageDamper = std::function<void(StageFlow& stage, const NormalSpeeds& abo
 /// of it.
 void damp(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, double duration);
 
+/// Damps rates of concentrations about others, by the viscosities of a stage; `end` is where its
+/// motion takes the interfaces.
+using ConcentrationDamper = std::function<ConcentrationRates(
+    const StageFlow& stage, const Scene& end, const ConcentrationRates& rates,
+    const ConcentrationRates& about)>;
+/// What the elasticity would change in `duration` (`damped_concentration_rates`).
+[[nodiscard]] ConcentrationRates damped(const StageFlow& stage, const Scene& end,
+                                        const ConcentrationRates& rates,
+                                        const ConcentrationRates& about, double duration);
+
+/// How a step is damped.
+struct StageDampers {
+  StageDamper speeds;
+  ConcentrationDamper concentrations;
+};
+
 // One step: the stage whose motion takes the interfaces from the step's beginning to its end.
 // `first` is the flow at t.
 
 /// Explicit, of first order. There is no estimate.
-[[nodiscard]] StageFlow euler_step(const StageFlow& first);
+[[nodiscard]] StageFlow euler_step(const StageFlow& first, const Step& step);
 /// The midpoint rule (first lines of Table 1 of hooper2001).
 [[nodiscard]] StageFlow midpoint_step(const StageFlow& first, const Step& step,
                                       const StageSolver& solve);
 /// The midpoint rule, both of whose stages are damped: of second order whatever the damping is
 /// (docs/time-stepping.md).
 [[nodiscard]] StageFlow semi_implicit_step(const StageFlow& first, const Step& step,
-                                           const StageSolver& solve, const StageDamper& damp);
+                                           const StageSolver& solve, const StageDampers& damp);
 /// Runge–Kutta–Chebyshev with `num_stages` ≥ 3 (chebyshev.hpp). The motion of first order that the
 /// estimate takes is the line through the stage j next to the middle, at c_j of the step: its
 /// difference over 1 − c_j. Short waves, which the stages damp, enter it at no more than a few

@@ -11,6 +11,7 @@
 #include "meniscus/evolve/constants.hpp"
 #include "meniscus/mesh/sphere_radius.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/scene/interface_tension.hpp"
 
 namespace meniscus {
 namespace {
@@ -81,6 +82,19 @@ Eigen::VectorXd damped(const SparseMatrix& K, const Eigen::VectorXd& mass, doubl
   return result;
 }
 
+/// What A would change in `duration` on one interface, of tension or elasticity `modulus`, about
+/// zero.
+Eigen::VectorXd damped_on(const Scene& scene, std::size_t i, std::span<const double> viscosity,
+                          double modulus, const Eigen::VectorXd& mass, const Eigen::VectorXd& s,
+                          double duration) {
+  const Interface& interface = scene.interfaces[i];
+  const double viscosities = viscosity[static_cast<std::size_t>(interface.inside.value)] +
+                             viscosity[static_cast<std::size_t>(interface.outside.value)];
+  const double radius = sphere_radius(interface.volume);
+  return damped(stiffness(interface.mesh), mass, kSphereStiffness / (radius * radius),
+                duration * modulus / (2.0 * viscosities), s);
+}
+
 }  // namespace
 
 NormalSpeeds damped_speeds(const Scene& scene, std::span<const double> viscosity,
@@ -92,19 +106,38 @@ NormalSpeeds damped_speeds(const Scene& scene, std::span<const double> viscosity
   for (std::size_t i = 0; i < speeds.size(); ++i) {
     const Interface& interface = scene.interfaces[i];
     if (interface.tension == 0.0) continue;
-    const double viscosities = viscosity[static_cast<std::size_t>(interface.inside.value)] +
-                               viscosity[static_cast<std::size_t>(interface.outside.value)];
     const VertexField<Vec3> area = vertex_area_vectors(interface.mesh);
-    const std::int32_t n = area.size();
-    Eigen::VectorXd mass(n), s(n);
+    Eigen::VectorXd mass(area.size()), s(area.size());
     for (const VertexId v : area.ids()) {
       mass[v.value] = area[v].norm();
       s[v.value] = speeds[i][v] - about[i][v];
     }
-    const double radius = sphere_radius(interface.volume);
-    s = damped(stiffness(interface.mesh), mass, kSphereStiffness / (radius * radius),
-               duration * interface.tension / (2.0 * viscosities), s);
+    s = damped_on(scene, i, viscosity, largest_tension(interface), mass, s, duration);
     for (const VertexId v : area.ids()) result[i][v] = about[i][v] + s[v.value];
+  }
+  return result;
+}
+
+ConcentrationRates damped_concentration_rates(const Scene& scene, std::span<const double> viscosity,
+                                              const ConcentrationRates& rates,
+                                              const ConcentrationRates& about, double duration) {
+  MENISCUS_ASSERT(rates.size() == scene.interfaces.size() && about.size() == rates.size(),
+                  "{} and {} rates of {} interfaces", rates.size(), about.size(),
+                  scene.interfaces.size());
+  ConcentrationRates result = rates;
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    const double elasticity = largest_elasticity(scene.interfaces[i]);
+    if (elasticity == 0.0) continue;
+    const VertexField<double> area = vertex_areas(scene.interfaces[i].mesh);
+    Eigen::VectorXd mass(area.size()), s(area.size());
+    for (const VertexId v : area.ids()) {
+      mass[v.value] = area[v];
+      s[v.value] = rates[i][v] - about[i][v];
+    }
+    const double mean = mass.dot(s) / mass.sum();
+    s.array() -= mean;
+    s = damped_on(scene, i, viscosity, elasticity, mass, s, duration);
+    for (const VertexId v : area.ids()) result[i][v] = about[i][v] + mean + s[v.value];
   }
   return result;
 }

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "meniscus/evolve/interface_motion.hpp"
+#include "meniscus/evolve/surfactant_motion.hpp"
 
 namespace meniscus {
 
@@ -19,5 +19,16 @@ namespace meniscus {
 [[nodiscard]] NormalSpeeds damped_speeds(const Scene& scene, std::span<const double> viscosity,
                                          const NormalSpeeds& speeds, const NormalSpeeds& about,
                                          double duration);
+
+/// The same for rates ∂Γ/∂t of concentrations, less their means, with the largest Gibbs elasticity
+/// −Γ dσ/dΓ in the place of σ: an elastic surface evens out short waves of Γ at the rate
+/// E|q|/(2(μ_in + μ_out)). The masses are the areas S_v of the scene, so that Σ S_v ∂Γ_v/∂t stays
+/// what it is. How the surface stretches belongs to these rates: where a film all but resists it,
+/// stretching and flux cancel, and damping one of them would leave the other.
+[[nodiscard]] ConcentrationRates damped_concentration_rates(const Scene& scene,
+                                                            std::span<const double> viscosity,
+                                                            const ConcentrationRates& rates,
+                                                            const ConcentrationRates& about,
+                                                            double duration);
 
 }  // namespace meniscus

@@ -41,6 +41,20 @@ std::vector<PlotSpec> shape_plots() {
            .quantities = {{"volume_correction", "shift"}}}};
 }
 
+std::vector<PlotSpec> surfactant_plots() {
+  const std::string group = "Surfactant";
+  return {{.group = group,
+           .title = "Concentration Γ over the initial one",
+           .unit = "",
+           .table = "drops",
+           .quantities = {{"surfactant_min", "least"}, {"surfactant_max", "largest"}}},
+          {.group = group,
+           .title = "Least tension over that at Γ = 1",
+           .unit = "",
+           .table = "drops",
+           .quantities = {{"tension_min", "σ/σ₁"}}}};
+}
+
 std::vector<PlotSpec> energy_plots() {
   const std::string group = "Energy and stress";
   return {{.group = group,
@@ -130,7 +144,7 @@ const char* name_of(Derivation derivation) {
 std::span<const PlotSpec> plot_catalogue() {
   static const std::vector<PlotSpec> all = [] {
     std::vector<PlotSpec> plots = shape_plots();
-    for (const auto& group : {energy_plots(), mesh_plots()}) {
+    for (const auto& group : {surfactant_plots(), energy_plots(), mesh_plots()}) {
       plots.insert(plots.end(), group.begin(), group.end());
     }
     return plots;

@@ -22,10 +22,11 @@ const io::NamedArray* find_scalar(const std::vector<io::NamedArray>& arrays, con
 }  // namespace
 
 std::span<const SurfaceQuantity> surface_quantities() {
-  static constexpr std::array<SurfaceQuantity, 4> quantities = {
+  static constexpr std::array<SurfaceQuantity, 5> quantities = {
       {{"curvature", "Curvature κ = k₁ + k₂", "1/R₀"},
        {"normal_velocity", "Normal velocity v·n", "G R₀"},
        {"pressure_jump", "Pressure jump p_out − p_in", "μG"},
+       {"surfactant", "Surfactant concentration Γ", ""},
        {"node_density", "Nodes per area", "1/R₀²"}}};
   return quantities;
 }

@@ -10,6 +10,7 @@
 #include "meniscus/mesh/carried_fields.hpp"
 #include "meniscus/mesh/tet_mesh.hpp"
 #include "meniscus/scene/imposed_flow.hpp"
+#include "meniscus/scene/surfactant.hpp"
 #include "meniscus/scene/viscosity.hpp"
 
 namespace meniscus {
@@ -27,11 +28,15 @@ struct Interface {
   int parent = -1;  ///< drop it came from in an event; −1 for a drop of the case
   SurfaceMesh mesh;
   RegionId inside, outside;
-  double tension = 1.0;  ///< tension ratio / Ca: surface tension [μ_out G R0]; 0 for Ca = inf
-  double C0 = 8.75;      ///< resolution: C0 = N0/4π in ρ = C0⟨κ⟩² (eq. 1 of hooper2001)
-  double volume = 0.0;   ///< the volume every remesh restores [R0³]
+  /// Tension ratio / Ca: surface tension, of a surface with surfactant that at Γ = 1 [μ_out G R0];
+  /// 0 for Ca = inf.
+  double tension = 1.0;
+  double C0 = 8.75;     ///< resolution: C0 = N0/4π in ρ = C0⟨κ⟩² (eq. 1 of hooper2001)
+  double volume = 0.0;  ///< the volume every remesh restores [R0³]
   double initial_volume = 0.0;  ///< the reference of volume_drift
   SurfaceFields fields = {};    ///< what lives on it; of the same list on every interface
+  /// Its concentration is the field `kSurfactantField` (interface_tension.hpp).
+  std::optional<Surfactant> surfactant = {};
 };
 
 /// v given on a patch; `velocity` maps a point of the patch and a time to v [G R0].

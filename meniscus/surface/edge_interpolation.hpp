@@ -39,4 +39,18 @@ class VertexInterpolation {
                                                  const VertexField<Vec3>& normals,
                                                  const std::vector<Vec3>& middles);
 
+/// What stencils make of the values at the vertices, in their order.
+template <class Value>
+[[nodiscard]] std::vector<Value> interpolated(const std::vector<Stencil>& stencils,
+                                              const VertexField<Value>& values) {
+  std::vector<Value> result;
+  result.reserve(stencils.size());
+  for (const Stencil& stencil : stencils) {
+    Value sum = 0.0 * values[stencil.front().vertex];
+    for (const VertexWeight& w : stencil) sum += w.weight * values[w.vertex];
+    result.push_back(sum);
+  }
+  return result;
+}
+
 }  // namespace meniscus

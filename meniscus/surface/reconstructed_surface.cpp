@@ -22,13 +22,15 @@ constexpr Shapes kShapes = [] {
 }();
 
 /// Values at the nodes of every face from those at the vertices and at the middles of the edges.
-FaceField<QuadraticFace> quadratic_faces(const SurfaceMesh& mesh, const SurfaceTopology& topology,
-                                         const VertexField<Vec3>& corners,
-                                         std::span<const Vec3> middles) {
+template <class Value>
+FaceField<std::array<Value, kQuadraticNodes>> quadratic_faces(const SurfaceMesh& mesh,
+                                                              const SurfaceTopology& topology,
+                                                              const VertexField<Value>& corners,
+                                                              const std::vector<Value>& middles) {
   MENISCUS_ASSERT(middles.size() == topology.edges().size(), "{} middles of {} edges",
                   middles.size(), topology.edges().size());
   const FaceField<std::array<std::size_t, 3>> edges = face_edges(mesh, topology);
-  FaceField<QuadraticFace> faces(mesh.num_faces());
+  FaceField<std::array<Value, kQuadraticNodes>> faces(mesh.num_faces());
   for (const FaceId f : mesh.faces.ids())
     for (std::size_t k = 0; k < 3; ++k) {
       faces[f][k] = corners[mesh.faces[f][k]];
@@ -62,11 +64,48 @@ Mat3 flat_velocity_moment(const SurfaceMesh& mesh, const VertexField<Vec3>& u) {
   return sum;
 }
 
+double face_mean(const FaceVertices& v, const VertexField<double>& values) {
+  return (values[v[0]] + values[v[1]] + values[v[2]]) / 3.0;
+}
+
+double dot(const std::array<double, kQuadraticNodes>& a,
+           const std::array<double, kQuadraticNodes>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// div_s u dS per share of the area, from the tangents of x and of u.
+double stretching(const TriangleTangents& x, const TriangleTangents& u) {
+  return x.area().normalized().dot(0.5 * (u.t1.cross(x.t2) + x.t1.cross(u.t2)));
+}
+
 double flat_area_rate(const SurfaceMesh& mesh, const VertexField<Vec3>& motion) {
   const VertexField<Vec3> gradient = area_gradient(mesh);
   double rate = 0.0;
   for (const VertexId v : gradient.ids()) rate += gradient[v].dot(motion[v]);
   return rate;
+}
+
+using NodeValues = std::array<double, kQuadraticNodes>;
+
+/// The value of a quadratic face function where it is stationary within the face, or along one of
+/// its edges.
+std::vector<double> stationary_values(const NodeValues& f) {
+  std::vector<double> values;
+  for (std::size_t k = 0; k < 3; ++k) {
+    // Along edge k with s from 0 to 1: f_a + s (4 f_m − 3 f_a − f_b) + 2 s² (f_a + f_b − 2 f_m).
+    const double a = f[k], b = f[(k + 1) % 3], m = f[3 + k], half = a + b - 2.0 * m;
+    const double s = (3.0 * a + b - 4.0 * m) / (4.0 * half);
+    if (s > 0.0 && s < 1.0) values.push_back(a - 2.0 * half * s * s);
+  }
+  const TriangleShape<kQuadraticNodes> at_0 = quadratic_shape({1.0, 0.0, 0.0});
+  const double g1 = dot(at_0.by_1, f), g2 = dot(at_0.by_2, f),
+               h11 = 4.0 * (f[0] + f[1] - 2.0 * f[3]), h22 = 4.0 * (f[0] + f[2] - 2.0 * f[5]),
+               h12 = 4.0 * (f[0] + f[4] - f[3] - f[5]), det = h11 * h22 - h12 * h12;
+  const double b1 = (h12 * g2 - h22 * g1) / det, b2 = (h12 * g1 - h11 * g2) / det;
+  if (b1 > 0.0 && b2 > 0.0 && b1 + b2 < 1.0) values.push_back(f[0] + 0.5 * (g1 * b1 + g2 * b2));
+  return values;
 }
 
 }  // namespace
@@ -118,22 +157,39 @@ Mat3 ReconstructedSurface::normal_moment() const {
                          [](const Vec3&, const Vec3& area) { return normal_product(area); });
 }
 
-FaceField<QuadraticFace> ReconstructedSurface::node_velocities(const VertexField<Vec3>& u) const {
-  std::vector<Vec3> u_middles;
-  u_middles.reserve(middles_.size());
-  for (const Stencil& stencil :
-       edge_stencils(mesh_, *topology_, smooth_->vertex_normals(), middles_)) {
-    Vec3& sum = u_middles.emplace_back(Vec3::Zero());
-    for (const VertexWeight& w : stencil) sum += w.weight * u[w.vertex];
+template <class Value>
+FaceField<std::array<Value, kQuadraticNodes>> ReconstructedSurface::node_values(
+    const VertexField<Value>& values) const {
+  return quadratic_faces(
+      mesh_, *topology_, values,
+      interpolated(edge_stencils(mesh_, *topology_, smooth_->vertex_normals(), middles_), values));
+}
+
+Mat3 ReconstructedSurface::tension_moment(const VertexField<double>& tension) const {
+  MENISCUS_ASSERT(tension.size() == mesh_.num_vertices(), "{} {}", tension.size(),
+                  mesh_.num_vertices());
+  Mat3 sum = Mat3::Zero();
+  const auto add = [&sum](double sigma, const Vec3& area) {
+    sum += sigma * (area.norm() * Mat3::Identity() - normal_product(area));
+  };
+  if (is_flat()) {
+    for (const FaceId f : mesh_.faces.ids())
+      add(face_mean(mesh_.faces[f], tension), face_area_vector(mesh_, f));
+    return sum;
   }
-  return quadratic_faces(mesh_, *topology_, u, u_middles);
+  const auto sigma = node_values(tension);
+  for (const FaceId f : mesh_.faces.ids())
+    for (std::size_t q = 0; q < kShapes.size(); ++q)
+      add(dot(kShapes[q].value, sigma[f]),
+          kTriangleRule4[q].share * tangents(kShapes[q], faces_[f]).area());
+  return sum;
 }
 
 Mat3 ReconstructedSurface::velocity_moment(const VertexField<Vec3>& u) const {
   MENISCUS_ASSERT(u.size() == mesh_.num_vertices(), "{} velocities of {} vertices", u.size(),
                   mesh_.num_vertices());
   if (is_flat()) return flat_velocity_moment(mesh_, u);
-  const FaceField<QuadraticFace> velocity = node_velocities(u);
+  const FaceField<QuadraticFace> velocity = node_values(u);
   Mat3 sum = Mat3::Zero();
   for (const FaceId f : mesh_.faces.ids())
     for (std::size_t q = 0; q < kShapes.size(); ++q)
@@ -146,16 +202,55 @@ double ReconstructedSurface::area_rate(const VertexField<Vec3>& motion) const {
   MENISCUS_ASSERT(motion.size() == mesh_.num_vertices(), "{} velocities of {} vertices",
                   motion.size(), mesh_.num_vertices());
   if (is_flat()) return flat_area_rate(mesh_, motion);
-  const FaceField<QuadraticFace> velocity = node_velocities(motion);
+  const FaceField<QuadraticFace> velocity = node_values(motion);
   double rate = 0.0;
   for (const FaceId f : mesh_.faces.ids())
-    for (std::size_t q = 0; q < kShapes.size(); ++q) {
-      const TriangleTangents x = tangents(kShapes[q], faces_[f]),
-                             u = tangents(kShapes[q], velocity[f]);
-      const Vec3 area_rate = 0.5 * (u.t1.cross(x.t2) + x.t1.cross(u.t2));
-      rate += kTriangleRule4[q].share * x.area().normalized().dot(area_rate);
-    }
+    for (std::size_t q = 0; q < kShapes.size(); ++q)
+      rate += kTriangleRule4[q].share *
+              stretching(tangents(kShapes[q], faces_[f]), tangents(kShapes[q], velocity[f]));
   return rate;
+}
+
+ReconstructedSurface::ValueRange ReconstructedSurface::range_of(
+    const VertexField<double>& values) const {
+  MENISCUS_ASSERT(values.size() == mesh_.num_vertices(), "{} {}", values.size(),
+                  mesh_.num_vertices());
+  const auto [least, most] = std::ranges::minmax(values);
+  ValueRange range{least, most};
+  if (is_flat()) return range;
+  const auto widen = [&range](std::span<const double> some) {
+    for (const double value : some) {
+      range.least = std::min(range.least, value);
+      range.most = std::max(range.most, value);
+    }
+  };
+  for (const NodeValues& nodes : node_values(values)) {
+    widen(nodes);
+    widen(stationary_values(nodes));
+  }
+  return range;
+}
+
+double ReconstructedSurface::tension_power(const VertexField<double>& tension,
+                                           const VertexField<Vec3>& u) const {
+  MENISCUS_ASSERT(tension.size() == u.size(), "{} {}", tension.size(), u.size());
+  double power = 0.0;
+  if (is_flat()) {
+    for (const FaceId f : mesh_.faces.ids()) {
+      const FaceVertices& v = mesh_.faces[f];
+      const TriangleTangents x{mesh_.x[v[1]] - mesh_.x[v[0]], mesh_.x[v[2]] - mesh_.x[v[0]]},
+          du{u[v[1]] - u[v[0]], u[v[2]] - u[v[0]]};
+      power += face_mean(v, tension) * stretching(x, du);
+    }
+    return power;
+  }
+  const auto sigma = node_values(tension);
+  const FaceField<QuadraticFace> velocity = node_values(u);
+  for (const FaceId f : mesh_.faces.ids())
+    for (std::size_t q = 0; q < kShapes.size(); ++q)
+      power += kTriangleRule4[q].share * dot(kShapes[q].value, sigma[f]) *
+               stretching(tangents(kShapes[q], faces_[f]), tangents(kShapes[q], velocity[f]));
+  return power;
 }
 
 }  // namespace meniscus

@@ -22,6 +22,8 @@ class ReconstructedSurface {
   [[nodiscard]] Mat3 second_moments() const;
   /// ∫ nn dS [R0²].
   [[nodiscard]] Mat3 normal_moment() const;
+  /// ∫ σ(I − nn) dS of a tension given at the vertices [μ_out G R0³], interpolated as velocities.
+  [[nodiscard]] Mat3 tension_moment(const VertexField<double>& tension) const;
   /// ∫ un dS of a velocity given at the vertices [G R0³], linear on flat faces and quadratic on
   /// others: the middles of their edges get u from the quadratics that fit it around both ends, to
   /// O(h³).
@@ -29,14 +31,27 @@ class ReconstructedSurface {
   /// dS/dt for vertices that move with this velocity, ∫div_s u dS [G R0²]: exact for flat faces,
   /// with the velocity between vertices as above for others.
   [[nodiscard]] double area_rate(const VertexField<Vec3>& motion) const;
+  /// ∫ σ div_s u dS of a tension and a velocity given at the vertices: the power that the liquid
+  /// spends against tension [μ_out G² R0³].
+  [[nodiscard]] double tension_power(const VertexField<double>& tension,
+                                     const VertexField<Vec3>& u) const;
+
+  /// The least and the largest value of a function given at the vertices, interpolated as
+  /// velocities.
+  struct ValueRange {
+    double least = 0.0, most = 0.0;
+  };
+  [[nodiscard]] ValueRange range_of(const VertexField<double>& values) const;
 
   /// The smooth surface through the vertices; none with flat faces.
   [[nodiscard]] const std::optional<SmoothSurface>& smooth() const { return smooth_; }
 
  private:
   [[nodiscard]] bool is_flat() const { return shape_ == SurfaceShape::faceted; }
-  [[nodiscard]] FaceField<TriangleNodes<kQuadraticNodes>> node_velocities(
-      const VertexField<Vec3>& u) const;
+  /// Values at the nodes of every face, from those at the vertices.
+  template <class Value>
+  [[nodiscard]] FaceField<std::array<Value, kQuadraticNodes>> node_values(
+      const VertexField<Value>& values) const;
 
   const SurfaceMesh& mesh_;
   SurfaceShape shape_;

@@ -172,6 +172,7 @@ std::optional<std::string> unlikeness(const Scene& scene, const Gap& gap) {
   if (first.law != second.law) return "different laws of viscosity";
   if (a.tension != b.tension)
     return fmt::format("surface tensions {:g} and {:g}", a.tension, b.tension);
+  if (a.surfactant != b.surfactant) return "different surfactants";
   if (first.body_force != second.body_force) return "different body forces";
   return {};
 }

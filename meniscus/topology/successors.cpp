@@ -10,6 +10,7 @@
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_pieces.hpp"
+#include "meniscus/scene/interface_tension.hpp"
 #include "meniscus/surface/remesh.hpp"
 #include "meniscus/surface/restore_volume.hpp"
 
@@ -103,6 +104,7 @@ std::vector<Child> children_of(const Scene& scene, InterfaceReplacement& replace
     Child child;
     child.interface.parent = heir.drop;
     child.interface.tension = heir.tension;
+    child.interface.surfactant = heir.surfactant;
     child.interface.C0 = C0;
     child.is_cavity = enclosed_volume(piece) < 0.0;
     child.liquid = scene.liquids[child.is_cavity ? outer.outside : outer.inside];
@@ -152,7 +154,7 @@ void add_curved_part(std::vector<Child>& children, const LiquidVolume& volume) {
 
 double energy(std::span<const Interface> interfaces) {
   double sum = 0.0;
-  for (const Interface& each : interfaces) sum += each.tension * surface_area(each.mesh);
+  for (const Interface& each : interfaces) sum += tension_energy(each);
   return sum;
 }
 

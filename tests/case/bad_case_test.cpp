@@ -105,6 +105,35 @@ const std::vector<BadCase> kValues{
                 "\"unbounded\"\n[solver]\nmethod = \"boundary-integral\"\n"),
      "case.toml:6: drop.viscosity-law = \"power-law\" needs solver.method = \"finite-element\": "
      "boundary integrals describe Newtonian liquids alone"},
+    {"a surfactant without elasticity", shear_with("[drop.surfactant]\npeclet = 10\n"),
+     "case.toml:6: drop.surfactant.elasticity is missing"},
+    {"a surfactant that raises tension", shear_with("[drop.surfactant]\nelasticity = -0.1\n"),
+     "case.toml:7: drop.surfactant.elasticity = -0.1 must be at least 0"},
+    {"a coverage at the packing limit",
+     shear_with("[drop.surfactant]\nequation-of-state = \"langmuir\"\nelasticity = 0.2\ncoverage = "
+                "1.0\n"),
+     "case.toml:9: drop.surfactant.coverage = 1.0 must be between 0 and 1, both excluded"},
+    {"a coverage that is not a number",
+     shear_with("[drop.surfactant]\nequation-of-state = \"langmuir\"\nelasticity = 0.2\ncoverage = "
+                "nan\n"),
+     "case.toml:9: drop.surfactant.coverage = nan must be finite and between 0 and 1, both "
+     "excluded"},
+    {"a coverage that leaves no tension",
+     shear_with("[drop.surfactant]\nequation-of-state = \"langmuir\"\nelasticity = 2.0\ncoverage = "
+                "0.5\n"),
+     "case.toml:8: drop.surfactant.elasticity = 2.0 leaves no tension at the initial "
+     "concentration; with this coverage it must be below 1.4427"},
+    {"a coverage of the linear law",
+     shear_with("[drop.surfactant]\nelasticity = 0.2\ncoverage = 0.5\n"),
+     "case.toml:8: drop.surfactant.coverage has no effect here: it applies with "
+     "equation-of-state = \"langmuir\""},
+    {"a surface Péclet number of zero",
+     shear_with("[drop.surfactant]\nelasticity = 0.2\npeclet = 0\n"),
+     "case.toml:8: drop.surfactant.peclet = 0.0 must be > 0 or inf"},
+    {"a form that knows no gradient of tension",
+     shear_with("surfactant = {elasticity = 0.2}\n[interface]\nsurface-tension = \"balanced\"\n"),
+     "case.toml:8: interface.surface-tension = \"balanced\" must be \"weak\" where a drop has a "
+     "surfactant: the other forms know no gradient of tension"},
     {"boundary integrals in a box", shear_with("[solver]\nmethod = \"boundary-integral\"\n"),
      "case.toml:7: solver.method = \"boundary-integral\" needs domain.shape = \"unbounded\""},
     {"unbounded domain", shear_with("[domain]\nshape = \"unbounded\"\n"),

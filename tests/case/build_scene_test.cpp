@@ -9,6 +9,7 @@
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/scene/interface_tension.hpp"
 #include "meniscus/surface/reconstructed_surface.hpp"
 #include "meniscus/surface/remesh.hpp"
 #include "tests/case/case_files.hpp"
@@ -67,6 +68,22 @@ TEST(BuildScene, ExtensionBoxFollowsTheFlowOnAllFaces) {
   EXPECT_EQ(scene.boundary.patches.size(), 6);
   for (const Patch& patch : scene.boundary.patches)
     EXPECT_TRUE(std::holds_alternative<ImposedVelocity>(patch.condition)) << patch.name;
+}
+
+TEST(BuildScene, SpreadsASurfactantEvenly) {
+  const Scene scene = build_scene(parse_case(
+      "[flow]\nkind = \"simple-shear\"\n[[drop]]\nradius = 1\n[drop.surfactant]\n"
+      "equation-of-state = \"langmuir\"\nelasticity = 0.2\ncoverage = 0.5\npeclet = 4\n[[drop]]\n"
+      "radius = 0.5\ncenter = [3, 0, 0]\n",
+      "case.toml"));
+  const Interface &with = scene.interfaces[0], &without = scene.interfaces[1];
+  EXPECT_EQ(with.surfactant, (Surfactant{LangmuirState{0.2, 0.5}, 0.25}));
+  EXPECT_FALSE(without.surfactant);
+  for (const double each : *surfactant_concentration(with)) EXPECT_EQ(each, 1.0);
+  for (const double each : without.fields.on_vertices[0].values) EXPECT_EQ(each, 0.0);
+  EXPECT_TRUE(build_scene(shear_case("")).interfaces[0].fields.empty());
+  const Scene set = build_scene(shear_case("", {"drop.surfactant.elasticity=0.3"}));
+  EXPECT_EQ(set.interfaces[0].surfactant, (Surfactant{LinearState{0.3}, 0.0}));
 }
 
 TEST(BuildScene, PatchNamesLieWhereTheySay) {

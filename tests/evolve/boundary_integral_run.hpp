@@ -39,7 +39,7 @@ inline Report run(const Case& c, const Scene& scene,
                   const std::function<void(const Evolution&)>& look) {
   EvolutionOptions options = c.evolution;
   change(options);
-  Evolution evolution(scene, options, make_flow_solver(c));
+  Evolution evolution(scene, options, make_flow_solver(c), make_moving_mesh(c));
   Report report = evolution.prepare();
   while (report.ok()) {
     report = evolution.solve();

@@ -10,6 +10,7 @@
 
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/scene/interface_tension.hpp"
 #include "meniscus/surface/reconstructed_surface.hpp"
 
 namespace meniscus::test {
@@ -48,6 +49,14 @@ Scene scene_of(const DampedDrop& drop) {
   interface.C0 = drop.num_vertices / (4.0 * std::numbers::pi);
   interface.volume = interface.initial_volume =
       ReconstructedSurface(interface.mesh, shape_of(drop.elements)).volume();
+  if (drop.surfactant) {
+    interface.surfactant = drop.surfactant;
+    interface.fields.on_vertices.push_back(
+        {.name = kSurfactantField,
+         .unit = "",
+         .transfer = FieldTransfer::conserved,
+         .values = VertexField<double>(interface.mesh.num_vertices(), 1.0)});
+  }
   scene.interfaces.push_back(std::move(interface));
   scene.boundary.mesh = sphere(drop.num_vertices, kWallRadius);
   scene.boundary.patch = FaceField<PatchId>(scene.boundary.mesh.num_faces(), PatchId{0});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "meniscus/evolve/evolution.hpp"
@@ -23,6 +24,7 @@ struct DampedDrop {
   Mat3 gradient = Mat3::Zero();  ///< of the wall's velocity
   Vec3 wind = Vec3::Zero();      ///< what is added to it
   double rtol = 1e-6;
+  std::optional<Surfactant> surfactant = {};  ///< spread evenly
 };
 
 /// An evolution in steps of `dt` at the time 0, its mesh made.

@@ -7,6 +7,7 @@
 
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/scene/interface_tension.hpp"
 #include "meniscus/surface/carry_fields.hpp"
 #include "meniscus/surface/repair/mend.hpp"
 #include "tests/topology/scenes.hpp"
@@ -126,6 +127,66 @@ TEST(CarriedFields, GoThroughACut) { expect_carried(dumbbell(), {.breakup_radius
 
 TEST(CarriedFields, GoThroughABridge) {
   expect_carried(two_spheres(0.01), {.coalescence = true, .coalescence_gap = 0.02});
+}
+
+const Surfactant kCovered{LinearState{0.2}, 0.1};
+
+Scene covered(Scene scene) {
+  for (Interface& drop : scene.interfaces) {
+    drop.surfactant = kCovered;
+    auto& field = drop.fields.on_vertices.emplace_back();
+    field.name = kSurfactantField;
+    field.transfer = conserved;
+    for (const Vec3& x : drop.mesh.x) field.values.add(1.0 + 0.2 * x.x());
+  }
+  return scene;
+}
+
+/// Σ Γ_v S_v over the vertices of a drop on one side of x = 0, a third at a time of each face.
+double amount(const Interface& drop, double side = 0.0) {
+  const VertexField<double>& concentration = *surfactant_concentration(drop);
+  double sum = 0.0;
+  for (const FaceId f : drop.mesh.faces.ids()) {
+    if (side * center(drop.mesh, f).x() < 0.0) continue;
+    for (const VertexId v : drop.mesh.faces[f])
+      sum += face_area_vector(drop.mesh, f).norm() / 3.0 * concentration[v];
+  }
+  return sum;
+}
+
+TEST(Surfactants, GoToTheChildrenOfACut) {
+  Scene scene = covered(dumbbell());
+  const Interface parent = scene.interfaces[0];
+  ASSERT_EQ(apply_topology(scene, {.breakup_radius = 0.06}, {}).events.size(), 1U);
+  ASSERT_EQ(scene.interfaces.size(), 2U);
+  double sum = 0.0;
+  for (const Interface& child : scene.interfaces) {
+    EXPECT_EQ(child.surfactant, kCovered);
+    sum += amount(child);
+    const double side = child.mesh.x[VertexId{0}].x();
+    EXPECT_NEAR(amount(child) / amount(parent, side), 1.0, 0.005);
+  }
+  EXPECT_NEAR(sum / amount(parent), 1.0, 1e-12);
+}
+
+TEST(Surfactants, OfDropsThatMergeAddUp) {
+  Scene scene = covered(two_spheres(0.01));
+  const double before = amount(scene.interfaces[0]) + amount(scene.interfaces[1]);
+  const TopologyOptions options{.coalescence = true, .coalescence_gap = 0.02};
+  ASSERT_EQ(apply_topology(scene, options, {}).events.size(), 1U);
+  ASSERT_EQ(scene.interfaces.size(), 1U);
+  EXPECT_EQ(scene.interfaces[0].surfactant, kCovered);
+  EXPECT_NEAR(amount(scene.interfaces[0]) / before, 1.0, 1e-12);
+}
+
+TEST(Surfactants, ThatDifferKeepDropsFromMerging) {
+  Scene scene = covered(two_spheres(0.01));
+  scene.interfaces[1].surfactant->diffusivity = 0.2;
+  const TopologyReport report =
+      apply_topology(scene, {.coalescence = true, .coalescence_gap = 0.02}, {});
+  ASSERT_TRUE(report.refusal);
+  EXPECT_EQ(report.refusal->kind, FaultKind::unlike_liquids);
+  EXPECT_NE(report.refusal->text.find("different surfactants"), std::string::npos);
 }
 
 // Far from the neck nothing is to be seen of a cut but a remeshing of the children.

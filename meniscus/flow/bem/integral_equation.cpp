@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/flow/bem/marangoni_layer.hpp"
 #include "meniscus/linear/collective.hpp"
+#include "meniscus/scene/interface_tension.hpp"
 
 namespace meniscus::bem {
 namespace {
@@ -23,8 +26,9 @@ std::vector<double> traction_jump(const Scene& scene, const BoundaryGeometry& ge
     const Vec3 buoyancy =
         scene.liquids[interface.inside].body_force - scene.liquids[interface.outside].body_force;
     double total = 0.0, area = 0.0;
+    const VertexField<double> tension = vertex_tension(interface);
     for (const VertexId v : elements.x.ids()) {
-      q.push_back(interface.tension * elements.kappa[v] - buoyancy.dot(elements.x[v]));
+      q.push_back(tension[v] * elements.kappa[v] - buoyancy.dot(elements.x[v]));
       total += elements.weight[v] * q.back();
       area += elements.weight[v];
     }
@@ -71,12 +75,15 @@ void IntegralEquation::set_right_hand_side(const Scene& scene, double t,
                                            const std::vector<double>& q) {
   const double matrix_viscosity = scene.liquids[RegionId{0}].viscosity;
   const Mat3 gradient = scene.flow.gradient(t);
+  std::optional<MarangoniLayer> marangoni;
+  if (has_surfactant(scene)) marangoni.emplace(scene, geometry_);
   right_hand_side_.resize(num_unknowns());
   shared_.for_own([&](std::int32_t begin, std::int32_t end) {
     for (std::int32_t i = begin; i < end; ++i) {
       const Vec3 x = geometry_.points.point(i);
-      const Vec3 layer =
+      Vec3 layer =
           single_layer_sum(geometry_.points, q, x) + rows_[static_cast<std::size_t>(i)].single;
+      if (marangoni) layer -= (*marangoni)(i);
       set(right_hand_side_, i,
           (matrix_viscosity * (gradient * x) - layer / (8.0 * kPi)) /
               contrast_[surface_of(i)].mean);

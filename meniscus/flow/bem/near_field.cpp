@@ -8,18 +8,13 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/bem/face_moments.hpp"
+#include "meniscus/flow/bem/near_faces.hpp"
 
 namespace meniscus::bem {
 namespace {
 
 using Face = InterfaceElements::Face;
 using Surface = BoundaryGeometry::Surface;
-
-/// A face is near a point closer to its centre than this many of its longest edges; beyond, the
-/// weights of its vertices take over. Around the point on its own sheet errors of neighbours nearly
-/// cancel; on another sheet they do not, and at 2, 3, 4 edges from the unit sphere of 1000 vertices
-/// the double layer is wrong by 2e-3, 8e-4, 4e-4 of its size.
-constexpr double kNearOnOwn = 2.0, kNearOnOther = 4.0;
 
 /// ∮ rr (r·n)/r⁵ dS seen from the surface itself and from within: 4π/6 and 8π/6 times the identity
 /// (from outside, nothing), being −1/6 of the integral of the stress kernel.
@@ -28,13 +23,6 @@ constexpr double kInside = 2.0 * kOnSurface;
 
 void add_identity(Symmetric& m, double factor) {
   for (std::size_t k = 0; k < 3; ++k) m[k] += factor;
-}
-
-/// Whether a face looks the other way than a point of the same interface. An edge of a resolved
-/// surface turns by less than 20°: the way along the surface is then longer than four edges, and a
-/// face nearer in space is of another sheet, across a film or a neck.
-bool is_turned_away(const Triangle& face, const Vec3& normal) {
-  return (face[1] - face[0]).cross(face[2] - face[0]).dot(normal) < 0.0;
 }
 
 /// Builds one row after another; keeps an array over all points for the columns of the row at hand.
@@ -67,8 +55,7 @@ class RowBuilder {
   void add_surface(std::size_t m, std::int32_t i) {
     const Surface& surface = geometry_.surfaces[m];
     const auto own = static_cast<std::size_t>(geometry_.surface_of[static_cast<std::size_t>(i)]);
-    find_near_faces(surface,
-                    own == m ? &surface.elements.n[VertexId{i - surface.range.begin}] : nullptr);
+    find_near_faces(geometry_, m, i, near_);
     if (near_.empty()) return;
     // The rule's integrals of constants. They differ from the exact ones by the error that the
     // subtraction removes.
@@ -88,30 +75,10 @@ class RowBuilder {
       subtract(m, geometry_.index(m, face.columns[c]), weights[c], is_inside ? kInside : 0.0);
   }
 
-  /// `normal` is the point's own, null where it lies on another surface.
-  void find_near_faces(const Surface& surface, const Vec3* normal) {
-    near_.clear();
-    // A face's centre lies within its longest edge of its box, whose diagonal is no shorter.
-    surface.tree.visit_near(x_, kNearOnOther + 1.0, [&](FaceId f, const Triangle& triangle) {
-      const Face& face = surface.elements.faces[f];
-      const double distance = (face.center - x_).norm();
-      if (distance >= kNearOnOther * face.size) return true;
-      const bool is_on_other_sheet = normal == nullptr || is_turned_away(triangle, *normal);
-      if (is_on_other_sheet || distance < kNearOnOwn * face.size) near_.push_back(f);
-      return true;
-    });
-    std::ranges::sort(near_);
-  }
-
   void add_face(std::size_t m, FaceId f, std::int32_t i) {
     const InterfaceElements& elements = geometry_.surfaces[m].elements;
     const Face& face = elements.faces[f];
-    std::size_t corner = 3;  // none
-    for (std::size_t k = 0; k < 3; ++k)
-      if (geometry_.index(m, elements.corners[f][k]) == i) corner = k;
-    MENISCUS_ASSERT(corner == 3 || geometry_.surface_of[static_cast<std::size_t>(i)] ==
-                                       static_cast<std::int32_t>(m),
-                    "point {} on surface {}", i, m);
+    const std::size_t corner = corner_at(geometry_, m, f, i);
     const FaceMoments moments = corner == 3 ? near_moments(face, x_) : corner_moments(face, corner);
     for (std::size_t c = 0; c < face.columns.size(); ++c) {
       LayerKernels entry{.single = Vec3::Zero(), .double_layer = {}};

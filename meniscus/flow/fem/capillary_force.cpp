@@ -3,7 +3,10 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/face_elements.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/scene/interface_tension.hpp"
 #include "meniscus/surface/curvature.hpp"
+#include "meniscus/surface/edge_interpolation.hpp"
+#include "meniscus/surface/edge_middles.hpp"
 
 namespace meniscus::fem {
 namespace {
@@ -55,6 +58,42 @@ void add_weak_force(double tension, const FaceNodeTable& faces, const NodePositi
   }
 }
 
+void add_weak_force(const Field<NodeId, double>& tension, const FaceNodeTable& faces,
+                    const NodePositions& positions, Field<NodeId, Vec3>& force) {
+  for (const FaceId f : faces.faces()) {
+    const auto nodes = faces.of(f);
+    for (const FacePoint& point : face_points(positions.x, nodes)) {
+      double here = 0.0;
+      for (std::size_t i = 0; i < nodes.size(); ++i) here += point.value[i] * tension[nodes[i]];
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        force[nodes[i]] -= here * point.area.norm() * point.gradient[i];
+    }
+  }
+}
+
+Field<NodeId, double> node_tension(const Interface& interface, const FaceNodeTable& faces,
+                                   const NodePositions& positions) {
+  const SurfaceMesh& mesh = interface.mesh;
+  const VertexField<double> at_vertices = vertex_tension(interface);
+  Field<NodeId, double> tension(positions.x.size(), 0.0);
+  for (const FaceId f : mesh.faces.ids())
+    for (std::size_t k = 0; k < 3; ++k) tension[faces.of(f)[k]] = at_vertices[mesh.faces[f][k]];
+  if (faces.nodes_per_face == 3 || !interface.surfactant) return tension;
+  const SurfaceTopology topology(mesh);
+  const FaceField<std::array<std::size_t, 3>> edges = face_edges(mesh, topology);
+  std::vector<Vec3> middles(topology.edges().size());
+  for (const FaceId f : mesh.faces.ids())
+    for (std::size_t k = 0; k < 3; ++k) middles[edges[f][k]] = positions.x[faces.of(f)[3 + k]];
+  VertexField<Vec3> normals = vertex_area_vectors(mesh);
+  for (Vec3& n : normals) n.normalize();
+  const std::vector<double> concentration = interpolated(
+      edge_stencils(mesh, topology, normals, middles), *surfactant_concentration(interface));
+  for (const FaceId f : mesh.faces.ids())
+    for (std::size_t k = 0; k < 3; ++k)
+      tension[faces.of(f)[3 + k]] = tension_at(interface, concentration[edges[f][k]]);
+  return tension;
+}
+
 void add_balanced_force(double tension, const Field<NodeId, double>& kappa,
                         const FaceNodeTable& faces, const NodePositions& positions,
                         Field<NodeId, Vec3>& force) {
@@ -71,6 +110,10 @@ void add_balanced_force(double tension, const Field<NodeId, double>& kappa,
 
 void add_capillary_force(const Interface& interface, CapillaryForm form, const FaceNodeTable& faces,
                          const NodePositions& positions, Field<NodeId, Vec3>& force) {
+  MENISCUS_ASSERT(form == CapillaryForm::weak || !interface.surfactant,
+                  "a surfactant on drop {} with another than the weak form", interface.drop);
+  if (interface.surfactant)
+    return add_weak_force(node_tension(interface, faces, positions), faces, positions, force);
   switch (form) {
     case CapillaryForm::weak:
       return add_weak_force(interface.tension, faces, positions, force);

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "meniscus/flow/bem/boundary_geometry.hpp"
+
+namespace meniscus::bem {
+
+/// The single layer Σ_m ∮_m J·∇_s σ dS, J = I/r + rr/r³, with which a tension that varies pulls the
+/// liquid along the interfaces. σ is quadratic on the curved triangles, from its values at the
+/// vertices and that of Γ at the middles of edges. A face that is far from a point counts by
+/// forces at the vertices it reads (`InterfaceElements::Face::columns`), as J is interpolated
+/// there; one that is near is integrated. The integrand is no more singular than 1/r and needs no
+/// subtraction.
+class MarangoniLayer {
+ public:
+  /// Of the interfaces that carry surfactant.
+  MarangoniLayer(const Scene& scene, const BoundaryGeometry& geometry);
+
+  /// At point i, of those of the geometry.
+  [[nodiscard]] Vec3 operator()(std::int32_t i) const;
+
+ private:
+  struct FaceLoad {
+    std::array<double, kQuadraticNodes> tension{};  ///< σ at the nodes
+    std::vector<Vec3> forces;                       ///< ∫∇_s σ dS, at the face's columns
+  };
+  [[nodiscard]] Vec3 near_part(std::size_t m, FaceId f, std::int32_t i) const;
+
+  const BoundaryGeometry& geometry_;
+  std::vector<FaceField<FaceLoad>> loads_;  ///< by interface; empty without surfactant
+  SourcePoints forces_;                     ///< at all points, the sums over faces
+  std::vector<double> ones_;
+};
+
+}  // namespace meniscus::bem

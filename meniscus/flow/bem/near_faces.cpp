@@ -1,0 +1,52 @@
+#include "meniscus/flow/bem/near_faces.hpp"
+
+#include <algorithm>
+
+#include "meniscus/core/error.hpp"
+
+namespace meniscus::bem {
+namespace {
+
+constexpr double kNearOnOwn = 2.0, kNearOnOther = 4.0;
+
+/// Whether a face looks the other way than a point of the same interface. An edge of a resolved
+/// surface turns by less than 20°: the way along the surface is then longer than four edges, and a
+/// face nearer in space is of another sheet, across a film or a neck.
+bool is_turned_away(const Triangle& face, const Vec3& normal) {
+  return (face[1] - face[0]).cross(face[2] - face[0]).dot(normal) < 0.0;
+}
+
+}  // namespace
+
+void find_near_faces(const BoundaryGeometry& geometry, std::size_t m, std::int32_t i,
+                     std::vector<FaceId>& faces, NearReach reach) {
+  const BoundaryGeometry::Surface& surface = geometry.surfaces[m];
+  const auto own = static_cast<std::size_t>(geometry.surface_of[static_cast<std::size_t>(i)]);
+  const Vec3 x = geometry.points.point(i);
+  const Vec3* normal = own == m ? &surface.elements.n[VertexId{i - surface.range.begin}] : nullptr;
+  faces.clear();
+  // A face's centre lies within its longest edge of its box, whose diagonal is no shorter.
+  surface.tree.visit_near(x, kNearOnOther + 1.0, [&](FaceId f, const Triangle& triangle) {
+    const InterfaceElements::Face& face = surface.elements.faces[f];
+    const double distance = (face.center - x).norm();
+    if (distance >= kNearOnOther * face.size) return true;
+    const bool is_on_other_sheet = normal == nullptr || is_turned_away(triangle, *normal);
+    if (reach == NearReach::whole || is_on_other_sheet || distance < kNearOnOwn * face.size)
+      faces.push_back(f);
+    return true;
+  });
+  std::ranges::sort(faces);
+}
+
+std::size_t corner_at(const BoundaryGeometry& geometry, std::size_t m, FaceId f, std::int32_t i) {
+  const FaceVertices& corners = geometry.surfaces[m].elements.corners[f];
+  std::size_t corner = 3;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (geometry.index(m, corners[k]) == i) corner = k;
+  MENISCUS_ASSERT(corner == 3 || geometry.surface_of[static_cast<std::size_t>(i)] ==
+                                     static_cast<std::int32_t>(m),
+                  "point {} on surface {}", i, m);
+  return corner;
+}
+
+}  // namespace meniscus::bem

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+
+#include "meniscus/scene/scene.hpp"
+
+namespace meniscus {
+
+/// The name of the carried field that holds Γ at the vertices, over its initial value.
+inline constexpr const char* kSurfactantField = "surfactant";
+
+/// Γ at the vertices of an interface; null where it carries no surfactant.
+[[nodiscard]] const VertexField<double>* surfactant_concentration(const Interface& interface);
+[[nodiscard]] VertexField<double>* surfactant_concentration(Interface& interface);
+[[nodiscard]] bool has_surfactant(const Scene& scene);
+
+/// σ at a concentration Γ [μ_out G R0]; Γ is not read where there is no surfactant.
+[[nodiscard]] double tension_at(const Interface& interface, double concentration);
+/// σ at the vertices [μ_out G R0].
+[[nodiscard]] VertexField<double> vertex_tension(const Interface& interface);
+/// The largest σ of the vertices [μ_out G R0].
+[[nodiscard]] double largest_tension(const Interface& interface);
+/// The largest Gibbs elasticity −Γ dσ/dΓ of the vertices [μ_out G R0]; 0 without surfactant.
+[[nodiscard]] double largest_elasticity(const Interface& interface);
+/// Σ σ × area of the flat faces [μ_out G R0³]: the energy of an interface without surfactant.
+[[nodiscard]] double tension_energy(const Interface& interface);
+
+/// The first vertex whose Γ is negative, not finite, at the packing limit, or leaves no tension.
+[[nodiscard]] std::optional<Fault> find_surfactant_fault(const Scene& scene);
+
+}  // namespace meniscus
