@@ -64,7 +64,7 @@ RegionSources liquid_sources(std::span<const TopologyEvent> events) {
 
 Evolution::Evolution(Scene scene, const EvolutionOptions& options, std::unique_ptr<FlowSolver> flow,
                      std::optional<MovingMesh> mesh)
-    : options_(options), solver_(std::move(flow)) {
+    : options_(options), solver_(std::move(flow)), carriers_(options.surface) {
   state_.scene = std::move(scene);
   state_.mesh = std::move(mesh);
   state_.start_centroid = centroid_of_drops(state_.scene);
@@ -72,7 +72,9 @@ Evolution::Evolution(Scene scene, const EvolutionOptions& options, std::unique_p
 }
 
 Report Evolution::prepare() {
+  const Scene before = state_.scene;
   remesh_interfaces();
+  keep_surfactant(state_.scene, before, carriers_);
   return follow_interfaces();
 }
 
@@ -135,7 +137,7 @@ Report Evolution::try_step(const Scene& start, double dt) {
 }
 
 StageFlow Evolution::time_scheme_step(const Scene& start, double dt) {
-  const Step step{start, state_.t, dt};
+  const Step step{start, state_.t, dt, carriers_};
   const StageSolver solve = [&](const StageFlow& stage, double duration, const Instant& instant) {
     return solve_stage(start, stage, duration, instant);
   };
@@ -145,10 +147,10 @@ StageFlow Evolution::time_scheme_step(const Scene& start, double dt) {
                             const PhaseTimer timer(times_, "move interfaces");
                             meniscus::damp(stage, state_.scene, about, duration);
                           },
-                          [&](const StageFlow& stage, const Scene& end,
+                          [&](const StageFlow& stage, const SurfactantPath& path,
                               const ConcentrationRates& rates, const ConcentrationRates& about) {
                             const PhaseTimer timer(times_, "move interfaces");
-                            return damped(stage, end, rates, about, duration);
+                            return damped(stage, path, rates, about, duration);
                           }};
   switch (options_.scheme) {
     case TimeScheme::euler:
@@ -178,7 +180,7 @@ StageFlow Evolution::solve_stage(const Scene& start, const StageFlow& stage, dou
   time_phase(times_, "move interfaces", [&] {
     state_.scene = start;
     move_interfaces(state_.scene, stage.motion, duration);
-    move_surfactant(state_.scene, start, stage.amount_rates, duration);
+    move_surfactant(start, stage, duration);
   });
   if (Report moved = move_mesh(start, stage.motion, stage.flow, duration); !moved.ok())
     return {std::move(moved)};
@@ -209,7 +211,9 @@ StageFlow Evolution::flow_at(const Instant& instant) {
     stage.motion = normal_motion(stage.normals, stage.normal_speed);
   }
   stage.surface_rate = surface_energy_rate(state_.scene, stage.motion);
-  stage.surfactant = surfactant_transport(state_.scene, stage.flow.velocity, stage.motion);
+  if (!has_surfactant(state_.scene)) return stage;
+  stage.surfactant = surfactant_transport(state_.scene, carriers_.of(state_.scene),
+                                          stage.flow.velocity, stage.motion);
   stage.amount_rates = amount_rates(stage.surfactant, state_.scene);
   return stage;
 }
@@ -231,6 +235,7 @@ Report Evolution::finish_step(const Scene& start, const StageFlow& whole, double
   if (Report apart = refuse_contact(are_remeshed); !apart.ok()) return apart;
   if (is_due || is_remeshed_as_needed())
     if (Report changed = change_topology(moved, whole.motion); !changed.ok()) return changed;
+  keep_surfactant(state_.scene, moved, carriers_);
   if (auto fault = find_surfactant_fault(state_.scene)) return {std::move(fault)};
   if (Report kept = judge_volume_shift(dt); !kept.ok()) return kept;
   if (!is_due && state_.events.empty()) {
@@ -267,14 +272,23 @@ Report Evolution::move_whole_step(const Scene& start, const StageFlow& whole, do
   scene = start;
   move_interfaces(scene, whole.motion, dt);
   if (auto fault = find_wild_motion(start, scene)) return {std::move(fault)};
-  if (auto fault = find_energy_fault({start, state_.t, dt}, whole, scene))
+  if (auto fault = find_energy_fault({start, state_.t, dt, carriers_}, whole, scene))
     return {std::move(fault)};
   if (options_.follows_drops)
     translate_interfaces(scene, state_.start_centroid - centroid_of_drops(scene));
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
     carry_fields(state_, i, start.interfaces[i].mesh);
-  move_surfactant(scene, start, whole.amount_rates, dt);
+  move_surfactant(start, whole, dt);
   return {};
+}
+
+/// Gives the interfaces of the scene, which moved from `start` with the motion of a stage, their
+/// concentrations.
+void Evolution::move_surfactant(const Scene& start, const StageFlow& stage, double duration) {
+  if (!has_surfactant(start)) return;
+  const Step step{start, state_.t, duration, carriers_};
+  meniscus::move_surfactant(state_.scene, surfactant_path(step, stage.motion, duration),
+                            stage.amount_rates);
 }
 
 /// Moves fields in the bulk with the mesh to where the step moved the interfaces, before a new mesh
@@ -371,13 +385,13 @@ Evolution::Rows Evolution::rows() const {
   const PhaseTimer timer(times_, "diagnostics");
   const auto faces = reconstructed_interfaces(state_.scene, options_.surface);
   return {history_row(state_, first_.flow, first_.motion, faces),
-          meniscus::drop_rows(state_, faces, options_.topology.breakup_radius)};
+          meniscus::drop_rows(state_, faces, options_.topology.breakup_radius, carriers_)};
 }
 
 std::vector<DropRow> Evolution::drop_rows() const {
   const PhaseTimer timer(times_, "diagnostics");
   return meniscus::drop_rows(state_, reconstructed_interfaces(state_.scene, options_.surface),
-                             options_.topology.breakup_radius);
+                             options_.topology.breakup_radius, carriers_);
 }
 
 double Evolution::seconds_in(const std::string& phase) const {

@@ -82,6 +82,7 @@ class Evolution {
   StageFlow flow_at(const Instant& instant);
   Report finish_step(const Scene& start, const StageFlow& whole, double dt);
   Report move_whole_step(const Scene& start, const StageFlow& whole, double dt);
+  void move_surfactant(const Scene& start, const StageFlow& stage, double duration);
   Report judge_motion(const Scene& start, const StageFlow& whole, double dt);
   void report_refusal(double dt, const Fault& fault);
   void accept_step(const StepPlan& plan);
@@ -110,11 +111,12 @@ class Evolution {
   std::unique_ptr<FlowSolver> solver_;
   State state_;
   std::int64_t last_connectivity_ =
-      0;                      // largest number given so far; undone steps do not free theirs
-  StageFlow first_;           // the flow and n n·v at t_k
-  mutable PhaseTimes times_;  // times are not part of the state
-  StepRecord attempt_;        // of the attempt at the step from t_k
-  ShiftJudge shift_judge_;    // judges the attempts at the step from t_k
+      0;                       // largest number given so far; undone steps do not free theirs
+  StageFlow first_;            // the flow and n n·v at t_k
+  mutable PhaseTimes times_;   // times are not part of the state
+  StepRecord attempt_;         // of the attempt at the step from t_k
+  ShiftJudge shift_judge_;     // judges the attempts at the step from t_k
+  mutable Carriers carriers_;  // of the surfactants: what they hold follows from the meshes
   std::vector<Notice> notices_;
   NoticeListener listener_;
 };

@@ -6,7 +6,6 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/evolve/drop_stress.hpp"
 #include "meniscus/mesh/sphere_radius.hpp"
-#include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
 #include "meniscus/scene/interface_tension.hpp"
 #include "meniscus/scene/scene_gap.hpp"
@@ -46,10 +45,9 @@ double tension_power(const Interface& interface, const ReconstructedSurface& fac
 /// How a drop's surfactant is spread.
 SurfactantSpread surfactant_spread(const Interface& interface,
                                    const VertexField<double>& concentration,
-                                   const ReconstructedSurface& faces) {
-  const VertexField<double> area = vertex_areas(interface.mesh);
+                                   const ReconstructedSurface& faces, Carriers& carriers) {
   SurfactantSpread spread;
-  for (const VertexId v : area.ids()) spread.amount += area[v] * concentration[v];
+  spread.amount = carriers.of(interface.mesh)->mass.total(concentration);
   const auto [least, most] = faces.range_of(concentration);
   spread.least = least;
   spread.most = most;
@@ -103,7 +101,7 @@ HistoryRow history_row(const State& state, const FlowSolution& flow, const Inter
 }
 
 std::vector<DropRow> drop_rows(const State& state, std::span<const ReconstructedSurface> faces,
-                               double breakup_radius) {
+                               double breakup_radius, Carriers& carriers) {
   std::vector<DropRow> rows;
   MENISCUS_ASSERT(state.volume_shift.size() == state.scene.interfaces.size(),
                   "{} shifts of {} interfaces", state.volume_shift.size(),
@@ -117,7 +115,7 @@ std::vector<DropRow> drop_rows(const State& state, std::span<const Reconstructed
     row.volume_drift = row.shape.volume / interface.initial_volume - 1.0;
     row.volume_correction = state.volume_shift[i];
     if (const VertexField<double>* concentration = surfactant_concentration(interface))
-      row.surfactant = surfactant_spread(interface, *concentration, faces[i]);
+      row.surfactant = surfactant_spread(interface, *concentration, faces[i], carriers);
     if (breakup_radius > 0.0) row.neck_radius = thinnest_neck(interface, faces[i]);
   }
   return rows;

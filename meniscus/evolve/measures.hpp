@@ -6,6 +6,7 @@
 #include "meniscus/evolve/interface_motion.hpp"
 #include "meniscus/evolve/record.hpp"
 #include "meniscus/evolve/state.hpp"
+#include "meniscus/evolve/surfactant_motion.hpp"
 #include "meniscus/surface/reconstructed_surface.hpp"
 
 namespace meniscus {
@@ -23,6 +24,6 @@ namespace meniscus {
 /// The rows of drops.csv, one per interface. Necks are searched if `breakup_radius` is positive.
 [[nodiscard]] std::vector<DropRow> drop_rows(const State& state,
                                              std::span<const ReconstructedSurface> faces,
-                                             double breakup_radius);
+                                             double breakup_radius, Carriers& carriers);
 
 }  // namespace meniscus

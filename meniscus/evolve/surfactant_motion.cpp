@@ -11,23 +11,40 @@
 namespace meniscus {
 namespace {
 
-double sum(const VertexField<double>& values) {
-  double total = 0.0;
-  for (const double each : values) total += each;
-  return total;
+/// The carriers of a step: at its start, at its stages, at its end, after remeshing.
+constexpr std::size_t kCarriersOfInterface = 4;
+
+/// Where rates of amounts take the concentration of an interface.
+VertexField<double> concentration_after(const SurfactantPath& path, std::size_t i,
+                                        const VertexField<double>& rates) {
+  VertexField<double> amounts =
+      path.at_start[i]->mass.amounts(*surfactant_concentration(path.start.interfaces[i]));
+  for (const VertexId v : amounts.ids()) amounts[v] += path.duration * rates[v];
+  return path.at_end[i]->mass.concentration(amounts);
 }
 
-/// Where rates of amounts take the concentration of an interface that moves to `end`.
-VertexField<double> concentration_after(const Interface& start, const SurfaceMesh& end,
-                                        const VertexField<double>& rates, double duration) {
-  VertexField<double> amounts = vertex_amounts(start.mesh, *surfactant_concentration(start));
-  for (const VertexId v : amounts.ids()) amounts[v] += duration * rates[v];
-  return concentration_of(end, amounts);
+double amount(const Interface& interface, Carriers& carriers) {
+  return carriers.of(interface.mesh)->mass.total(*surfactant_concentration(interface));
 }
 
 }  // namespace
 
-SurfactantTransport surfactant_transport(const Scene& scene,
+std::shared_ptr<const Carrier> Carriers::of(const SurfaceMesh& mesh) {
+  for (const auto& each : last_)
+    if (each->mesh == mesh) return each;
+  last_.push_front(std::make_shared<const Carrier>(mesh, shape_));
+  return last_.front();
+}
+
+SceneCarriers Carriers::of(const Scene& scene) {
+  SceneCarriers carriers(scene.interfaces.size());
+  for (std::size_t i = 0; i < carriers.size(); ++i)
+    if (scene.interfaces[i].surfactant) carriers[i] = of(scene.interfaces[i].mesh);
+  last_.resize(std::min(last_.size(), kCarriersOfInterface * carriers.size()));
+  return carriers;
+}
+
+SurfactantTransport surfactant_transport(const Scene& scene, const SceneCarriers& carriers,
                                          std::span<const VertexField<Vec3>> velocity,
                                          const InterfaceMotion& motion) {
   SurfactantTransport transport(scene.interfaces.size());
@@ -36,7 +53,7 @@ SurfactantTransport surfactant_transport(const Scene& scene,
     if (!interface.surfactant) continue;
     VertexField<Vec3> slip = velocity[i];
     for (const VertexId v : slip.ids()) slip[v] -= motion[i][v];
-    transport[i].emplace(interface.mesh, slip, interface.surfactant->diffusivity);
+    transport[i].emplace(carriers[i]->surface, slip, interface.surfactant->diffusivity);
   }
   return transport;
 }
@@ -49,69 +66,90 @@ AmountRates amount_rates(const SurfactantTransport& transport, const Scene& scen
   return rates;
 }
 
-AmountRates mean_amount_rates(const SurfactantTransport& transport, const Scene& start,
-                              const InterfaceMotion& motion, double duration) {
-  MENISCUS_ASSERT(transport.size() == start.interfaces.size() && motion.size() == transport.size(),
-                  "{} {} {}", transport.size(), start.interfaces.size(), motion.size());
+AmountRates mean_amount_rates(const SurfactantTransport& transport, const SurfactantPath& path) {
+  MENISCUS_ASSERT(transport.size() == path.start.interfaces.size(), "{} {}", transport.size(),
+                  path.start.interfaces.size());
   AmountRates rates(transport.size());
-  for (std::size_t i = 0; i < rates.size(); ++i) {
-    if (!transport[i]) continue;
-    const Interface& interface = start.interfaces[i];
-    rates[i] = transport[i]->mean_rates(*surfactant_concentration(interface),
-                                        {interface.mesh, motion[i], duration});
-  }
+  for (std::size_t i = 0; i < rates.size(); ++i)
+    if (transport[i])
+      rates[i] =
+          transport[i]->mean_rates(*surfactant_concentration(path.start.interfaces[i]),
+                                   {path.at_start[i]->mass, path.at_end[i]->mass, path.duration});
   return rates;
 }
 
-ConcentrationRates concentration_rates(const Scene& start, const Scene& end,
-                                       const AmountRates& rates, double duration) {
+ConcentrationRates concentration_rates(const SurfactantPath& path, const AmountRates& rates) {
   ConcentrationRates result(rates.size());
   for (std::size_t i = 0; i < rates.size(); ++i) {
-    if (!start.interfaces[i].surfactant) continue;
-    const VertexField<double>& before = *surfactant_concentration(start.interfaces[i]);
-    result[i] =
-        concentration_after(start.interfaces[i], end.interfaces[i].mesh, rates[i], duration);
-    for (const VertexId v : before.ids()) result[i][v] = (result[i][v] - before[v]) / duration;
+    if (!path.at_start[i]) continue;
+    const VertexField<double>& before = *surfactant_concentration(path.start.interfaces[i]);
+    result[i] = concentration_after(path, i, rates[i]);
+    for (const VertexId v : before.ids()) result[i][v] = (result[i][v] - before[v]) / path.duration;
   }
   return result;
 }
 
-AmountRates amount_rates_of(const Scene& start, const Scene& end, const ConcentrationRates& rates,
-                            double duration) {
+AmountRates amount_rates_of(const SurfactantPath& path, const ConcentrationRates& rates) {
   AmountRates result(rates.size());
   for (std::size_t i = 0; i < rates.size(); ++i) {
-    const Interface& interface = start.interfaces[i];
-    if (!interface.surfactant) continue;
-    VertexField<double> after = *surfactant_concentration(interface);
-    const VertexField<double> before = vertex_amounts(interface.mesh, after);
-    for (const VertexId v : after.ids()) after[v] += duration * rates[i][v];
-    result[i] = vertex_amounts(end.interfaces[i].mesh, after);
-    for (const VertexId v : before.ids()) result[i][v] = (result[i][v] - before[v]) / duration;
+    if (!path.at_start[i]) continue;
+    VertexField<double> after = *surfactant_concentration(path.start.interfaces[i]);
+    const VertexField<double> before = path.at_start[i]->mass.amounts(after);
+    for (const VertexId v : after.ids()) after[v] += path.duration * rates[i][v];
+    result[i] = path.at_end[i]->mass.amounts(after);
+    for (const VertexId v : before.ids()) result[i][v] = (result[i][v] - before[v]) / path.duration;
   }
   return result;
 }
 
-void move_surfactant(Scene& scene, const Scene& start, const AmountRates& rates, double duration) {
+void move_surfactant(Scene& scene, const SurfactantPath& path, const AmountRates& rates) {
   MENISCUS_ASSERT(rates.size() == scene.interfaces.size(), "{} {}", rates.size(),
                   scene.interfaces.size());
   for (std::size_t i = 0; i < rates.size(); ++i)
-    if (start.interfaces[i].surfactant)
-      *surfactant_concentration(scene.interfaces[i]) =
-          concentration_after(start.interfaces[i], scene.interfaces[i].mesh, rates[i], duration);
+    if (path.at_start[i])
+      *surfactant_concentration(scene.interfaces[i]) = concentration_after(path, i, rates[i]);
 }
 
-double surfactant_error(const Scene& start, const AmountRates& second, const AmountRates& first,
-                        double dt) {
+void keep_surfactant(Scene& scene, const Scene& before, Carriers& carriers) {
+  if (!has_surfactant(before)) return;
+  double gone = 0.0, born = 0.0;
+  std::vector<double> factor(scene.interfaces.size(), 1.0);
+  std::vector<bool> is_born(scene.interfaces.size(), true);
+  for (const Interface& old : before.interfaces) {
+    if (!old.surfactant) continue;
+    const auto same = std::ranges::find(scene.interfaces, old.drop, &Interface::drop);
+    if (same == scene.interfaces.end()) {
+      gone += amount(old, carriers);
+      continue;
+    }
+    const auto i = static_cast<std::size_t>(same - scene.interfaces.begin());
+    is_born[i] = false;
+    if (old.mesh != same->mesh || old.fields != same->fields)
+      factor[i] = amount(old, carriers) / amount(*same, carriers);
+  }
+  for (std::size_t i = 0; i < factor.size(); ++i)
+    if (is_born[i] && scene.interfaces[i].surfactant) born += amount(scene.interfaces[i], carriers);
+  for (std::size_t i = 0; i < factor.size(); ++i) {
+    VertexField<double>* concentration = surfactant_concentration(scene.interfaces[i]);
+    if (concentration == nullptr) continue;
+    for (double& each : *concentration) each *= is_born[i] ? gone / born : factor[i];
+  }
+}
+
+double surfactant_error(const SurfactantPath& path, const AmountRates& second,
+                        const AmountRates& first) {
   double largest = 0.0;
   for (std::size_t i = 0; i < second.size(); ++i) {
-    const Interface& interface = start.interfaces[i];
-    if (!interface.surfactant) continue;
-    const VertexField<double> area = vertex_areas(interface.mesh);
-    const double amount = sum(vertex_amounts(interface.mesh, *surfactant_concentration(interface))),
-                 mean = amount / sum(area),
-                 scale = sphere_radius(interface.volume) / mean_edge(interface.mesh) / mean;
+    if (!path.at_start[i]) continue;
+    const Interface& interface = path.start.interfaces[i];
+    const VertexField<double> area = path.at_start[i]->mass.areas();
+    double total = 0.0;
+    for (const double each : area) total += each;
+    const double mean = path.at_start[i]->mass.total(*surfactant_concentration(interface)) / total;
+    const double scale = sphere_radius(interface.volume) / mean_edge(interface.mesh) / mean;
     for (const VertexId v : area.ids())
-      largest = std::max(largest, scale * dt * std::abs(second[i][v] - first[i][v]) / area[v]);
+      largest =
+          std::max(largest, scale * path.duration * std::abs(second[i][v] - first[i][v]) / area[v]);
   }
   return largest;
 }

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <deque>
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "meniscus/evolve/interface_motion.hpp"
@@ -8,43 +11,81 @@
 
 namespace meniscus {
 
+/// An interface as what carries its surfactant, at one instant.
+struct Carrier {
+  explicit Carrier(const SurfaceMesh& at, SurfaceShape shape)
+      : mesh(at), surface(mesh, shape), mass(surface) {}
+  Carrier(const Carrier&) = delete;
+  Carrier& operator=(const Carrier&) = delete;
+
+  SurfaceMesh mesh;
+  CarrierSurface surface;
+  SurfaceMass mass;
+};
+
+/// Makes carriers and remembers the last ones: stages, steps and their ends ask for the same.
+class Carriers {
+ public:
+  /// Of flat faces, or of those on patches.
+  explicit Carriers(SurfaceShape shape)
+      : shape_(shape == SurfaceShape::faceted ? shape : SurfaceShape::patched) {}
+  [[nodiscard]] std::shared_ptr<const Carrier> of(const SurfaceMesh& mesh);
+  /// The carriers of the interfaces that have a surfactant; null of others.
+  [[nodiscard]] std::vector<std::shared_ptr<const Carrier>> of(const Scene& scene);
+
+ private:
+  SurfaceShape shape_;
+  std::deque<std::shared_ptr<const Carrier>> last_;
+};
+using SceneCarriers = std::vector<std::shared_ptr<const Carrier>>;
+
 /// Rates at which the amounts of surfactant at the vertices change, by interface; empty where there
-/// is none. An amount is ∫φ_v Γ dS (`vertex_amounts`) [R0²], Γ being over its initial value.
+/// is none. An amount is ∫φ_v Γ dS [R0²] (`SurfaceMass`), Γ being over its initial value.
 using AmountRates = std::vector<VertexField<double>>;
 
 /// Transport of the surfactants of a scene, by interface; empty where there is none.
 using SurfactantTransport = std::vector<std::optional<SurfaceTransport>>;
 /// For liquid that moves with `velocity` over vertices that move with `motion`.
 [[nodiscard]] SurfactantTransport surfactant_transport(const Scene& scene,
+                                                       const SceneCarriers& carriers,
                                                        std::span<const VertexField<Vec3>> velocity,
                                                        const InterfaceMotion& motion);
-
 /// The rates at this instant, at the concentrations of the scene.
 [[nodiscard]] AmountRates amount_rates(const SurfactantTransport& transport, const Scene& scene);
-/// The constant rates that take the amounts of `start` for `duration` along, while its vertices
-/// move with `motion`: implicit, of second order with the transport of the middle.
+
+/// A way of the interfaces with surfactant from the scene `start` on.
+struct SurfactantPath {
+  const Scene& start;
+  SceneCarriers at_start, at_end;
+  double duration = 0.0;
+};
+/// The constant rates that take the amounts along a path: implicit, of second order with the
+/// transport of its middle.
 [[nodiscard]] AmountRates mean_amount_rates(const SurfactantTransport& transport,
-                                            const Scene& start, const InterfaceMotion& motion,
-                                            double duration);
+                                            const SurfactantPath& path);
 
 /// Mean rates ∂Γ/∂t at the vertices, by interface; empty where there is no surfactant [G].
 using ConcentrationRates = std::vector<VertexField<double>>;
-/// Those of the concentrations to which rates of amounts lead, `end` being where the vertices of
-/// `start` are after `duration`: they hold how the surface stretched as well.
-[[nodiscard]] ConcentrationRates concentration_rates(const Scene& start, const Scene& end,
-                                                     const AmountRates& rates, double duration);
+/// Those of the concentrations to which rates of amounts lead: they hold how the surface stretched
+/// as well.
+[[nodiscard]] ConcentrationRates concentration_rates(const SurfactantPath& path,
+                                                     const AmountRates& rates);
 /// The rates of amounts that lead there.
-[[nodiscard]] AmountRates amount_rates_of(const Scene& start, const Scene& end,
-                                          const ConcentrationRates& rates, double duration);
+[[nodiscard]] AmountRates amount_rates_of(const SurfactantPath& path,
+                                          const ConcentrationRates& rates);
 
-/// Gives interfaces that moved from `start` the concentrations to which these rates lead in
-/// `duration`. Σ Γ × area changes by round-off alone.
-void move_surfactant(Scene& scene, const Scene& start, const AmountRates& rates, double duration);
+/// Gives interfaces at the end of a path the concentrations to which these rates lead. Σ_v S_v Γ_v
+/// changes by round-off alone.
+void move_surfactant(Scene& scene, const SurfactantPath& path, const AmountRates& rates);
+/// Gives the interfaces that took the place of others, by remeshing, restored volumes or events,
+/// their amounts: each drop its own, new ones by one factor all of those that are gone. Fields are
+/// conserved as amounts on flat faces, which differ.
+void keep_surfactant(Scene& scene, const Scene& before, Carriers& carriers);
 
 /// max_v dt |Δṁ_v|/(S_v ⟨Γ⟩) R/h over all vertices: how far rates of second and of first order take
 /// a concentration apart in a step, over the mean concentration, counted as `step_error` counts a
 /// displacement over the radius R of the drop's sphere. h is its mean edge.
-[[nodiscard]] double surfactant_error(const Scene& start, const AmountRates& second,
-                                      const AmountRates& first, double dt);
+[[nodiscard]] double surfactant_error(const SurfactantPath& path, const AmountRates& second,
+                                      const AmountRates& first);
 
 }  // namespace meniscus

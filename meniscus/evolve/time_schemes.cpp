@@ -87,44 +87,50 @@ VertexField<double> translation_speeds(const SurfaceMesh& mesh, const VertexFiel
 
 /// Gives a stage the rates with which the amounts of surfactant go from the start of the step for
 /// `duration`.
-void set_mean_rates(StageFlow& stage, const Scene& start, double duration) {
-  stage.amount_rates = mean_amount_rates(stage.surfactant, start, stage.motion, duration);
+void set_mean_rates(StageFlow& stage, const Step& step, double duration) {
+  if (has_surfactant(step.start))
+    stage.amount_rates =
+        mean_amount_rates(stage.surfactant, surfactant_path(step, stage.motion, duration));
 }
 
 /// The same, damped about other rates of concentrations (none: zero). Returns these rates.
-ConcentrationRates set_damped_rates(StageFlow& stage, const Scene& start, double duration,
+ConcentrationRates set_damped_rates(StageFlow& stage, const Step& step, double duration,
                                     const ConcentrationRates& about, const StageDampers& damp) {
-  set_mean_rates(stage, start, duration);
-  if (!has_surfactant(start)) return {};
-  Scene end = start;
-  move_interfaces(end, stage.motion, duration);
-  ConcentrationRates rates = concentration_rates(start, end, stage.amount_rates, duration);
-  rates = damp.concentrations(stage, end, rates, about.empty() ? scaled(0.0, rates) : about);
-  stage.amount_rates = amount_rates_of(start, end, rates, duration);
+  if (!has_surfactant(step.start)) return {};
+  const SurfactantPath path = surfactant_path(step, stage.motion, duration);
+  ConcentrationRates rates = concentration_rates(path, mean_amount_rates(stage.surfactant, path));
+  rates = damp.concentrations(stage, path, rates, about.empty() ? scaled(0.0, rates) : about);
+  stage.amount_rates = amount_rates_of(path, rates);
   return rates;
+}
+
+/// Of rates that take amounts through the whole step.
+double amount_error(const Step& step, const AmountRates& second, const AmountRates& first) {
+  if (!has_surfactant(step.start)) return 0.0;
+  return surfactant_error({step.start, step.carriers.of(step.start), {}, step.dt}, second, first);
 }
 
 double stage_error(const Step& step, const StageFlow& second, const StageFlow& first) {
   return std::max(step_error(step, second.normal_speed, first.normal_speed),
-                  surfactant_error(step.start, second.amount_rates, first.amount_rates, step.dt));
+                  amount_error(step, second.amount_rates, first.amount_rates));
 }
 
 }  // namespace
 
 StageFlow euler_step(const StageFlow& first, const Step& step) {
   StageFlow whole = first;
-  set_mean_rates(whole, step.start, step.dt);
+  set_mean_rates(whole, step, step.dt);
   return whole;
 }
 
 StageFlow midpoint_step(const StageFlow& first, const Step& step, const StageSolver& solve) {
   const double half = 0.5 * step.dt;
   StageFlow start = first;
-  set_mean_rates(start, step.start, half);
+  set_mean_rates(start, step, half);
   StageFlow middle =
       solve(start, half, {.t = step.t + half, .dt = step.dt, .stage = Stage::middle});
   if (!middle.ok()) return middle;
-  set_mean_rates(middle, step.start, step.dt);
+  set_mean_rates(middle, step, step.dt);
   middle.error = stage_error(step, middle, start);
   return middle;
 }
@@ -137,13 +143,13 @@ StageFlow semi_implicit_step(const StageFlow& first, const Step& step, const Sta
   StageFlow start = first;
   damp.speeds(start, none);
   start.motion = mean_motion(step.start, first.shape, start.shape, half);
-  const ConcentrationRates at_start = set_damped_rates(start, step.start, half, {}, damp);
+  const ConcentrationRates at_start = set_damped_rates(start, step, half, {}, damp);
   StageFlow middle =
       solve(start, half, {.t = step.t + half, .dt = step.dt, .stage = Stage::middle});
   if (!middle.ok()) return middle;
   damp.speeds(middle, normal_speeds(start.normals, start.shape.rest));
   middle.motion = mean_motion(step.start, first.shape, middle.shape, step.dt);
-  set_damped_rates(middle, step.start, step.dt, at_start, damp);
+  set_damped_rates(middle, step, step.dt, at_start, damp);
   middle.error = stage_error(step, middle, start);
   middle.damps_waves = true;
   return middle;
@@ -163,10 +169,17 @@ void damp(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, doubl
   stage.surface_rate = surface_energy_rate(scene, velocity_of(stage.shape, scene));
 }
 
-ConcentrationRates damped(const StageFlow& stage, const Scene& end, const ConcentrationRates& rates,
-                          const ConcentrationRates& about, double duration) {
-  return damped_concentration_rates(end, least_viscosities(stage.flow, end), rates, about,
-                                    duration);
+SurfactantPath surfactant_path(const Step& step, const InterfaceMotion& motion, double duration) {
+  Scene end = step.start;
+  move_interfaces(end, motion, duration);
+  return {step.start, step.carriers.of(step.start), step.carriers.of(end), duration};
+}
+
+ConcentrationRates damped(const StageFlow& stage, const SurfactantPath& path,
+                          const ConcentrationRates& rates, const ConcentrationRates& about,
+                          double duration) {
+  return damped_concentration_rates(path.start, least_viscosities(stage.flow, path.start), rates,
+                                    about, path.at_end, duration);
 }
 
 StageFlow chebyshev_step(const StageFlow& first, const Step& step, int num_stages,
@@ -200,7 +213,7 @@ StageFlow chebyshev_step(const StageFlow& first, const Step& step, int num_stage
   const Displacement line = scaled(1.0 / c, to_middle);
   stage.error = std::max(step_error(step, normal_speeds(normals, now.vertices),
                                     normal_speeds(normals, line.vertices)),
-                         surfactant_error(step.start, now.amounts, line.amounts, step.dt)) /
+                         amount_error(step, now.amounts, line.amounts)) /
                 (1.0 - c);
   stage.surface_rate = first.surface_rate + (middle_rate - first.surface_rate) / (2.0 * c);
   stage.motion = std::move(now.vertices);

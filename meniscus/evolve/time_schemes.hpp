@@ -33,7 +33,11 @@ struct Step {
   const Scene& start;
   double t = 0.0;
   double dt = 0.0;
+  Carriers& carriers;  ///< of the surfactants
 };
+/// The way on which a motion takes the surfactants for `duration`.
+[[nodiscard]] SurfactantPath surfactant_path(const Step& step, const InterfaceMotion& motion,
+                                             double duration);
 
 /// Moves the interfaces `duration` from where the step began, with the motion of a stage and the
 /// mesh with them, and solves the flow there.
@@ -47,13 +51,12 @@ using StageDamper = std::function<void(StageFlow& stage, const NormalSpeeds& abo
 /// of it.
 void damp(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, double duration);
 
-/// Damps rates of concentrations about others, by the viscosities of a stage; `end` is where its
-/// motion takes the interfaces.
+/// Damps rates of concentrations along a path about others, by the viscosities of a stage.
 using ConcentrationDamper = std::function<ConcentrationRates(
-    const StageFlow& stage, const Scene& end, const ConcentrationRates& rates,
+    const StageFlow& stage, const SurfactantPath& path, const ConcentrationRates& rates,
     const ConcentrationRates& about)>;
 /// What the elasticity would change in `duration` (`damped_concentration_rates`).
-[[nodiscard]] ConcentrationRates damped(const StageFlow& stage, const Scene& end,
+[[nodiscard]] ConcentrationRates damped(const StageFlow& stage, const SurfactantPath& path,
                                         const ConcentrationRates& rates,
                                         const ConcentrationRates& about, double duration);
 

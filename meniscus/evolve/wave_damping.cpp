@@ -83,15 +83,15 @@ Eigen::VectorXd damped(const SparseMatrix& K, const Eigen::VectorXd& mass, doubl
 }
 
 /// What A would change in `duration` on one interface, of tension or elasticity `modulus`, about
-/// zero.
-Eigen::VectorXd damped_on(const Scene& scene, std::size_t i, std::span<const double> viscosity,
-                          double modulus, const Eigen::VectorXd& mass, const Eigen::VectorXd& s,
-                          double duration) {
+/// zero; `mesh` is where its vertices are.
+Eigen::VectorXd damped_on(const Scene& scene, std::size_t i, const SurfaceMesh& mesh,
+                          std::span<const double> viscosity, double modulus,
+                          const Eigen::VectorXd& mass, const Eigen::VectorXd& s, double duration) {
   const Interface& interface = scene.interfaces[i];
   const double viscosities = viscosity[static_cast<std::size_t>(interface.inside.value)] +
                              viscosity[static_cast<std::size_t>(interface.outside.value)];
   const double radius = sphere_radius(interface.volume);
-  return damped(stiffness(interface.mesh), mass, kSphereStiffness / (radius * radius),
+  return damped(stiffness(mesh), mass, kSphereStiffness / (radius * radius),
                 duration * modulus / (2.0 * viscosities), s);
 }
 
@@ -112,7 +112,8 @@ NormalSpeeds damped_speeds(const Scene& scene, std::span<const double> viscosity
       mass[v.value] = area[v].norm();
       s[v.value] = speeds[i][v] - about[i][v];
     }
-    s = damped_on(scene, i, viscosity, largest_tension(interface), mass, s, duration);
+    s = damped_on(scene, i, interface.mesh, viscosity, largest_tension(interface), mass, s,
+                  duration);
     for (const VertexId v : area.ids()) result[i][v] = about[i][v] + s[v.value];
   }
   return result;
@@ -120,15 +121,15 @@ NormalSpeeds damped_speeds(const Scene& scene, std::span<const double> viscosity
 
 ConcentrationRates damped_concentration_rates(const Scene& scene, std::span<const double> viscosity,
                                               const ConcentrationRates& rates,
-                                              const ConcentrationRates& about, double duration) {
-  MENISCUS_ASSERT(rates.size() == scene.interfaces.size() && about.size() == rates.size(),
-                  "{} and {} rates of {} interfaces", rates.size(), about.size(),
-                  scene.interfaces.size());
+                                              const ConcentrationRates& about,
+                                              const SceneCarriers& carriers, double duration) {
+  MENISCUS_ASSERT(rates.size() == carriers.size() && about.size() == rates.size(),
+                  "{} and {} rates of {} interfaces", rates.size(), about.size(), carriers.size());
   ConcentrationRates result = rates;
   for (std::size_t i = 0; i < rates.size(); ++i) {
     const double elasticity = largest_elasticity(scene.interfaces[i]);
     if (elasticity == 0.0) continue;
-    const VertexField<double> area = vertex_areas(scene.interfaces[i].mesh);
+    const VertexField<double> area = carriers[i]->mass.areas();
     Eigen::VectorXd mass(area.size()), s(area.size());
     for (const VertexId v : area.ids()) {
       mass[v.value] = area[v];
@@ -136,7 +137,7 @@ ConcentrationRates damped_concentration_rates(const Scene& scene, std::span<cons
     }
     const double mean = mass.dot(s) / mass.sum();
     s.array() -= mean;
-    s = damped_on(scene, i, viscosity, elasticity, mass, s, duration);
+    s = damped_on(scene, i, carriers[i]->mesh, viscosity, elasticity, mass, s, duration);
     for (const VertexId v : area.ids()) result[i][v] = about[i][v] + mean + s[v.value];
   }
   return result;

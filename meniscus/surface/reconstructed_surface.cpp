@@ -23,10 +23,10 @@ constexpr Shapes kShapes = [] {
 
 /// Values at the nodes of every face from those at the vertices and at the middles of the edges.
 template <class Value>
-FaceField<std::array<Value, kQuadraticNodes>> quadratic_faces(const SurfaceMesh& mesh,
-                                                              const SurfaceTopology& topology,
-                                                              const VertexField<Value>& corners,
-                                                              const std::vector<Value>& middles) {
+FaceField<std::array<Value, kQuadraticNodes>> faces_with_values(const SurfaceMesh& mesh,
+                                                                const SurfaceTopology& topology,
+                                                                const VertexField<Value>& corners,
+                                                                const std::vector<Value>& middles) {
   MENISCUS_ASSERT(middles.size() == topology.edges().size(), "{} middles of {} edges",
                   middles.size(), topology.edges().size());
   const FaceField<std::array<std::size_t, 3>> edges = face_edges(mesh, topology);
@@ -116,7 +116,7 @@ ReconstructedSurface::ReconstructedSurface(const SurfaceMesh& mesh, SurfaceShape
   topology_.emplace(mesh);
   smooth_.emplace(mesh, *topology_);
   middles_ = edge_middles(mesh, *topology_, *smooth_, shape);
-  faces_ = quadratic_faces(mesh, *topology_, mesh.x, middles_);
+  faces_ = faces_with_values(mesh, *topology_, mesh.x, middles_);
   const Vec3 origin = mean_vertex(mesh);
   for (QuadraticFace& face : faces_)
     for (Vec3& x : face) x -= origin;
@@ -160,7 +160,7 @@ Mat3 ReconstructedSurface::normal_moment() const {
 template <class Value>
 FaceField<std::array<Value, kQuadraticNodes>> ReconstructedSurface::node_values(
     const VertexField<Value>& values) const {
-  return quadratic_faces(
+  return faces_with_values(
       mesh_, *topology_, values,
       interpolated(edge_stencils(mesh_, *topology_, smooth_->vertex_normals(), middles_), values));
 }

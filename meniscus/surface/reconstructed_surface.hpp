@@ -43,6 +43,10 @@ class ReconstructedSurface {
   };
   [[nodiscard]] ValueRange range_of(const VertexField<double>& values) const;
 
+  /// The quadratic faces, seen from the mean vertex; none with flat faces.
+  [[nodiscard]] const FaceField<TriangleNodes<kQuadraticNodes>>& quadratic_faces() const {
+    return faces_;
+  }
   /// The smooth surface through the vertices; none with flat faces.
   [[nodiscard]] const std::optional<SmoothSurface>& smooth() const { return smooth_; }
 

@@ -24,7 +24,7 @@ USES = {
     "flow": ["core", "geometry", "mesh", "scene", "volume"],
     "flow/fem": ["core", "geometry", "mesh", "linear", "scene", "surface", "volume", "flow"],
     "flow/bem": ["core", "geometry", "mesh", "linear", "scene", "surface", "flow"],
-    "transport": ["core", "geometry", "mesh"],
+    "transport": ["core", "geometry", "mesh", "scene", "surface"],
     "evolve": ["core", "geometry", "mesh", "linear", "scene", "surface", "surface/repair",
                "topology", "volume", "flow", "transport"],
     "case": ["core", "geometry", "mesh", "io", "scene", "surface", "surface/repair", "topology",
