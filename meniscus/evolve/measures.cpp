@@ -51,7 +51,9 @@ SurfactantSpread surfactant_spread(const Interface& interface,
   const auto [least, most] = faces.range_of(concentration);
   spread.least = least;
   spread.most = most;
-  spread.least_tension = relative_tension(interface.surfactant->state, most).value;
+  VertexField<double> tension = concentration;
+  for (double& each : tension) each = relative_tension(interface.surfactant->state, each).value;
+  spread.least_tension = faces.range_of(tension).least;
   return spread;
 }
 

@@ -28,6 +28,11 @@ std::string complaint(const Surfactant& surfactant, double concentration) {
   return {};
 }
 
+/// σ at a concentration Γ on an interface with surfactant [μ_out G R0].
+double tension_at(const Interface& interface, double concentration) {
+  return interface.tension * relative_tension(interface.surfactant->state, concentration).value;
+}
+
 }  // namespace
 
 const VertexField<double>* surfactant_concentration(const Interface& interface) {
@@ -42,11 +47,6 @@ bool has_surfactant(const Scene& scene) {
   return std::ranges::any_of(scene.interfaces, [](const Interface& interface) {
     return interface.surfactant.has_value();
   });
-}
-
-double tension_at(const Interface& interface, double concentration) {
-  if (!interface.surfactant) return interface.tension;
-  return interface.tension * relative_tension(interface.surfactant->state, concentration).value;
 }
 
 VertexField<double> vertex_tension(const Interface& interface) {

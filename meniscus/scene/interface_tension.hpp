@@ -14,8 +14,6 @@ inline constexpr const char* kSurfactantField = "surfactant";
 [[nodiscard]] VertexField<double>* surfactant_concentration(Interface& interface);
 [[nodiscard]] bool has_surfactant(const Scene& scene);
 
-/// σ at a concentration Γ [μ_out G R0]; Γ is not read where there is no surfactant.
-[[nodiscard]] double tension_at(const Interface& interface, double concentration);
 /// σ at the vertices [μ_out G R0].
 [[nodiscard]] VertexField<double> vertex_tension(const Interface& interface);
 /// The largest σ of the vertices [μ_out G R0].

@@ -26,7 +26,7 @@ struct Mode {
 /// the jump of traction.
 [[nodiscard]] std::array<Mode, 2> modes(unsigned l, double lambda, double E0, double Pe);
 
-/// A run of a drop at rest that begins with a mode, the larger of f and g being 0.01.
+/// A run of a drop at rest that begins with a mode, the larger of f and g being 0.0025.
 struct RestingRun {
   std::string surfactant = kLinear;
   int nodes = 200;

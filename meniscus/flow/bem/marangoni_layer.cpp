@@ -12,17 +12,13 @@ namespace {
 using Face = InterfaceElements::Face;
 using NodeValues = std::array<double, kQuadraticNodes>;
 
-/// σ at the nodes of a face.
-NodeValues node_tension(const Interface& interface, const Face& face) {
-  const VertexField<double>& concentration = *surfactant_concentration(interface);
+/// σ at the nodes of a face, from its values at the vertices.
+NodeValues node_tension(const VertexField<double>& at_vertices, const Face& face) {
   NodeValues tension{};
-  for (std::size_t a = 0; a < tension.size(); ++a) {
-    double here = 0.0;
+  for (std::size_t a = 0; a < tension.size(); ++a)
     for (std::size_t c = 0; c < face.columns.size(); ++c)
-      here += face.to_nodes(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(c)) *
-              concentration[face.columns[c]];
-    tension[a] = tension_at(interface, here);
-  }
+      tension[a] += face.to_nodes(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(c)) *
+                    at_vertices[face.columns[c]];
   return tension;
 }
 
@@ -60,8 +56,9 @@ MarangoniLayer::MarangoniLayer(const Scene& scene, const BoundaryGeometry& geome
   SourceVectors sums(geometry.size());
   for (std::size_t m = 0; m < loads_.size(); ++m) {
     if (!scene.interfaces[m].surfactant) continue;
+    const VertexField<double> tension = vertex_tension(scene.interfaces[m]);
     for (const Face& face : geometry.surfaces[m].elements.faces) {
-      FaceLoad load{.tension = node_tension(scene.interfaces[m], face), .forces = {}};
+      FaceLoad load{.tension = node_tension(tension, face), .forces = {}};
       load.forces = column_forces(face, load.tension);
       for (std::size_t c = 0; c < face.columns.size(); ++c) {
         const std::int32_t j = geometry.index(m, face.columns[c]);

@@ -86,11 +86,10 @@ Field<NodeId, double> node_tension(const Interface& interface, const FaceNodeTab
     for (std::size_t k = 0; k < 3; ++k) middles[edges[f][k]] = positions.x[faces.of(f)[3 + k]];
   VertexField<Vec3> normals = vertex_area_vectors(mesh);
   for (Vec3& n : normals) n.normalize();
-  const std::vector<double> concentration = interpolated(
-      edge_stencils(mesh, topology, normals, middles), *surfactant_concentration(interface));
+  const std::vector<double> at_middles =
+      interpolated(edge_stencils(mesh, topology, normals, middles), at_vertices);
   for (const FaceId f : mesh.faces.ids())
-    for (std::size_t k = 0; k < 3; ++k)
-      tension[faces.of(f)[3 + k]] = tension_at(interface, concentration[edges[f][k]]);
+    for (std::size_t k = 0; k < 3; ++k) tension[faces.of(f)[3 + k]] = at_middles[edges[f][k]];
   return tension;
 }
 

@@ -19,8 +19,8 @@ void add_weak_force(double tension, const FaceNodeTable& faces, const NodePositi
 /// is ∫(∇_s σ − σκ n) φ_i dS.
 void add_weak_force(const Field<NodeId, double>& tension, const FaceNodeTable& faces,
                     const NodePositions& positions, Field<NodeId, Vec3>& force);
-/// σ at the nodes of an interface's faces, zero elsewhere. At the middles of edges it is that of Γ
-/// as interpolated from the vertices around (`edge_stencils`).
+/// σ at the nodes of an interface's faces, zero elsewhere. At the middles of edges it is
+/// interpolated from the vertices around (`edge_stencils`): Γ could leave its range there.
 [[nodiscard]] Field<NodeId, double> node_tension(const Interface& interface,
                                                  const FaceNodeTable& faces,
                                                  const NodePositions& positions);
