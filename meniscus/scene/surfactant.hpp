@@ -18,7 +18,8 @@ struct LangmuirState {
 };
 
 /// How surface tension depends on the concentration Γ of a surfactant, Γ being over its initial
-/// value and σ over the tension σ1 at Γ = 1. A further law is a type here and one `at` function.
+/// value and σ over the tension σ1 at Γ = 1. A further law is a type here, and what
+/// the functions below ask of it.
 using EquationOfState = std::variant<LinearState, LangmuirState>;
 
 /// σ/σ1 at one concentration and its slope by Γ, never positive.
