@@ -2,33 +2,42 @@
 
 #include <algorithm>
 #include <array>
-#include <string_view>
 
 #include <fmt/ranges.h>
 
+#include "meniscus/app/scalar_arrays.hpp"
 #include "meniscus/core/archive_entries.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/vtk_file.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/scene/interface_tension.hpp"
 #include "meniscus/surface/curvature.hpp"
 #include "meniscus/volume/quality.hpp"
 
 namespace meniscus {
 namespace {
 
-// Names of the arrays that frames always may hold; carried fields must differ.
+using Names = std::vector<std::string>;
+
+// Names of the arrays that frames always may hold; scalars and carried fields must differ.
 constexpr std::array kSurfaceArrays{"curvature",    "normal_velocity", "velocity",
                                     "node_density", "pressure_jump",   "drop"};
 constexpr std::array kVolumeArrays{"velocity", "pressure", "region", "min_dihedral_deg"};
 
+Names operator+(Names names, std::span<const char* const> more) {
+  names.insert(names.end(), more.begin(), more.end());
+  return names;
+}
+
+void check_name(const char* what, const std::string& name, const Names& taken) {
+  if (std::ranges::find(taken, name) != taken.end())
+    reject_input("{} \"{}\": frames have an array of this name; others are {}", what, name,
+                 fmt::join(taken, ", "));
+}
+
 template <class IdType>
-void check_names(const std::vector<CarriedField<IdType>>& fields,
-                 std::span<const char* const> taken) {
-  for (const CarriedField<IdType>& field : fields)
-    if (std::ranges::find(taken, field.name,
-                          [](const char* name) { return std::string_view(name); }) != taken.end())
-      reject_input("field \"{}\": frames have an array of this name; others are {}", field.name,
-                   fmt::join(taken, ", "));
+void check_names(const std::vector<CarriedField<IdType>>& fields, const Names& taken) {
+  for (const CarriedField<IdType>& field : fields) check_name("field", field.name, taken);
 }
 
 void append(std::vector<double>& values, const Vec3& v) {
@@ -82,13 +91,19 @@ std::vector<double> pressure_jump(const Evolution& evolution) {
 }  // namespace
 
 void check_field_names(const Evolution& evolution) {
+  Names scalars;
+  for (const Scalar& scalar : evolution.scene().scalars) {
+    check_name("scalar", scalar.name, Names{kSurfactantField} + kSurfaceArrays + kVolumeArrays);
+    scalars.push_back(scalar.name);
+  }
+  const Names on_surfaces = scalars + kSurfaceArrays, in_volume = scalars + kVolumeArrays;
   for (const Interface& interface : evolution.scene().interfaces) {
-    check_names(interface.fields.on_vertices, kSurfaceArrays);
-    check_names(interface.fields.on_faces, kSurfaceArrays);
+    check_names(interface.fields.on_vertices, on_surfaces);
+    check_names(interface.fields.on_faces, on_surfaces);
   }
   if (!evolution.state().mesh) return;
-  check_names(evolution.state().mesh->fields().on_vertices, kVolumeArrays);
-  check_names(evolution.state().mesh->fields().on_cells, kVolumeArrays);
+  check_names(evolution.state().mesh->fields().on_vertices, in_volume);
+  check_names(evolution.state().mesh->fields().on_cells, in_volume);
 }
 
 void write_surface_frame(const std::filesystem::path& path, const Evolution& evolution) {
@@ -124,6 +139,10 @@ void write_surface_frame(const std::filesystem::path& path, const Evolution& evo
   data.on_cells.insert(data.on_cells.begin(), drop);
   const io::NamedArray jump{"pressure_jump", 1, pressure_jump(evolution)};
   if (!jump.values.empty()) data.on_vertices.push_back(jump);
+  if (evolution.state().mesh)
+    std::ranges::move(scalars_on_interfaces(scene, evolution.state().mesh->tetrahedra(),
+                                            evolution.state().scalars),
+                      std::back_inserter(data.on_vertices));
   io::write_vtp(path, surfaces, data, evolution.t());
 }
 
@@ -138,12 +157,15 @@ void write_volume_frame(const std::filesystem::path& path, const Evolution& evol
                   "{} velocities of {} vertices", flow.v.size(), mesh.num_vertices());
   for (const RegionId r : mesh.region) region.values.push_back(r.value);
   for (const double angle : min_dihedral_deg(mesh)) dihedral.values.push_back(angle);
-  const io::NamedArray pressure{"pressure", 1, flow.corner_pressure};
+  ScalarArrays scalars = scalars_in_volume(evolution.scene(), mesh, evolution.state().scalars);
   io::MeshData data{{}, {region, dihedral}};
   if (!velocity.values.empty()) data.on_vertices.push_back(velocity);
   append_fields(evolution.state().mesh->fields().on_vertices, data.on_vertices);
   append_fields(evolution.state().mesh->fields().on_cells, data.on_cells);
-  const std::span<const io::NamedArray> corners(&pressure, pressure.values.empty() ? 0 : 1);
+  std::ranges::move(scalars.on_vertices, std::back_inserter(data.on_vertices));
+  std::vector<io::NamedArray> corners;
+  if (!flow.corner_pressure.empty()) corners.push_back({"pressure", 1, flow.corner_pressure});
+  std::ranges::move(scalars.on_corners, std::back_inserter(corners));
   io::write_vtu(path, mesh, data, evolution.t(), corners);
 }
 

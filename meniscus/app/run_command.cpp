@@ -25,7 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 
 Evolution make_evolution(const Case& c, Scene scene) {
-  Evolution evolution(std::move(scene), c.evolution, make_flow_solver(c), make_moving_mesh(c));
+  Evolution evolution(std::move(scene), c.evolution, make_flow_solver(c), make_moving_mesh(c),
+                      make_scalar_solver(c));
   evolution.set_listener(log_notice);
   return evolution;
 }
@@ -205,7 +206,7 @@ int run(const RunArguments& arguments) {
   // Nothing is written before the run can begin.
   std::optional<RunDirectory> directory;
   on_first_rank([&] {
-    directory = RunDirectory::create(folder, arguments.is_overwrite);
+    directory = RunDirectory::create(folder, arguments.is_overwrite, evolution.scene().scalars);
     try {
       copy_reference(file.parent_path(), folder);
     } catch (const std::exception&) {
@@ -245,7 +246,8 @@ int resume(const ResumeArguments& arguments) {
   std::optional<RunDirectory> directory;
   on_first_rank([&] {
     record.go_on_from(folder / io::RunFiles::record);
-    directory = RunDirectory::take_up(folder, evolution.step(), evolution.t());
+    directory =
+        RunDirectory::take_up(folder, evolution.step(), evolution.t(), evolution.scene().scalars);
   });
   Progress progress(evolution.t(), c.evolution.end, arguments.is_quiet);
   Simulation simulation(std::move(evolution), std::move(directory), c.output,

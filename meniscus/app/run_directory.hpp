@@ -19,11 +19,15 @@ class RunDirectory {
  public:
   /// Makes a folder for a new run. Throws InvalidInput when the path cannot be a folder, holds a
   /// run already, or is locked by another program. With `overwrite` the files of that run are
-  /// removed first. The folder stays locked as long as this object lives.
-  static RunDirectory create(const std::filesystem::path& path, bool overwrite);
+  /// removed first. The folder stays locked as long as this object lives. The tables have columns
+  /// of the given bulk scalars.
+  static RunDirectory create(const std::filesystem::path& path, bool overwrite,
+                             std::vector<Scalar> scalars = {});
   /// Resumes a run from the state at `first_step`, time t. Rows and frames from there on are
-  /// removed, to be written again. Throws InvalidInput when another program has locked the folder.
-  static RunDirectory take_up(const std::filesystem::path& path, std::int64_t first_step, double t);
+  /// removed, to be written again. Throws InvalidInput when another program has locked the folder,
+  /// or its tables have other columns.
+  static RunDirectory take_up(const std::filesystem::path& path, std::int64_t first_step, double t,
+                              std::vector<Scalar> scalars = {});
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// The frames that surface.pvd and volume.pvd name.
@@ -41,10 +45,12 @@ class RunDirectory {
   void write_text(const std::string& name, const std::string& text) const;
 
  private:
-  RunDirectory(FolderLock lock, std::filesystem::path path, std::optional<std::int64_t> first_step);
+  RunDirectory(FolderLock lock, std::filesystem::path path, std::vector<Scalar> scalars,
+               std::optional<std::int64_t> first_step);
 
   FolderLock lock_;
   std::filesystem::path path_;
+  std::vector<Scalar> scalars_;
   std::set<std::int64_t> kept_steps_;  // steps whose checkpoints are kept because of events
   io::TableWriter history_, drops_, events_, timing_;
   std::vector<io::PvdEntry> surface_frames_, volume_frames_;

@@ -129,32 +129,102 @@ constexpr std::array<Column<Event>, 16> kEvents{{
     {"gap", "R0", [](const Event& e) { return cell(e.row.gap); }},
 }};
 
-constexpr std::array kPhases{"remesh surface", "tetrahedralize",  "assemble",
-                             "solve",          "move mesh",       "diagnostics",
-                             "output",         "move interfaces", "topology"};
+using OfAll = ScalarColumn<ScalarTotals>::Of;
+constexpr std::array<ScalarColumn<ScalarTotals>, 5> kHistoryOfScalars{{
+    {OfAll::every, "_total", "R0³", [](const ScalarTotals& s) { return Cell(s.amount); }},
+    {OfAll::every, "_boundary_rate", "R0³ G",
+     [](const ScalarTotals& s) { return Cell(s.boundary_rate); }},
+    {OfAll::every, "_source_rate", "R0³ G",
+     [](const ScalarTotals& s) { return Cell(s.source_rate); }},
+    {OfAll::every, "_min", "", [](const ScalarTotals& s) { return Cell(s.least); }},
+    {OfAll::every, "_max", "", [](const ScalarTotals& s) { return Cell(s.largest); }},
+}};
+
+Cell transfer_number(const ScalarOnDrop& s) { return cell(s.transfer_number); }
+
+using OnDrop = ScalarColumn<ScalarOnDrop>::Of;
+constexpr std::array<ScalarColumn<ScalarOnDrop>, 3> kDropsOfScalars{{
+    {OnDrop::every, "_amount", "R0³", [](const ScalarOnDrop& s) { return Cell(s.amount); }},
+    {OnDrop::heat, "_nusselt", "", transfer_number},
+    {OnDrop::species, "_sherwood", "", transfer_number},
+}};
+
+template <class Value>
+void append_names(std::vector<std::string>& names, std::span<const ScalarColumn<Value>> columns,
+                  std::span<const Scalar> scalars) {
+  for (const Scalar& scalar : scalars)
+    for (const ScalarColumn<Value>& column : columns)
+      if (column.is_of(scalar)) names.push_back(scalar.name + column.suffix);
+}
+
+template <class Value>
+void append_cells(std::vector<Cell>& cells, std::span<const ScalarColumn<Value>> columns,
+                  std::span<const Scalar> scalars, const std::vector<Value>& values) {
+  MENISCUS_ASSERT(values.size() == scalars.size(), "a row of {} scalars where there are {}",
+                  values.size(), scalars.size());
+  for (std::size_t k = 0; k < scalars.size(); ++k)
+    for (const ScalarColumn<Value>& column : columns)
+      if (column.is_of(scalars[k])) cells.push_back(column.value(values[k]));
+}
+
+/// The last one only where there are bulk scalars.
+constexpr std::array kPhases{"remesh surface", "tetrahedralize", "assemble", "solve",
+                             "move mesh",      "diagnostics",    "output",   "move interfaces",
+                             "topology",       "scalars"};
 
 }  // namespace
 
 std::span<const Column<HistoryRow>> history_columns() { return kHistory; }
 std::span<const Column<Drop>> drop_columns() { return kDrops; }
 std::span<const Column<Event>> event_columns() { return kEvents; }
-std::span<const char* const> timed_phases() { return kPhases; }
+std::span<const ScalarColumn<ScalarTotals>> history_scalar_columns() { return kHistoryOfScalars; }
+std::span<const ScalarColumn<ScalarOnDrop>> drop_scalar_columns() { return kDropsOfScalars; }
 
-std::vector<std::string> timing_columns() {
+std::vector<std::string> history_names(std::span<const Scalar> scalars) {
+  std::vector<std::string> names = names_of(history_columns());
+  append_names(names, history_scalar_columns(), scalars);
+  return names;
+}
+
+std::vector<std::string> drop_names(std::span<const Scalar> scalars) {
+  std::vector<std::string> names = names_of(drop_columns());
+  append_names(names, drop_scalar_columns(), scalars);
+  return names;
+}
+
+std::vector<Cell> history_cells(const HistoryRow& row, std::span<const Scalar> scalars) {
+  std::vector<Cell> cells = cells_of(history_columns(), row);
+  append_cells(cells, history_scalar_columns(), scalars, row.scalars);
+  return cells;
+}
+
+std::vector<Cell> drop_cells(const RowAtStep<DropRow>& row, std::span<const Scalar> scalars) {
+  std::vector<Cell> cells = cells_of(drop_columns(), row);
+  append_cells(cells, drop_scalar_columns(), scalars, row.row.scalars);
+  return cells;
+}
+
+std::span<const char* const> timed_phases(bool has_scalars) {
+  return std::span(kPhases).first(kPhases.size() - (has_scalars ? 0 : 1));
+}
+
+std::vector<std::string> timing_columns(bool has_scalars) {
   std::vector<std::string> columns{"step", "t"};
-  for (std::string phase : timed_phases()) {
+  for (std::string phase : timed_phases(has_scalars)) {
     std::ranges::replace(phase, ' ', '_');
     columns.push_back(std::move(phase));
   }
   return columns;
 }
 
-std::vector<Cell> timing_row(std::int64_t step, double t, const PhaseSeconds& seconds) {
+std::vector<Cell> timing_row(std::int64_t step, double t, const PhaseSeconds& seconds,
+                             bool has_scalars) {
+  const std::span<const char* const> phases = timed_phases(has_scalars);
   for ([[maybe_unused]] const auto& [phase, spent] : seconds)
-    MENISCUS_ASSERT(std::ranges::find(timed_phases(), phase) != timed_phases().end(),
-                    "no column for the phase {}", phase);
+    MENISCUS_ASSERT(std::ranges::find(phases, phase) != phases.end(), "no column for the phase {}",
+                    phase);
   std::vector<Cell> row{step, t};
-  for (const std::string phase : timed_phases()) {
+  for (const std::string phase : phases) {
     const auto found = std::ranges::find(seconds, phase, &PhaseSeconds::value_type::first);
     row.emplace_back(found == seconds.end() ? 0.0 : found->second);
   }

@@ -7,6 +7,7 @@
 
 #include "meniscus/evolve/record.hpp"
 #include "meniscus/io/table.hpp"
+#include "meniscus/scene/scalar.hpp"
 #include "meniscus/topology/events.hpp"
 
 namespace meniscus {
@@ -26,19 +27,45 @@ struct RowAtStep {
   const Row& row;
 };
 
-/// The columns of history.csv, drops.csv and events.csv, in their order.
+/// A column that a table has once for each bulk scalar, or for each of one kind: what follows the
+/// scalar's name, its unit, and its value.
+template <class Value>
+struct ScalarColumn {
+  enum class Of { every, heat, species } of;
+  const char *suffix, *unit;
+  io::Cell (*value)(const Value&);
+
+  [[nodiscard]] bool is_of(const Scalar& scalar) const {
+    return of == Of::every || (of == Of::species) == scalar.is_species;
+  }
+};
+
+/// The columns of history.csv, drops.csv and events.csv, in their order; those of bulk scalars
+/// follow.
 [[nodiscard]] std::span<const Column<HistoryRow>> history_columns();
 [[nodiscard]] std::span<const Column<RowAtStep<DropRow>>> drop_columns();
 [[nodiscard]] std::span<const Column<RowAtStep<TopologyEvent>>> event_columns();
 
-/// The phases of timing.csv and run.json, in their order.
-[[nodiscard]] std::span<const char* const> timed_phases();
+[[nodiscard]] std::span<const ScalarColumn<ScalarTotals>> history_scalar_columns();
+[[nodiscard]] std::span<const ScalarColumn<ScalarOnDrop>> drop_scalar_columns();
+
+/// The columns of history.csv and drops.csv in a run with the given bulk scalars: the fixed ones,
+/// then all of the first scalar, of the second, ….
+[[nodiscard]] std::vector<std::string> history_names(std::span<const Scalar> scalars);
+[[nodiscard]] std::vector<std::string> drop_names(std::span<const Scalar> scalars);
+[[nodiscard]] std::vector<io::Cell> history_cells(const HistoryRow& row,
+                                                  std::span<const Scalar> scalars);
+[[nodiscard]] std::vector<io::Cell> drop_cells(const RowAtStep<DropRow>& row,
+                                               std::span<const Scalar> scalars);
+
+/// The phases of timing.csv and run.json, in their order; one more in runs with bulk scalars.
+[[nodiscard]] std::span<const char* const> timed_phases(bool has_scalars);
 /// Seconds by phase.
 using PhaseSeconds = std::vector<std::pair<std::string, double>>;
 /// The columns of timing.csv: `step`, `t`, then the phases with underscores for blanks.
-[[nodiscard]] std::vector<std::string> timing_columns();
+[[nodiscard]] std::vector<std::string> timing_columns(bool has_scalars);
 [[nodiscard]] std::vector<io::Cell> timing_row(std::int64_t step, double t,
-                                               const PhaseSeconds& seconds);
+                                               const PhaseSeconds& seconds, bool has_scalars);
 
 template <class Row>
 std::vector<std::string> names_of(std::span<const Column<Row>> columns) {

@@ -121,7 +121,9 @@ double Simulation::seconds_in(const std::string& phase) const {
 
 PhaseSeconds Simulation::seconds() const {
   PhaseSeconds all;
-  for (const std::string phase : timed_phases()) all.emplace_back(phase, seconds_in(phase));
+  const bool has_scalars = !evolution_.scene().scalars.empty();
+  for (const std::string phase : timed_phases(has_scalars))
+    all.emplace_back(phase, seconds_in(phase));
   return all;
 }
 

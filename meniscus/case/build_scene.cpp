@@ -173,6 +173,13 @@ void require_no_net_inflow(const Case& c, const Scene& scene) {
   }
 }
 
+/// What the scalars meet in the matrix, 0, or in a drop, from 1.
+std::vector<ScalarLiquid> scalars_in(const Case& c, std::size_t liquid) {
+  std::vector<ScalarLiquid> result;
+  for (const ScalarCase& each : c.scalars) result.push_back(each.liquids[liquid]);
+  return result;
+}
+
 double squared_distance(const SurfaceMesh& mesh, const Vec3& position) {
   double least = std::numeric_limits<double>::infinity();
   for (const Vec3& x : mesh.x) least = std::min(least, (x - position).squaredNorm());
@@ -187,10 +194,16 @@ Scene build_surroundings(const Case& c) {
   scene.flow = c.flow;
   scene.is_unbounded = c.domain.shape == DomainCase::Shape::unbounded;
   if (!scene.is_unbounded) scene.boundary = build_boundary(c);
-  scene.liquids.add({.viscosity = 1.0, .body_force = c.matrix_body_force, .law = c.matrix_law});
-  for (const DropCase& drop : c.drops)
-    scene.liquids.add(
-        {.viscosity = drop.viscosity_ratio, .body_force = drop.body_force, .law = drop.law});
+  for (const ScalarCase& each : c.scalars) scene.scalars.push_back(each.scalar);
+  scene.liquids.add({.viscosity = 1.0,
+                     .body_force = c.matrix_body_force,
+                     .law = c.matrix_law,
+                     .scalars = scalars_in(c, 0)});
+  for (std::size_t i = 0; i < c.drops.size(); ++i)
+    scene.liquids.add({.viscosity = c.drops[i].viscosity_ratio,
+                       .body_force = c.drops[i].body_force,
+                       .law = c.drops[i].law,
+                       .scalars = scalars_in(c, i + 1)});
   return scene;
 }
 

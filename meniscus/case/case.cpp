@@ -72,6 +72,13 @@ void require_weak_form(const Case& c) {
     c.settings.reject("interface.surface-tension",
                       "must be \"weak\" where a drop has a surfactant: the other forms know no "
                       "gradient of tension");
+  const bool has_slope = std::ranges::any_of(
+      c.scalars, [](const ScalarCase& each) { return each.scalar.tension_slope != 0.0; });
+  if (has_slope && c.flow_solver.capillary != fem::CapillaryForm::weak)
+    c.settings.reject(
+        "interface.surface-tension",
+        "must be \"weak\" where a scalar has a tension-slope: the other forms know no "
+        "gradient of tension");
 }
 
 /// The keys that are used when the file is read without overrides; none if it is no valid case
@@ -100,10 +107,12 @@ Case parse_case(std::string_view text, const std::string& name, const std::files
   c.domain = read_domain(c.settings, c.flow);
   require_capillary_time(c);
   c.method = read_method(c.settings, c.domain);
-  if (c.method == FlowMethod::boundary_integral) require_newtonian(c);
   if (c.method == FlowMethod::boundary_integral) {
+    require_newtonian(c);
+    require_no_scalars(c.settings);
     c.boundary_integral = read_boundary_integrals(c.settings);
   } else {
+    c.scalars = read_scalars(c.settings, c.domain, c.drops.size());
     c.flow_solver = read_finite_elements(c.settings);
     require_weak_form(c);
     c.volume_mesh = read_volume_mesh(c.settings, c.flow_solver.elements);

@@ -13,6 +13,7 @@
 #include "meniscus/flow/bem/options.hpp"
 #include "meniscus/flow/fem/options.hpp"
 #include "meniscus/flow/flow_solver.hpp"
+#include "meniscus/flow/scalar_solver.hpp"
 #include "meniscus/scene/scene.hpp"
 
 namespace meniscus {
@@ -43,17 +44,21 @@ struct DropCase {
   std::optional<Surfactant> surfactant;
 };
 
-/// One [[domain.patch]]: the condition on a part of the outer boundary.
-struct PatchCase {
-  std::string path;       ///< "domain.patch[2]", to name its line
+/// The part of the outer boundary that a table is about.
+struct PatchPlace {
+  std::string path;       ///< "domain.patch[2]" or "scalar[0].patch[1]", to name its line
   std::string name;       ///< of the shape's patch, or the label of a tag
   std::vector<int> tags;  ///< of the shape's faces, or the tag in the surface file
+};
+
+/// One [[domain.patch]]: the condition on a part of the outer boundary.
+struct PatchCase : PatchPlace {
   enum class Condition { velocity, symmetry, open } condition = Condition::velocity;
   bool follows_flow = true;  ///< v = G·x; if false, `velocity` with its profile
   Vec3 velocity = Vec3::Zero();
   bool is_parabolic = false;
-  std::optional<Vec3> profile_center;
-  std::optional<double> profile_radius;
+  std::optional<Vec3> profile_center = {};
+  std::optional<double> profile_radius = {};
   Vec3 traction = Vec3::Zero();
 };
 
@@ -65,6 +70,19 @@ struct DomainCase {
   int nodes = 507;
   bool is_symmetric_in_z = false;  ///< the z-faces of the box default to no penetration
   std::vector<PatchCase> patches;
+};
+
+/// One [[scalar.patch]]: the condition on a scalar at a part of the outer boundary.
+struct ScalarPatchCase : PatchPlace {
+  ScalarCondition condition = {};
+};
+
+/// One [[scalar]].
+struct ScalarCase {
+  std::string path;  ///< "scalar[0]", to name its line
+  Scalar scalar;
+  std::vector<ScalarLiquid> liquids;     ///< of the matrix, then of every drop
+  std::vector<ScalarPatchCase> patches;  ///< faces of no patch have no condition
 };
 
 /// What a run writes, and when (the case's [output]).
@@ -87,6 +105,7 @@ struct Case {
   ViscosityLaw matrix_law = {};
   std::vector<DropCase> drops;
   DomainCase domain;
+  std::vector<ScalarCase> scalars;
   EvolutionOptions evolution;
   FlowMethod method = FlowMethod::finite_element;
   fem::Options flow_solver;       ///< options of the finite-element solver
@@ -112,8 +131,8 @@ struct Case {
 [[nodiscard]] std::string case_json(const Case& c);
 
 /// The initial scene of a case. Throws InvalidInput, naming line, drop and position, when a surface
-/// is unfit, when drops touch each other or the boundary or lie outside it, or when the imposed
-/// velocities have a net flux and no patch is open.
+/// is unfit, when drops touch each other or the boundary or lie outside it, when the imposed
+/// velocities have a net flux and no patch is open, or when a scalar has no value where they enter.
 [[nodiscard]] Scene build_scene(const Case& c);
 /// The initial scene without interfaces. A resumed run needs no more, so that the drops' surface
 /// files may be gone.
@@ -124,6 +143,8 @@ struct Case {
                                             const std::optional<Vec3>& position);
 /// The flow solver of a case.
 [[nodiscard]] std::unique_ptr<FlowSolver> make_flow_solver(const Case& c);
+/// What convects and diffuses the bulk scalars of a case; null where it has none.
+[[nodiscard]] std::unique_ptr<ScalarSolver> make_scalar_solver(const Case& c);
 /// The moving mesh of the case's solver, without tetrahedra as yet; none for boundary integrals.
 [[nodiscard]] std::optional<MovingMesh> make_moving_mesh(const Case& c);
 

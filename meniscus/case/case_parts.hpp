@@ -15,6 +15,16 @@ namespace meniscus {
 [[nodiscard]] std::vector<DropCase> read_drops(Settings& settings);
 /// Reads [domain]; the flow decides the default conditions on a box.
 [[nodiscard]] DomainCase read_domain(Settings& settings, const ImposedFlow& flow);
+/// Reads the name or tag of the patch that a table, "domain.patch[2]", is about.
+[[nodiscard]] PatchPlace read_patch_place(Settings& settings, DomainCase::Shape shape,
+                                          const std::string& table);
+/// Throws InvalidInput, naming the line of `patch`, when an earlier table is about the same faces.
+void require_apart(const Settings& settings, const PatchPlace& patch, const PatchPlace& earlier);
+/// Reads every [[scalar]], whose drops are those of the case.
+[[nodiscard]] std::vector<ScalarCase> read_scalars(Settings& settings, const DomainCase& domain,
+                                                   std::size_t num_drops);
+/// Throws InvalidInput when there is a [[scalar]], of which boundary integrals know nothing.
+void require_no_scalars(const Settings& settings);
 [[nodiscard]] EvolutionOptions read_evolution(Settings& settings, FlowMethod method,
                                               fem::Elements elements);
 /// Throws InvalidInput when a liquid is not Newtonian, as boundary integrals require.

@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using schema::Value;
 
-/// A table of the case, "flow" or "drop[1]", with its values.
+/// A table of the case, "flow" or "scalar[0].drop[1]", with its values.
 struct UsedTable {
   std::string path;
   bool is_array = false;
@@ -33,19 +33,26 @@ UsedTable used_table(const Case& c, const schema::Table& table, const std::strin
   return result;
 }
 
-/// All tables with values, in the order of the schema. Arrays of tables are not nested in arrays.
+/// Appends a table, "scalar[0]", if it has values or belongs to an array, and then those in it.
+void append_tables(const Case& c, const schema::Table& table, const std::string& path,
+                   std::vector<UsedTable>& result) {
+  result.push_back(used_table(c, table, path));
+  if (!table.is_array && result.back().values.empty()) result.pop_back();
+  for (const schema::Table& inner : schema::tables()) {
+    if (inner.path.empty() || schema::parent_path(inner.path) != table.path) continue;
+    std::string name(schema::leaf(inner.path));
+    if (inner.is_array) name.resize(name.size() - 2);  // without "[]"
+    if (!path.empty()) name = fmt::format("{}.{}", path, name);
+    if (!inner.is_array) append_tables(c, inner, name, result);
+    for (int i = 0; inner.is_array && i < c.settings.count(name); ++i)
+      append_tables(c, inner, fmt::format("{}[{}]", name, i), result);
+  }
+}
+
+/// All tables with values, in the order of the schema; what is in a table follows it.
 std::vector<UsedTable> used_tables(const Case& c) {
   std::vector<UsedTable> result;
-  for (const schema::Table& table : schema::tables()) {
-    if (!table.is_array) {
-      result.push_back(used_table(c, table, std::string(table.path)));
-      if (result.back().values.empty()) result.pop_back();
-      continue;
-    }
-    const std::string array(table.path.substr(0, table.path.size() - 2));
-    for (int i = 0; i < c.settings.count(array); ++i)
-      result.push_back(used_table(c, table, fmt::format("{}[{}]", array, i)));
-  }
+  append_tables(c, *schema::find_table(""), "", result);
   return result;
 }
 
@@ -62,7 +69,7 @@ Json to_json(const Value& value) {
   return rows;
 }
 
-/// "/flow/schedule/2" for "flow.schedule[2]".
+/// "/scalar/0/drop/1" for "scalar[0].drop[1]".
 Json::json_pointer pointer(const std::string& path) {
   std::string text;
   for (const char c : path)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <sstream>
+#include <vector>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -185,53 +186,80 @@ void require_tables(Document& document, const std::string& path, const std::stri
   }
 }
 
-/// The array of tables in a path without index, "drop" for "drop.nodes" and for
-/// "drop.surfactant.peclet"; empty for other paths. Arrays are not nested.
-std::string unindexed_array(std::string_view path) {
-  if (path.find('[') != std::string_view::npos) return {};
-  for (std::size_t dot = path.find('.'); dot != std::string_view::npos;
-       dot = path.find('.', dot + 1))
-    if (find_table(fmt::format("{}[]", path.substr(0, dot))) != nullptr)
-      return std::string(path.substr(0, dot));
-  return {};
+/// The parts of a path with their dots: "scalar[0]", ".drop", ".source".
+std::vector<std::string> parts_of(const std::string& path) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin < path.size(); begin += parts.back().size())
+    parts.push_back(path.substr(begin, path.find('.', begin + 1) - begin));
+  return parts;
 }
 
-/// The path with the optional index filled in: "drop[0].nodes" for "drop.nodes".
+/// Whether a path ends with the name of an array of tables, without an index.
+bool is_array(const std::string& path) { return find_table(generic_path(path) + "[]") != nullptr; }
+
+/// The generic path with the brackets that may be left out: "drop[].nodes" for "drop.nodes".
+std::string with_brackets(const std::string& path) {
+  std::string result;
+  for (const std::string& part : parts_of(generic_path(path))) {
+    result += part;
+    if (is_array(result)) result += "[]";
+  }
+  return result;
+}
+
+/// The path with the indices that it leaves out: "scalar[0].drop[1].source" for
+/// "scalar.drop[1].source".
 std::string indexed_path(const Document& document, const std::string& path,
                          const std::string& source) {
-  const std::string array = unindexed_array(path);
-  if (array.empty()) return path;
-  const std::string key = path.substr(array.size() + 1);
-  if (find_key(fmt::format("{}[].{}", array, key)) == nullptr) return path;
-  const int count = document.count(array);
-  if (count != 1)
-    reject_input("{}: {}: there are {} [[{}]]; say which by an index, as in {}[0].{}", source, path,
-                 count, array, array, key);
-  return fmt::format("{}[0].{}", array, key);
+  if (find_key(with_brackets(path)) == nullptr) return path;
+  std::string result;
+  std::size_t length = 0;  // of what is read of the path
+  for (const std::string& part : parts_of(path)) {
+    result += part;
+    length += part.size();
+    if (!is_array(result)) continue;
+    const int count = document.count(result);
+    if (count != 1)
+      reject_input("{}: {}: there are {} [[{}]]; say which by an index, as in {}[0]{}", source,
+                   path, count, without_indices(result), result, path.substr(length));
+    result += "[0]";
+  }
+  return result;
+}
+
+/// The nearest key, "drop.nodes", as `path` would name it: with the indices that it gives, and with
+/// [0] where an array has not one table.
+std::string suggestion(const Document& document, const std::string& near, const std::string& path) {
+  std::string result, table;  // as suggested, and with all indices
+  for (const std::string& part : parts_of(near)) {
+    result += part;
+    table += part;
+    if (!is_array(table)) continue;
+    const std::size_t close = path.find(']', result.size());
+    const bool has_index = path.starts_with(result + "[") && close != std::string::npos;
+    const std::string index =
+        has_index ? path.substr(result.size(), close + 1 - result.size()) : "[0]";
+    if (has_index || document.count(table) != 1) result += index;
+    table += index;
+  }
+  return result;
 }
 
 /// Throws InvalidInput for a key that is not in the schema, and suggests one that is.
 [[noreturn]] void reject_unknown_override(const Document& document, const std::string& path,
                                           const std::string& source) {
   const auto is_table = [](const std::string& name) {
-    return find_table(name) != nullptr || find_table(name + "[]") != nullptr;
+    return find_table(with_brackets(name)) != nullptr;
   };
-  if (is_table(without_indices(path)))
+  if (is_table(path))
     reject_input("{}: {} is a table; set its keys one by one, as in --set flow.kind=quiescent",
                  source, path);
-  std::string near = nearest_name(path);
+  const std::string near = nearest_name(path);
   if (near.empty()) reject_input("{}: {}: unknown key", source, path);
   if (is_table(near))
     reject_input("{}: {}: unknown key; did you mean a key of \"{}\"?", source, path, near);
-  if (const std::string array = unindexed_array(near); !array.empty()) {
-    const std::size_t close = path.find(']');
-    const bool has_index = path.starts_with(array + "[") && close != std::string::npos;
-    const std::string element = has_index                    ? path.substr(0, close + 1)
-                                : document.count(array) == 1 ? array
-                                                             : array + "[0]";
-    near = element + near.substr(array.size());
-  }
-  reject_input("{}: {}: unknown key; did you mean \"{}\"?", source, path, near);
+  reject_input("{}: {}: unknown key; did you mean \"{}\"?", source, path,
+               suggestion(document, near, path));
 }
 
 void apply_override(Document& document, const std::string& option) {

@@ -15,7 +15,8 @@ using schema::Type;
 constexpr std::string_view kOverrides =
     "Any key can be set on the command line, as in `--set time.end=5`. A key of an array of tables "
     "takes the number of its table, counted from 0: `--set 'drop[1].nodes=200'`; it may be left "
-    "out where there is one: `--set drop.nodes=200`. The number after the last adds a table, "
+    "out where there is one: `--set drop.nodes=200`. An array in an array has a number of its own: "
+    "`--set 'scalar[0].drop[1].partition=2'`. The number after the last adds a table, "
     "provided that all it requires is set. Values are as in the file, but words and texts need "
     "no quotes of their own unless they could be read as a number, true, false or a list. What "
     "holds blanks, brackets or quotes is quoted as a whole for the shell: "
@@ -106,7 +107,7 @@ std::string explain() {
 std::string reference_page() {
   std::string page =
       "# The case file\n\n"
-      "Made from the schema table in `meniscus/case/schema_table.cpp`; change it there.\n\n"
+      "Made from the schema table in `meniscus/case/schema_*.cpp`; change it there.\n\n"
       "A case is a TOML file. Every key has a default except the flow's kind and each drop's "
       "shape. "
       "Values are dimensionless unless the case has a `[scale]` table. A key that would have no "

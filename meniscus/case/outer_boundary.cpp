@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "meniscus/case/scalar_inlets.hpp"
 #include "meniscus/case/surface_source.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
@@ -131,6 +132,18 @@ const PatchCase* find_patch(const DomainCase& domain, int tag) {
   return found == domain.patches.end() ? nullptr : &*found;
 }
 
+/// The conditions on the scalars at the faces of a tag.
+std::vector<ScalarCondition> scalar_conditions(const Case& c, int tag) {
+  std::vector<ScalarCondition> conditions;
+  for (const ScalarCase& scalar : c.scalars) {
+    const auto found = std::ranges::find_if(scalar.patches, [&](const ScalarPatchCase& patch) {
+      return std::ranges::find(patch.tags, tag) != patch.tags.end();
+    });
+    conditions.push_back(found == scalar.patches.end() ? ScalarCondition{} : found->condition);
+  }
+  return conditions;
+}
+
 /// Throws InvalidInput unless the tags of a surface file and the patches match one to one.
 void require_matching_tags(const Case& c, const std::set<int>& tags) {
   for (const PatchCase& patch : c.domain.patches)
@@ -187,10 +200,11 @@ OuterBoundary build_boundary(const Case& c) {
     const PatchId id = boundary.patches.add(
         {patch_name(c.domain, tag),
          given != nullptr ? condition(c, *given, surface.mesh, faces) : default_condition(c, tag),
-         smooth_wall(c.domain, tag)});
+         smooth_wall(c.domain, tag), scalar_conditions(c, tag)});
     for (const FaceId f : faces) boundary.patch[f] = id;
   }
   boundary.mesh = std::move(surface.mesh);
+  require_values_at_inlets(c, boundary);
   return boundary;
 }
 

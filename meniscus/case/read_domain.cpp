@@ -46,31 +46,9 @@ void read_velocity(Settings& settings, PatchCase& patch) {
   if (settings.is_given(radius)) patch.profile_radius = settings.number(radius);
 }
 
-/// Reads the name or tag of a patch. Throws InvalidInput when an earlier patch has it.
-void read_identity(Settings& settings, const DomainCase& domain, PatchCase& patch) {
-  const std::string name = patch.path + ".name", tag = patch.path + ".tag";
-  if (domain.shape == Shape::file) {
-    patch.tags = {settings.whole(tag)};
-    if (settings.is_given(name)) patch.name = settings.text(name);
-  } else {
-    patch.name = settings.text(name);
-    patch.tags = shape_tags(domain.shape, patch.name);
-    if (patch.tags.empty())
-      settings.reject(name, "is not a patch of the {}; its patches are {}",
-                      settings.text("domain.shape"),
-                      schema::quoted_list(patch_names(domain.shape)));
-  }
-  for (const PatchCase& other : domain.patches)
-    if (std::ranges::find_first_of(other.tags, patch.tags) != other.tags.end())
-      settings.reject(domain.shape == Shape::file ? tag : name,
-                      "has a condition already, from the [[domain.patch]] at {}",
-                      settings.source(other.path));
-}
-
 PatchCase read_patch(Settings& settings, const DomainCase& domain, const std::string& table) {
-  PatchCase patch;
-  patch.path = table;
-  read_identity(settings, domain, patch);
+  PatchCase patch{read_patch_place(settings, domain.shape, table)};
+  for (const PatchCase& earlier : domain.patches) require_apart(settings, patch, earlier);
   patch.condition = settings.choice(table + ".condition", words::conditions);
   if (patch.condition == Condition::velocity) read_velocity(settings, patch);
   if (patch.condition == Condition::open) patch.traction = settings.vector(table + ".traction");
@@ -88,6 +66,30 @@ bool is_in_xy_plane(const ImposedFlow& flow) {
 }
 
 }  // namespace
+
+PatchPlace read_patch_place(Settings& settings, Shape shape, const std::string& table) {
+  PatchPlace patch{.path = table, .name = "", .tags = {}};
+  const std::string name = table + ".name";
+  if (shape == Shape::file) {
+    patch.tags = {settings.whole(table + ".tag")};
+    if (settings.is_given(name)) patch.name = settings.text(name);
+    return patch;
+  }
+  patch.name = settings.text(name);
+  patch.tags = shape_tags(shape, patch.name);
+  if (patch.tags.empty())
+    settings.reject(name, "is not a patch of the {}; its patches are {}",
+                    settings.text("domain.shape"), schema::quoted_list(patch_names(shape)));
+  return patch;
+}
+
+void require_apart(const Settings& settings, const PatchPlace& patch, const PatchPlace& earlier) {
+  if (std::ranges::find_first_of(earlier.tags, patch.tags) == earlier.tags.end()) return;
+  const bool has_tag = settings.is_given("domain.surface");
+  settings.reject(patch.path + (has_tag ? ".tag" : ".name"),
+                  "has a condition already, from the [[{}]] at {}",
+                  schema::without_indices(patch.path), settings.source(earlier.path));
+}
 
 DomainCase read_domain(Settings& settings, const ImposedFlow& flow) {
   DomainCase domain;

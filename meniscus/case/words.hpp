@@ -92,6 +92,13 @@ inline constexpr std::array step_controls{Word<StepControl>{"paper", StepControl
 inline constexpr std::array step_edges{Word<StepEdges>{"interface", StepEdges::interface},
                                        Word<StepEdges>{"mesh", StepEdges::mesh}};
 
+/// Whether a bulk scalar is a species.
+inline constexpr std::array scalar_kinds{Word<bool>{"heat", false}, Word<bool>{"species", true}};
+inline constexpr std::array scalar_conditions{
+    Word<ScalarCondition::Kind>{"none", ScalarCondition::Kind::none},
+    Word<ScalarCondition::Kind>{"value", ScalarCondition::Kind::value},
+    Word<ScalarCondition::Kind>{"flux", ScalarCondition::Kind::flux}};
+
 /// The words without meanings, for the schema.
 template <class Meaning, std::size_t N>
 std::vector<std::string_view> list(const std::array<Word<Meaning>, N>& words) {

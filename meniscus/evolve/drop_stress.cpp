@@ -8,7 +8,7 @@ namespace {
 
 /// ∫ σ(I − nn − 2/3 I) dS.
 Mat3 capillary_stress(const Interface& interface, const ReconstructedSurface& faces) {
-  if (interface.surfactant) {
+  if (has_varying_tension(interface)) {
     const Mat3 moment = faces.tension_moment(vertex_tension(interface));
     return moment - moment.trace() / 3.0 * Mat3::Identity();
   }

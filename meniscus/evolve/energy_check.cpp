@@ -32,7 +32,8 @@ double interface_energy(const Scene& scene) {
 }
 
 std::optional<Fault> find_energy_fault(const Step& step, const StageFlow& whole, const Scene& end) {
-  if (has_surfactant(step.start)) return {};
+  if (has_surfactant(step.start) || std::ranges::any_of(step.start.scalars, &Scalar::acts_on_flow))
+    return {};
   const double before = interface_energy(step.start), gain = interface_energy(end) - before,
                predicted = step.dt * whole.surface_rate,
                allowed = kMostEnergyShare * step.dt * gross_power(step.start, whole.motion) +

@@ -63,8 +63,13 @@ RegionSources liquid_sources(std::span<const TopologyEvent> events) {
 }  // namespace
 
 Evolution::Evolution(Scene scene, const EvolutionOptions& options, std::unique_ptr<FlowSolver> flow,
-                     std::optional<MovingMesh> mesh)
-    : options_(options), solver_(std::move(flow)), carriers_(options.surface) {
+                     std::optional<MovingMesh> mesh, std::unique_ptr<ScalarSolver> scalars)
+    : options_(options),
+      solver_(std::move(flow)),
+      scalar_solver_(std::move(scalars)),
+      carriers_(options.surface) {
+  MENISCUS_ASSERT(scene.scalars.empty() || (scalar_solver_ && mesh),
+                  "bulk scalars need a solver and a volume mesh");
   state_.scene = std::move(scene);
   state_.mesh = std::move(mesh);
   state_.start_centroid = centroid_of_drops(state_.scene);
@@ -75,7 +80,9 @@ Report Evolution::prepare() {
   const Scene before = state_.scene;
   remesh_interfaces();
   keep_surfactant(state_.scene, before, carriers_);
-  return follow_interfaces();
+  if (Report made = follow_interfaces(before); !made.ok()) return made;
+  if (!state_.scene.scalars.empty()) state_.scalars = scalar_solver_->initial(state_.domain());
+  return {};
 }
 
 Report Evolution::solve() {
@@ -85,6 +92,7 @@ Report Evolution::solve() {
 
 Report Evolution::advance() {
   const StepStart start(state_);
+  start_scalars_ = state_.scalars;
   state_.iterations = 0;
   shift_judge_ = {};
   Report report;
@@ -184,12 +192,25 @@ StageFlow Evolution::solve_stage(const Scene& start, const StageFlow& stage, dou
   });
   if (Report moved = move_mesh(start, stage.motion, stage.flow, duration); !moved.ok())
     return {std::move(moved)};
+  if (act_on_flow(state_.scene))
+    if (Report moved = move_scalars(start, stage.flow, duration); !moved.ok())
+      return {std::move(moved)};
   return flow_at(instant);
+}
+
+/// Takes the bulk scalars from where the step began to where the mesh stands.
+Report Evolution::move_scalars(const Scene& start, const FlowSolution& flow, double duration) {
+  if (start_scalars_.empty()) return {};
+  state_.scalars = start_scalars_;
+  const FlowDomain from{start, &state_.mesh->start(), state_.connectivity};
+  return scalar_solver_->advance({from, state_.domain(), duration, flow}, state_.scalars);
 }
 
 StageFlow Evolution::flow_at(const Instant& instant) {
   StageFlow stage;
   stage.fault = find_surfactant_fault(state_.scene);
+  if (stage.ok() && state_.mesh)
+    stage.fault = set_tension_factors(state_.scene, state_.mesh->tetrahedra(), state_.scalars);
   if (!stage.ok()) return stage;
   stage.flow = solve_flow(instant);
   stage.fault = stage.flow.fault;
@@ -241,11 +262,13 @@ Report Evolution::finish_step(const Scene& start, const StageFlow& whole, double
   if (!is_due && state_.events.empty()) {
     Report kept = keep_mesh(start, whole.flow, dt);
     attempt_.is_mesh_kept = kept.ok();
-    if (kept.ok() || !is_remeshed_as_needed()) return kept;
+    if (kept.ok()) return move_scalars(start, whole.flow, dt);
+    if (!is_remeshed_as_needed()) return kept;
     log::debug("step {} makes its mesh anew: {}", state_.step + 1, kept.text());
   }
-  carry_fields_of_mesh(start, moved, whole.flow, dt);
-  return follow_interfaces(liquid_sources(state_.events));
+  if (Report carried = carry_fields_of_mesh(start, moved, whole.flow, dt); !carried.ok())
+    return carried;
+  return follow_interfaces(moved, liquid_sources(state_.events));
 }
 
 bool Evolution::is_remesh_due() {
@@ -293,20 +316,32 @@ void Evolution::move_surfactant(const Scene& start, const StageFlow& stage, doub
 
 /// Moves fields in the bulk with the mesh to where the step moved the interfaces, before a new mesh
 /// replaces it. Where cells would invert on the way, fields are transferred from the mesh as it
-/// stands.
-void Evolution::carry_fields_of_mesh(const Scene& start, const Scene& moved,
-                                     const FlowSolution& flow, double dt) {
-  if (!state_.mesh || state_.mesh->fields().empty()) return;
+/// stands; with bulk scalars the step is refused.
+Report Evolution::carry_fields_of_mesh(const Scene& start, const Scene& moved,
+                                       const FlowSolution& flow, double dt) {
+  if (!state_.mesh || (state_.mesh->fields().empty() && state_.scalars.empty())) return {};
   const Report followed = move_mesh(start, mean_motion(start, moved, dt), flow, dt);
+  if (!state_.scalars.empty()) {
+    if (!followed.ok()) return followed;
+    const FlowDomain from{start, &state_.mesh->start(), state_.connectivity},
+        to{moved, &state_.mesh->tetrahedra(), state_.connectivity};
+    state_.scalars = start_scalars_;
+    return scalar_solver_->advance({from, to, dt, flow}, state_.scalars);
+  }
   if (!followed.ok()) log::debug("fields are carried over a longer way: {}", followed.text());
+  return {};
 }
 
-/// Makes the mesh follow the interfaces after they were remeshed or changed topology.
-Report Evolution::follow_interfaces(const RegionSources& sources) {
+/// Makes the mesh follow the interfaces after they were remeshed or changed topology since they
+/// were those of `before`.
+Report Evolution::follow_interfaces(const Scene& before, const RegionSources& sources) {
   state_.connectivity = ++last_connectivity_;
   if (!state_.mesh) return {};
   const MeshChange change = state_.mesh->follow(state_.scene, sources);
-  if (change.ok()) solver_->follow(change, state_.domain());
+  if (!change.ok()) return change;
+  solver_->follow(change, state_.domain());
+  if (!state_.scalars.empty())
+    state_.scalars = scalar_solver_->follow(change, before, state_.domain(), state_.scalars);
   return change;
 }
 
@@ -382,20 +417,37 @@ void Evolution::give_notice(Notice notice) {
 }
 
 Evolution::Rows Evolution::rows() const {
+  const std::vector<ScalarMeasures> scalars = scalar_measures();
   const PhaseTimer timer(times_, "diagnostics");
   const auto faces = reconstructed_interfaces(state_.scene, options_.surface);
-  return {history_row(state_, first_.flow, first_.motion, faces),
-          meniscus::drop_rows(state_, faces, options_.topology.breakup_radius, carriers_)};
+  Rows rows{history_row(state_, first_.flow, first_.motion, faces), drop_rows(faces, scalars)};
+  rows.history.scalars = scalar_totals(scalars, state_.scalars);
+  return rows;
 }
 
 std::vector<DropRow> Evolution::drop_rows() const {
+  const std::vector<ScalarMeasures> scalars = scalar_measures();
   const PhaseTimer timer(times_, "diagnostics");
-  return meniscus::drop_rows(state_, reconstructed_interfaces(state_.scene, options_.surface),
-                             options_.topology.breakup_radius, carriers_);
+  return drop_rows(reconstructed_interfaces(state_.scene, options_.surface), scalars);
+}
+
+std::vector<DropRow> Evolution::drop_rows(std::span<const ReconstructedSurface> faces,
+                                          std::span<const ScalarMeasures> scalars) const {
+  std::vector<DropRow> rows =
+      meniscus::drop_rows(state_, faces, options_.topology.breakup_radius, carriers_);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    rows[i].scalars = scalars_on_drop(state_.scene, i, scalars);
+  return rows;
+}
+
+std::vector<ScalarMeasures> Evolution::scalar_measures() const {
+  if (state_.scalars.empty()) return {};
+  return scalar_solver_->measures(state_.domain(), state_.scalars);
 }
 
 double Evolution::seconds_in(const std::string& phase) const {
   return times_[phase] + solver_->times()[phase] +
+         (scalar_solver_ ? scalar_solver_->times()[phase] : 0.0) +
          (state_.mesh ? state_.mesh->times()[phase] : 0.0);
 }
 

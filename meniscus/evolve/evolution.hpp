@@ -11,6 +11,7 @@
 #include "meniscus/evolve/measures.hpp"
 #include "meniscus/evolve/notices.hpp"
 #include "meniscus/evolve/options.hpp"
+#include "meniscus/evolve/scalar_motion.hpp"
 #include "meniscus/evolve/state.hpp"
 #include "meniscus/evolve/step_control.hpp"
 #include "meniscus/evolve/time_schemes.hpp"
@@ -24,9 +25,10 @@ namespace meniscus {
 /// returns a fault has already tried its fallbacks.
 class Evolution {
  public:
-  /// `mesh` is given where the flow solver needs one.
+  /// `mesh` is given where the flow solver needs one, `scalars` where the scene has bulk scalars.
   Evolution(Scene scene, const EvolutionOptions& options, std::unique_ptr<FlowSolver> flow,
-            std::optional<MovingMesh> mesh = std::nullopt);
+            std::optional<MovingMesh> mesh = std::nullopt,
+            std::unique_ptr<ScalarSolver> scalars = nullptr);
 
   /// Remeshes the initial interfaces and makes the mesh: step 0.
   Report prepare();
@@ -83,12 +85,13 @@ class Evolution {
   Report finish_step(const Scene& start, const StageFlow& whole, double dt);
   Report move_whole_step(const Scene& start, const StageFlow& whole, double dt);
   void move_surfactant(const Scene& start, const StageFlow& stage, double duration);
+  Report move_scalars(const Scene& start, const FlowSolution& flow, double duration);
   Report judge_motion(const Scene& start, const StageFlow& whole, double dt);
   void report_refusal(double dt, const Fault& fault);
   void accept_step(const StepPlan& plan);
-  void carry_fields_of_mesh(const Scene& start, const Scene& moved, const FlowSolution& flow,
-                            double dt);
-  Report follow_interfaces(const RegionSources& sources = {});
+  Report carry_fields_of_mesh(const Scene& start, const Scene& moved, const FlowSolution& flow,
+                              double dt);
+  Report follow_interfaces(const Scene& before, const RegionSources& sources = {});
   [[nodiscard]] Report move_mesh(const Scene& start, const InterfaceMotion& motion,
                                  const FlowSolution& flow, double dt);
   [[nodiscard]] bool is_remesh_due();
@@ -101,6 +104,9 @@ class Evolution {
   void restore_volumes();
   Report judge_volume_shift(double dt);
   FlowSolution solve_flow(const Instant& instant);
+  [[nodiscard]] std::vector<ScalarMeasures> scalar_measures() const;
+  [[nodiscard]] std::vector<DropRow> drop_rows(std::span<const ReconstructedSurface> faces,
+                                               std::span<const ScalarMeasures> scalars) const;
   void give_notice(Notice notice);
   template <class What>
   void give_notice(What what) {
@@ -109,7 +115,9 @@ class Evolution {
 
   EvolutionOptions options_;
   std::unique_ptr<FlowSolver> solver_;
+  std::unique_ptr<ScalarSolver> scalar_solver_;  // null where there are no bulk scalars
   State state_;
+  BulkScalars start_scalars_;  // of the step from t_k
   std::int64_t last_connectivity_ =
       0;                       // largest number given so far; undone steps do not free theirs
   StageFlow first_;            // the flow and n n·v at t_k

@@ -38,7 +38,8 @@ std::optional<double> thinnest_neck(const Interface& interface, const Reconstruc
 /// σ is constant.
 double tension_power(const Interface& interface, const ReconstructedSurface& faces,
                      const VertexField<Vec3>& motion, const VertexField<Vec3>& velocity) {
-  if (interface.surfactant) return faces.tension_power(vertex_tension(interface), velocity);
+  if (has_varying_tension(interface))
+    return faces.tension_power(vertex_tension(interface), velocity);
   return interface.tension * faces.area_rate(motion);
 }
 
@@ -97,7 +98,9 @@ HistoryRow history_row(const State& state, const FlowSolution& flow, const Inter
   }
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
     row.surface_rate += tension_power(scene.interfaces[i], faces[i], motion[i], flow.velocity[i]);
-  if (is_newtonian(scene.liquids[RegionId{0}].law))
+  const bool varies = std::ranges::any_of(
+      scene.scalars, [](const Scalar& each) { return each.viscosity_exponent != 0.0; });
+  if (is_newtonian(scene.liquids[RegionId{0}].law) && !varies)
     row.stress = drop_stress(scene, flow.velocity, faces, flow.excess_stress);
   return row;
 }

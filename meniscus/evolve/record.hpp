@@ -11,6 +11,15 @@
 
 namespace meniscus {
 
+/// A bulk scalar as a whole.
+struct ScalarTotals {
+  double amount = 0.0;  ///< ∫γT dV [R0³]
+  double boundary_rate =
+      0.0;  ///< amount per time through the outer boundary, inwards, in the last step
+  double source_rate = 0.0;           ///< amount per time of sources, in the last step
+  double least = 0.0, largest = 0.0;  ///< of T at the nodes
+};
+
 /// A row of history.csv: the state at t_step (docs/notation.md).
 struct HistoryRow {
   std::int64_t step = 0;
@@ -25,7 +34,8 @@ struct HistoryRow {
   std::optional<Mat3> stress;        ///< empty where the matrix is not Newtonian
   std::optional<double> step_error;  ///< estimate, of the step that led here [shortest edge]
   std::optional<StepBound> step_bound;
-  std::optional<bool> is_mesh_kept;  ///< by the step that led here
+  std::optional<bool> is_mesh_kept;   ///< by the step that led here
+  std::vector<ScalarTotals> scalars;  ///< by scalar of the scene
 
   [[nodiscard]] std::optional<double> power_residual() const {
     if (!power_in || !dissipation) return std::nullopt;
@@ -40,6 +50,14 @@ struct SurfactantSpread {
   double least_tension = 0.0;      ///< where the concentration is largest
 };
 
+/// A bulk scalar on a drop.
+struct ScalarOnDrop {
+  double amount = 0.0;  ///< ∫γT dV over the liquid just inside [R0³]
+  /// Sherwood or Nusselt number 2R_d × mean outward flux density/(mean of the outer side −
+  /// reference), the flux over the matrix's diffusivity; empty where that difference is zero.
+  std::optional<double> transfer_number;
+};
+
 struct DropRow {
   int drop = 0;
   int parent = -1;
@@ -50,6 +68,7 @@ struct DropRow {
   /// volume [R0]; empty where there is none, and in runs without breakup.
   std::optional<double> neck_radius;
   std::optional<SurfactantSpread> surfactant;  ///< empty where there is none
+  std::vector<ScalarOnDrop> scalars;           ///< by scalar of the scene
 };
 
 }  // namespace meniscus

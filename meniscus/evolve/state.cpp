@@ -128,6 +128,46 @@ void load_laws(const Archive& archive, Field<RegionId, Liquid>& liquids) {
   }
 }
 
+// What bulk scalars meet in each liquid, and the scalars themselves. Scenes without write nothing.
+void save_scalars(const State& state, Archive& archive) {
+  for (std::size_t k = 0; k < state.scene.scalars.size(); ++k) {
+    const std::string path = fmt::format("evolution/scalar{}", k);
+    std::vector<double>& liquids = archive.reals[path + "/liquids"];
+    for (const Liquid& liquid : state.scene.liquids)
+      liquids.insert(liquids.end(), {liquid.scalars[k].capacity, liquid.scalars[k].conductivity,
+                                     liquid.scalars[k].source});
+    if (k >= state.scalars.size()) continue;
+    archive.reals[path + "/values"] = state.scalars[k].values;
+    archive.reals[path + "/region-loss"] = state.scalars[k].region_loss;
+    archive.reals[path + "/rates"] = {state.scalars[k].boundary_rate, state.scalars[k].source_rate,
+                                      state.scalars[k].least, state.scalars[k].largest};
+  }
+}
+
+/// The nodes of quadratic elements are vertices and middles of edges, so that their number says
+/// little; the solver asserts it.
+void load_scalars(State& state, const Archive& archive) {
+  const auto num_regions = static_cast<std::size_t>(state.scene.liquids.size());
+  state.scalars.clear();
+  for (std::size_t k = 0; k < state.scene.scalars.size(); ++k) {
+    const std::string path = fmt::format("evolution/scalar{}", k);
+    const auto& liquids = entry_of_size(archive.reals, path + "/liquids", 3 * num_regions);
+    for (const RegionId region : state.scene.liquids.ids()) {
+      const double* row = liquids.data() + std::ptrdiff_t{3} * region.value;
+      state.scene.liquids[region].scalars.push_back(
+          {.capacity = row[0], .conductivity = row[1], .source = row[2]});
+    }
+    const auto values = archive.reals.find(path + "/values");
+    if (values == archive.reals.end()) reject_input("checkpoint: {}/values is missing", path);
+    const auto loss = archive.reals.find(path + "/region-loss");
+    if (loss == archive.reals.end() ||
+        (!loss->second.empty() && loss->second.size() != num_regions))
+      reject_input("checkpoint: {}/region-loss does not fit the liquids", path);
+    const auto& rates = entry_of_size(archive.reals, path + "/rates", 4);
+    state.scalars.push_back({values->second, rates[0], rates[1], rates[2], rates[3], loss->second});
+  }
+}
+
 Field<RegionId, Liquid> load_liquids(const Archive& archive, std::size_t num_interfaces) {
   const auto& values = entry_of_size(archive.reals, "evolution/liquids", 4 * (num_interfaces + 1));
   Field<RegionId, Liquid> liquids;
@@ -200,6 +240,7 @@ void save(const State& state, Archive& archive) {
   for (std::size_t i = 0; i < interfaces.size(); ++i) save_interface(interfaces[i], i, archive);
   save_liquids(state.scene, archive);
   save_laws(state.scene, archive);
+  save_scalars(state, archive);
   save_events(state.events, archive);
   if (state.mesh) state.mesh->save(archive);
 }
@@ -220,6 +261,7 @@ void load(State& state, const Archive& archive) {
   if (const auto fault = find_surfactant_fault(state.scene))
     reject_input("checkpoint: {}", fault->text);
   state.scene.liquids = load_liquids(archive, count);
+  load_scalars(state, archive);
   state.events = load_events(archive);
   state.volume_shift = entry_of_size(archive.reals, "evolution/corrections", count);
   state.tolerates_shift = entry_of_size(archive.integers, "evolution/tolerates-shift", 1)[0] != 0;

@@ -18,6 +18,7 @@ struct State {
   std::int64_t step = 0;  ///< number of steps to t
   StepRecord record;      ///< of the step that led to t
   Scene scene;
+  BulkScalars scalars;             ///< of the scene, on the mesh
   std::optional<MovingMesh> mesh;  ///< none where the flow solver needs none
   /// A number that changes whenever the connectivity of an interface or of the mesh changes.
   std::int64_t connectivity = 0;
@@ -34,7 +35,8 @@ struct State {
   int iterations = 0;  ///< linear iterations since the last solve at the start of a step
 
   [[nodiscard]] FlowDomain domain() const {
-    return {scene, mesh ? &mesh->tetrahedra() : nullptr, connectivity};
+    return {scene, mesh ? &mesh->tetrahedra() : nullptr, connectivity,
+            scalars.empty() ? nullptr : &scalars};
   }
 };
 

@@ -25,9 +25,11 @@ struct MiddleNodes {
   FaceField<std::array<Vec3, 3>> x, v;  ///< [R0], [G R0]
 };
 
-/// v and p at the vertices of the volume mesh.
+/// v and p on the volume mesh.
 struct BulkFlow {
   Field<TetVertexId, Vec3> v;  ///< [G R0]
+  /// And at the middles of edges, in the order of the solver's space; empty for linear elements.
+  std::vector<Vec3> v_at_edges = {};
   /// By cell corner (|C| × 4), as pressure is double valued on interfaces [μ_out G].
   std::vector<double> corner_pressure;
 };

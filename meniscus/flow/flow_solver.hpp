@@ -22,12 +22,29 @@ struct Instant {
   Stage stage = Stage::start;
 };
 
+/// A bulk scalar of a scene on its volume mesh.
+struct BulkScalar {
+  /// T at the nodes of the solver's space: the vertices, then the middles of edges of quadratic
+  /// elements.
+  std::vector<double> values;
+  double boundary_rate = 0.0;  ///< amount per time through the outer boundary, inwards [R0³ G]
+  double source_rate = 0.0;    ///< amount per time of sources [R0³ G]
+  double least = 0.0, largest = 0.0;  ///< of the values at the start and of those given since
+  /// Amount per time that left each region, less its sources, by region; empty where no step tells
+  /// it: before the first, and after regions changed [R0³ G].
+  std::vector<double> region_loss = {};
+  friend bool operator==(const BulkScalar&, const BulkScalar&) = default;
+};
+/// By scalar of the scene; the rates are those of the last step.
+using BulkScalars = std::vector<BulkScalar>;
+
 /// What a flow solver is lent for a solve.
 struct FlowDomain {
   const Scene& scene;
   const TetMesh* mesh = nullptr;  ///< of this scene; null for solvers that need none
   /// Names the connectivity of interfaces and mesh: as long as it is the same, so are they.
   std::int64_t connectivity = 0;
+  const BulkScalars* scalars = nullptr;  ///< at this instant; null where there are none
 };
 
 /// What evolution asks of a flow solver, be it finite elements on a volume mesh or boundary

@@ -119,7 +119,7 @@ Plot history_plot(const PlotSpec& spec, const RunData& run) {
 
 std::vector<PlotGroup> history_plots(const RunData& run) {
   std::vector<std::pair<std::string, Plot>> plots;
-  for (const PlotSpec& spec : plot_catalogue())
+  for (const PlotSpec& spec : plots_of(std::span(&run, 1)))
     plots.emplace_back(spec.group, history_plot(spec, run));
   return plot_groups(plots);
 }
@@ -127,7 +127,7 @@ std::vector<PlotGroup> history_plots(const RunData& run) {
 std::vector<PlotGroup> overlaid_plots(std::span<const RunData> runs,
                                       std::span<const std::string> names) {
   std::vector<std::pair<std::string, Plot>> plots;
-  for (const PlotSpec& spec : plot_catalogue()) {
+  for (const PlotSpec& spec : plots_of(runs)) {
     plots.emplace_back(spec.group, overlaid_plot(spec, runs, names));
   }
   return plot_groups(plots);

@@ -19,8 +19,8 @@ struct PlotGroup {
 /// One plot of a run with its reference, where it has one, and its events.
 [[nodiscard]] Plot history_plot(const PlotSpec& spec, const RunData& run);
 
-/// The plots of a run in groups: shape, energy and stress, mesh and solver. Plots without data and
-/// groups without plots are left out.
+/// The plots of a run in groups: shape, surfactant, temperature and species, energy and stress,
+/// mesh and solver. Plots without data and groups without plots are left out.
 [[nodiscard]] std::vector<PlotGroup> history_plots(const RunData& run);
 
 /// The plots of several runs overlaid: colours tell runs apart, dashes quantities.

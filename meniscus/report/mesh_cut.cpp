@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/report/surface_frames.hpp"
 
 namespace meniscus::report {
 namespace {
@@ -53,6 +54,7 @@ class Cutter {
   /// or the polygon lies beyond the window.
   int add_points(std::size_t c) {
     const std::size_t first = cut_.points.size();
+    crossings_.clear();
     std::vector<std::size_t> above, below;
     for (const std::int32_t v : mesh_.cells[c]) {
       const auto point = static_cast<std::size_t>(v);
@@ -73,13 +75,30 @@ class Cutter {
     return static_cast<int>(cut_.points.size() - first);
   }
 
+  /// The mean of point values over the corners of the last polygon, linear along edges.
+  [[nodiscard]] double mean(const std::vector<double>& values) const {
+    MENISCUS_ASSERT(!crossings_.empty(), "a mean over no corner");
+    double sum = 0.0;
+    for (const auto& [a, b, share] : crossings_)
+      sum += (1.0 - share) * values[a] + share * values[b];
+    return sum / static_cast<double>(crossings_.size());
+  }
+
  private:
+  /// The point of an edge that lies on the plane, by its share of the way from a to b.
+  struct Crossing {
+    std::size_t a, b;
+    double share;
+  };
+
   [[nodiscard]] double height(std::size_t point) const {
     return mesh_.points[point][cut_.normal] - cut_.offset;
   }
   void add_crossing(std::size_t a, std::size_t b) {
     const Vec3 &xa = mesh_.points[a], &xb = mesh_.points[b];
-    const Vec3 x = xa + height(a) / (height(a) - height(b)) * (xb - xa);
+    const double share = height(a) / (height(a) - height(b));
+    crossings_.push_back({a, b, share});
+    const Vec3 x = xa + share * (xb - xa);
     const auto [right, up] = plane_axes(cut_.normal);
     cut_.points.push_back({x[right], x[up]});
   }
@@ -97,6 +116,7 @@ class Cutter {
 
   MeshCut& cut_;
   const io::VolumeFrame& mesh_;
+  std::vector<Crossing> crossings_;  // of the last polygon
 };
 
 }  // namespace
@@ -105,6 +125,9 @@ void add_polygons(MeshCut& cut, const io::VolumeFrame& mesh) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<double>* region = cell_values(mesh, "region");
   const std::vector<double>* quality = cell_values(mesh, "min_dihedral_deg");
+  const auto arrays = one_value_arrays(mesh.data.on_vertices, mesh.points.size());
+  MENISCUS_ASSERT(cut.polygons.empty() && cut.fields.empty(), "a cut is filled twice");
+  for (const io::NamedArray* array : arrays) cut.fields.push_back({array->name, {}});
   Cutter cutter(cut, mesh);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const std::size_t first = cut.points.size();
@@ -113,6 +136,8 @@ void add_polygons(MeshCut& cut, const io::VolumeFrame& mesh) {
     MENISCUS_ASSERT(num_points == 3 || num_points == 4, "a section of {} corners", num_points);
     const int in = region == nullptr ? 0 : static_cast<int>(std::lround((*region)[c]));
     cut.polygons.push_back({first, num_points, in, quality == nullptr ? nan : (*quality)[c]});
+    for (std::size_t k = 0; k < arrays.size(); ++k)
+      cut.fields[k].values.push_back(cutter.mean(arrays[k]->values));
   }
 }
 

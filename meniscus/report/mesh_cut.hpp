@@ -19,6 +19,12 @@ struct CutPolygon {
   double min_dihedral_deg = 0.0;  ///< of the tetrahedron
 };
 
+/// The values of an array of a mesh on the polygons of a cut: the mean over the corners.
+struct CutField {
+  std::string name;
+  std::vector<double> values;
+};
+
 /// The section of a mesh with the plane x[normal] = offset, in coordinates of the plane [R0].
 struct MeshCut {
   int normal = 2;
@@ -26,6 +32,7 @@ struct MeshCut {
   std::string axes = "xy";  ///< names of the coordinates of `points`
   std::vector<std::array<double, 2>> points;
   std::vector<CutPolygon> polygons;
+  std::vector<CutField> fields;         ///< all arrays of one value per point of the mesh
   std::array<double, 2> low{}, high{};  ///< the window of the plane that is shown
 };
 
@@ -34,8 +41,9 @@ struct MeshCut {
 /// left out. A mesh without drops is cut through its middle, as a whole.
 [[nodiscard]] MeshCut cut_through_drops(const io::VolumeFrame& mesh, int normal);
 
-/// Appends the polygons of the tetrahedra that reach into the cut's window. Corners on the plane
-/// count as above it, so that no cell is cut twice and none is missed.
+/// Fills an empty cut with the polygons of the tetrahedra that reach into its window, and with
+/// their values. Corners on the plane count as above it, so that no cell is cut twice and none is
+/// missed.
 void add_polygons(MeshCut& cut, const io::VolumeFrame& mesh);
 
 /// The colour range for smallest dihedral angles, in degrees.

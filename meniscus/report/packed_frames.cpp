@@ -108,19 +108,49 @@ std::uint8_t quality_byte(double degrees) {
   return static_cast<std::uint8_t>(std::lround(255.0 * share));
 }
 
-Json header_of(const MeshCut& cut, const std::array<Grid16, 2>& grids) {
+/// The grids on which a cut is packed.
+struct CutGrids {
+  std::array<Grid16, 2> points;
+  std::vector<Grid16> fields;
+};
+
+CutGrids grids_of(const MeshCut& cut) {
+  CutGrids grids{
+      {Grid16::around(coordinate(cut.points, 0)), Grid16::around(coordinate(cut.points, 1))}, {}};
+  for (const CutField& field : cut.fields) grids.fields.push_back(Grid16::around(field.values));
+  return grids;
+}
+
+Json header_of(const MeshCut& cut, const CutGrids& grids) {
+  Json fields = Json::array();
+  for (std::size_t k = 0; k < cut.fields.size(); ++k)
+    fields.push_back({{"name", cut.fields[k].name},
+                      {"low", grids.fields[k].low},
+                      {"high", grids.fields[k].high}});
   return {{"axes", cut.axes},
           {"normal", cut.normal},
           {"offset", cut.offset},
           {"polygons", cut.polygons.size()},
           {"points", cut.points.size()},
-          {"low", {grids[0].low, grids[1].low}},
-          {"high", {grids[0].high, grids[1].high}},
+          {"low", {grids.points[0].low, grids.points[1].low}},
+          {"high", {grids.points[0].high, grids.points[1].high}},
           {"window", {cut.low[0], cut.low[1], cut.high[0], cut.high[1]}},
-          {"quality", best_quality}};
+          {"quality", best_quality},
+          {"fields", fields}};
 }
 
-void add_cut(Package& package, const MeshCut& cut, const std::array<Grid16, 2>& grids) {
+/// The colour range of each field over all cuts.
+std::map<std::string, ValueRange> ranges_of(const std::vector<MeshCut>& cuts) {
+  std::map<std::string, std::vector<double>> values;
+  for (const MeshCut& cut : cuts)
+    for (const CutField& field : cut.fields)
+      values[field.name].insert(values[field.name].end(), field.values.begin(), field.values.end());
+  std::map<std::string, ValueRange> ranges;
+  for (const auto& [name, all] : values) ranges[name] = color_range(all);
+  return ranges;
+}
+
+void add_cut(Package& package, const MeshCut& cut, const CutGrids& grids) {
   std::vector<std::uint8_t> corners, regions, qualities;
   for (const CutPolygon& polygon : cut.polygons) {
     corners.push_back(static_cast<std::uint8_t>(polygon.num_points));
@@ -132,8 +162,10 @@ void add_cut(Package& package, const MeshCut& cut, const std::array<Grid16, 2>& 
   package.add(qualities);
   for (int k = 0; k < 2; ++k) {
     package.add_differences(
-        grid_indices(coordinate(cut.points, k), grids[static_cast<std::size_t>(k)]));
+        grid_indices(coordinate(cut.points, k), grids.points[static_cast<std::size_t>(k)]));
   }
+  for (std::size_t k = 0; k < cut.fields.size(); ++k)
+    package.add_differences(grid_indices(cut.fields[k].values, grids.fields[k]));
 }
 
 }  // namespace
@@ -180,16 +212,15 @@ PackedFrame packed_surface(const SurfaceFrame& frame) {
 }
 
 PackedFrame packed_cuts(double t, const std::vector<MeshCut>& cuts) {
-  std::vector<std::array<Grid16, 2>> grids;
+  std::vector<CutGrids> grids;
   Json headers = Json::array();
   for (const MeshCut& cut : cuts) {
-    grids.push_back(
-        {Grid16::around(coordinate(cut.points, 0)), Grid16::around(coordinate(cut.points, 1))});
+    grids.push_back(grids_of(cut));
     headers.push_back(header_of(cut, grids.back()));
   }
   Package package(Json{{"t", t}, {"cuts", headers}}.dump());
   for (std::size_t i = 0; i < cuts.size(); ++i) add_cut(package, cuts[i], grids[i]);
-  return {.t = t, .bytes = package.bytes()};
+  return {.t = t, .bytes = package.bytes(), .ranges = ranges_of(cuts)};
 }
 
 }  // namespace meniscus::report

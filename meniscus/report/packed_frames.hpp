@@ -28,9 +28,10 @@ struct PackedFrame {
 [[nodiscard]] PackedFrame packed_surface(const SurfaceFrame& frame);
 
 /// Packs the cuts of one time. Header: {t, cuts: [{axes, normal, offset, window, polygons, points,
-/// low, high, quality}]}. Then come, for each cut, the number of corners of every polygon (8 bits),
-/// the regions (8 bits), the qualities (8 bits, 0 to 255 for 0 to `quality` degrees) and the two
-/// coordinates of all points on a `Grid16`, as differences.
+/// low, high, quality, fields: [{name, low, high}]}]}. Then come, for each cut, the number of
+/// corners of every polygon (8 bits), the regions (8 bits), the qualities (8 bits, 0 to 255 for 0
+/// to `quality` degrees), the two coordinates of all points and the values of each field on the
+/// polygons, both on a `Grid16`, as differences.
 [[nodiscard]] PackedFrame packed_cuts(double t, const std::vector<MeshCut>& cuts);
 
 }  // namespace meniscus::report

@@ -162,7 +162,7 @@ Json entries(const std::vector<PackedFrame>& frames) {
 
 Json fields_json() {
   Json fields = Json::array();
-  for (const auto& [name, label, unit] : surface_quantities()) {
+  for (const auto& [name, label, unit] : shown_quantities()) {
     fields.push_back({{"name", name}, {"label", label}, {"unit", unit}});
   }
   return fields;

@@ -1,5 +1,7 @@
 #include "meniscus/report/plot_catalogue.hpp"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 namespace meniscus::report {
@@ -53,6 +55,41 @@ std::vector<PlotSpec> surfactant_plots() {
            .unit = "",
            .table = "drops",
            .quantities = {{"tension_min", "σ/σ₁"}}}};
+}
+
+std::vector<PlotSpec> scalar_plots() {
+  const std::string group = "Temperature and species";
+  return {{.group = group,
+           .title = "*: amount",
+           .unit = "R₀³",
+           .table = "history",
+           .quantities = {{"*_total", "amount"}}},
+          {.group = group,
+           .title = "*: amount in the drops",
+           .unit = "R₀³",
+           .table = "drops",
+           .quantities = {{"*_amount", "amount"}}},
+          {.group = group,
+           .title = "*: amount gained per time",
+           .unit = "R₀³G",
+           .table = "history",
+           .quantities = {{"*_boundary_rate", "through the boundary"},
+                          {"*_source_rate", "from sources"}}},
+          {.group = group,
+           .title = "*: range",
+           .unit = "",
+           .table = "history",
+           .quantities = {{"*_min", "least"}, {"*_max", "largest"}}},
+          {.group = group,
+           .title = "*: Nusselt number",
+           .unit = "",
+           .table = "drops",
+           .quantities = {{"*_nusselt", "Nu"}}},
+          {.group = group,
+           .title = "*: Sherwood number",
+           .unit = "",
+           .table = "drops",
+           .quantities = {{"*_sherwood", "Sh"}}}};
 }
 
 std::vector<PlotSpec> energy_plots() {
@@ -139,12 +176,60 @@ const char* name_of(Derivation derivation) {
   }
 }
 
+const io::Table* table_of(const PlotSpec& plot, const RunData& run) {
+  const std::optional<io::Table>& table = plot.table == "drops" ? run.drops : run.history;
+  return table ? &*table : nullptr;
+}
+
+/// The names that `*` stands for in the columns of the runs' tables.
+std::vector<std::string> scalar_names(const PlotSpec& plot, std::span<const RunData> runs) {
+  const std::string suffix = plot.quantities.front().column.substr(1);
+  std::vector<std::string> names;
+  for (const RunData& run : runs) {
+    const io::Table* table = table_of(plot, run);
+    if (table == nullptr) continue;
+    for (const std::string& column : table->columns) {
+      if (!column.ends_with(suffix)) continue;
+      const std::string name = column.substr(0, column.size() - suffix.size());
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+std::string with_name(const std::string& text, const std::string& name) {
+  const std::size_t at = text.find('*');
+  return at == std::string::npos ? text : text.substr(0, at) + name + text.substr(at + 1);
+}
+
+PlotSpec plot_of_scalar(PlotSpec plot, const std::string& name) {
+  plot.title = with_name(plot.title, name);
+  for (auto& [column, label] : plot.quantities) {
+    column = with_name(column, name);
+    label = with_name(label, name);
+  }
+  return plot;
+}
+
 }  // namespace
+
+std::vector<PlotSpec> plots_of(std::span<const RunData> runs) {
+  std::vector<PlotSpec> plots;
+  for (const PlotSpec& plot : plot_catalogue()) {
+    if (!plot.quantities.front().column.starts_with('*')) {
+      plots.push_back(plot);
+      continue;
+    }
+    for (const std::string& name : scalar_names(plot, runs))
+      plots.push_back(plot_of_scalar(plot, name));
+  }
+  return plots;
+}
 
 std::span<const PlotSpec> plot_catalogue() {
   static const std::vector<PlotSpec> all = [] {
     std::vector<PlotSpec> plots = shape_plots();
-    for (const auto& group : {surfactant_plots(), energy_plots(), mesh_plots()}) {
+    for (const auto& group : {surfactant_plots(), scalar_plots(), energy_plots(), mesh_plots()}) {
       plots.insert(plots.end(), group.begin(), group.end());
     }
     return plots;

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "meniscus/report/run_data.hpp"
+
 namespace meniscus::report {
 
 struct PlotQuantity {
@@ -19,7 +21,8 @@ enum class Derivation {
 };
 
 /// The specification of a plot of a run's history. The browser draws it on the page, the program in
-/// pictures.
+/// pictures. A `*` in title, columns and labels stands for the name of a bulk scalar: each scalar
+/// of a run has a plot of its own.
 struct PlotSpec {
   std::string group, title, unit;
   std::string table;  ///< history, drops or timing
@@ -30,6 +33,8 @@ struct PlotSpec {
 
 /// All plots; those of one group are consecutive.
 [[nodiscard]] std::span<const PlotSpec> plot_catalogue();
+/// The plots of runs: the catalogue, its plots of bulk scalars for each that the tables name.
+[[nodiscard]] std::vector<PlotSpec> plots_of(std::span<const RunData> runs);
 /// The catalogue as a JSON list of objects, for the page.
 [[nodiscard]] std::string plot_catalogue_json();
 

@@ -21,14 +21,23 @@ const io::NamedArray* find_scalar(const std::vector<io::NamedArray>& arrays, con
 
 }  // namespace
 
-std::span<const SurfaceQuantity> surface_quantities() {
-  static constexpr std::array<SurfaceQuantity, 5> quantities = {
+std::span<const ShownQuantity> shown_quantities() {
+  static constexpr std::array<ShownQuantity, 6> quantities = {
       {{"curvature", "Curvature κ = k₁ + k₂", "1/R₀"},
        {"normal_velocity", "Normal velocity v·n", "G R₀"},
        {"pressure_jump", "Pressure jump p_out − p_in", "μG"},
+       {"pressure", "Pressure p", "μG"},
        {"surfactant", "Surfactant concentration Γ", ""},
        {"node_density", "Nodes per area", "1/R₀²"}}};
   return quantities;
+}
+
+std::vector<const io::NamedArray*> one_value_arrays(const std::vector<io::NamedArray>& arrays,
+                                                    std::size_t size) {
+  std::vector<const io::NamedArray*> scalars;
+  for (const io::NamedArray& array : arrays)
+    if (array.components == 1 && array.values.size() == size) scalars.push_back(&array);
+  return scalars;
 }
 
 SurfaceFrame load_surface(const std::filesystem::path& path, double t) {
@@ -37,12 +46,9 @@ SurfaceFrame load_surface(const std::filesystem::path& path, double t) {
   SurfaceFrame frame{.t = t, .mesh = file.mesh, .curvature = {}, .drop = {}};
   const auto* kappa = find_scalar(file.data.on_vertices, "curvature", frame.mesh.num_vertices());
   if (kappa != nullptr) frame.curvature = VertexField<double>(kappa->values);
-  for (const SurfaceQuantity& quantity : surface_quantities()) {
-    const auto* array =
-        find_scalar(file.data.on_vertices, quantity.name, frame.mesh.num_vertices());
-    if (array == nullptr) continue;
-    frame.fields.push_back({quantity.name, VertexField<double>(array->values)});
-  }
+  for (const io::NamedArray* array :
+       one_value_arrays(file.data.on_vertices, frame.mesh.x.span().size()))
+    frame.fields.push_back({array->name, VertexField<double>(array->values)});
   frame.drop = FaceField<int>(frame.mesh.num_faces(), 0);
   if (const auto* drop = find_scalar(file.data.on_cells, "drop", frame.mesh.num_faces())) {
     std::ranges::transform(drop->values, frame.drop.begin(),

@@ -10,14 +10,18 @@
 
 namespace meniscus::report {
 
-/// A field by which the page can colour the interface.
-struct SurfaceQuantity {
+/// An array of the frames by which the page can colour the interface or a cut.
+struct ShownQuantity {
   const char* name;   ///< of the array in the file
   const char* label;  ///< for readers
   const char* unit;
 };
-/// All quantities; the first is shown by default.
-[[nodiscard]] std::span<const SurfaceQuantity> surface_quantities();
+/// The quantities of every run, in the order of the page; the first that a frame has is shown by
+/// default. Other arrays follow, such as those of bulk scalars, under their own names.
+[[nodiscard]] std::span<const ShownQuantity> shown_quantities();
+/// The arrays with one value for each of `size` points.
+[[nodiscard]] std::vector<const io::NamedArray*> one_value_arrays(
+    const std::vector<io::NamedArray>& arrays, std::size_t size);
 
 /// The values of one quantity on a surface.
 struct SurfaceField {
@@ -31,7 +35,7 @@ struct SurfaceFrame {
   SurfaceMesh mesh;
   VertexField<double> curvature;          ///< kappa = k1 + k2 [1/R0]; empty if the file has none
   FaceField<int> drop;                    ///< id of the drop each face belongs to
-  std::vector<SurfaceField> fields = {};  ///< the `surface_quantities` that the file has
+  std::vector<SurfaceField> fields = {};  ///< all arrays of one value per vertex
 };
 
 /// At most `count` frames, about evenly spaced in time, including the first and the last.

@@ -53,10 +53,16 @@ VertexField<double> vertex_tension(const Interface& interface) {
   VertexField<double> tension(interface.mesh.num_vertices(), interface.tension);
   if (const VertexField<double>* concentration = surfactant_concentration(interface))
     for (const VertexId v : tension.ids()) tension[v] = tension_at(interface, (*concentration)[v]);
+  if (interface.tension_factor.size() == tension.size())
+    for (const VertexId v : tension.ids()) tension[v] *= interface.tension_factor[v];
   return tension;
 }
 
 double largest_tension(const Interface& interface) {
+  if (!interface.tension_factor.empty()) {
+    const VertexField<double> tension = vertex_tension(interface);
+    return *std::ranges::max_element(tension);
+  }
   const VertexField<double>* concentration = surfactant_concentration(interface);
   if (concentration == nullptr) return interface.tension;
   return tension_at(interface, *std::ranges::min_element(*concentration));
@@ -72,7 +78,7 @@ double largest_elasticity(const Interface& interface) {
 }
 
 double tension_energy(const Interface& interface) {
-  if (!interface.surfactant) return interface.tension * surface_area(interface.mesh);
+  if (!has_varying_tension(interface)) return interface.tension * surface_area(interface.mesh);
   const VertexField<double> area = vertex_areas(interface.mesh),
                             tension = vertex_tension(interface);
   double sum = 0.0;

@@ -14,6 +14,10 @@ inline constexpr const char* kSurfactantField = "surfactant";
 [[nodiscard]] VertexField<double>* surfactant_concentration(Interface& interface);
 [[nodiscard]] bool has_surfactant(const Scene& scene);
 
+/// Whether the tension may differ from place to place.
+[[nodiscard]] inline bool has_varying_tension(const Interface& interface) {
+  return interface.surfactant.has_value() || !interface.tension_factor.empty();
+}
 /// σ at the vertices [μ_out G R0].
 [[nodiscard]] VertexField<double> vertex_tension(const Interface& interface);
 /// The largest σ of the vertices [μ_out G R0].

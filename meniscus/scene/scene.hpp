@@ -10,6 +10,7 @@
 #include "meniscus/mesh/carried_fields.hpp"
 #include "meniscus/mesh/tet_mesh.hpp"
 #include "meniscus/scene/imposed_flow.hpp"
+#include "meniscus/scene/scalar.hpp"
 #include "meniscus/scene/surfactant.hpp"
 #include "meniscus/scene/viscosity.hpp"
 
@@ -17,9 +18,10 @@ namespace meniscus {
 
 /// What fills one region. Region 0 is the matrix; region i + 1 is what interface i encloses.
 struct Liquid {
-  double viscosity = 1.0;          ///< over the matrix's [μ_out]
-  Vec3 body_force = Vec3::Zero();  ///< force per volume [μ_out G / R0]
-  ViscosityLaw law = {};           ///< multiplies the viscosity
+  double viscosity = 1.0;                  ///< over the matrix's [μ_out]
+  Vec3 body_force = Vec3::Zero();          ///< force per volume [μ_out G / R0]
+  ViscosityLaw law = {};                   ///< multiplies the viscosity
+  std::vector<ScalarLiquid> scalars = {};  ///< by scalar of the scene
 };
 
 /// A closed interface between the liquid inside it and the one outside. n points out.
@@ -37,6 +39,8 @@ struct Interface {
   SurfaceFields fields = {};    ///< what lives on it; of the same list on every interface
   /// Its concentration is the field `kSurfactantField` (interface_tension.hpp).
   std::optional<Surfactant> surfactant = {};
+  /// What bulk scalars multiply the tension by at the vertices; empty: nothing.
+  VertexField<double> tension_factor = {};
 };
 
 /// v given on a patch; `velocity` maps a point of the patch and a time to v [G R0].
@@ -59,6 +63,7 @@ struct Patch {
   /// The point of the smooth wall near a point between vertices; empty where the faces are the
   /// wall.
   std::function<Vec3(const Vec3& x)> on_smooth_wall = {};
+  std::vector<ScalarCondition> scalars = {};  ///< by scalar of the scene
 };
 
 /// The closed surface around everything, its faces oriented outward, divided in tagged patches.
@@ -75,6 +80,7 @@ struct Scene {
   ImposedFlow flow;
   Field<RegionId, Liquid> liquids;  ///< by region
   std::vector<Interface> interfaces;
+  std::vector<Scalar> scalars = {};
   bool is_unbounded = false;  ///< no outer boundary: boundary integrals only
   OuterBoundary boundary;
 };

@@ -173,6 +173,11 @@ std::optional<std::string> unlikeness(const Scene& scene, const Gap& gap) {
   if (a.tension != b.tension)
     return fmt::format("surface tensions {:g} and {:g}", a.tension, b.tension);
   if (a.surfactant != b.surfactant) return "different surfactants";
+  for (std::size_t k = 0; k < first.scalars.size(); ++k)
+    if (first.scalars[k].capacity != second.scalars[k].capacity ||
+        first.scalars[k].conductivity != second.scalars[k].conductivity ||
+        first.scalars[k].source != second.scalars[k].source)
+      return fmt::format("they take up {} differently", scene.scalars[k].name);
   if (first.body_force != second.body_force) return "different body forces";
   return {};
 }

@@ -36,6 +36,8 @@ class MovingMesh {
   MovingMesh(VolumeMotion motion, Mesher mesher) : mover_(motion), mesher_(std::move(mesher)) {}
 
   [[nodiscard]] const TetMesh& tetrahedra() const { return mesh_; }
+  /// As it stood when the step began; of the same connectivity until it follows.
+  [[nodiscard]] const TetMesh& start() const { return start_; }
   /// w of every vertex, from the last `move` [G R0]; empty before the first.
   [[nodiscard]] const Field<TetVertexId, Vec3>& velocity() const { return velocity_; }
 

@@ -106,6 +106,38 @@ TEST(RunDirectory, TakenUpItDropsTheRowsToBeMadeAgainAndKeepsTheRest) {
   EXPECT_EQ(io::read_table(path / "history.csv").column("step"), (std::vector{0.0, 1.0, 2.0}));
 }
 
+TEST(RunDirectory, TakenUpItHasTheColumnsOfItsBulkScalars) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "run";
+  const std::vector<Scalar> scalars{{.name = "heat"}};
+  const auto add = [](RunDirectory& run, std::int64_t step) {
+    HistoryRow history = row_of_step(step);
+    history.scalars.resize(1);
+    history.scalars[0].amount = 2.5;
+    DropRow drop;
+    drop.scalars.resize(1);
+    run.add_rows(history, {drop});
+    run.add_timing(step, history.t, {{"scalars", 0.5}});
+  };
+  {
+    RunDirectory run = RunDirectory::create(path, false, scalars);
+    add(run, 0);
+    add(run, 1);
+  }
+  const std::string history = test::get(path / "history.csv"),
+                    drops = test::get(path / "drops.csv");
+  {
+    RunDirectory run = RunDirectory::take_up(path, 1, 0.1, scalars);
+    add(run, 1);
+  }
+  EXPECT_EQ(test::get(path / "history.csv"), history);
+  EXPECT_EQ(test::get(path / "drops.csv"), drops);
+  EXPECT_EQ(io::read_table(path / "history.csv").column("heat_total"), (std::vector{2.5, 2.5}));
+  EXPECT_EQ(io::read_table(path / "timing.csv").column("scalars"), (std::vector{0.5, 0.5}));
+  EXPECT_NE(refusal([&] { (void)RunDirectory::take_up(path, 1, 0.1); }).find("the header is not"),
+            std::string::npos);
+}
+
 TEST(RunDirectory, ANewRunRemovesTheFilesOfTheOldOneAndNoOther) {
   const test::TemporaryFolder folder;
   const std::filesystem::path path = folder / "run";

@@ -21,6 +21,26 @@ NamesAndUnits listed(std::span<const Column<Row>> columns) {
   return list;
 }
 
+/// As the notation and the plots name the columns of bulk scalars: `begin` stands for the name.
+template <class Value>
+void append(NamesAndUnits& list, std::span<const ScalarColumn<Value>> columns,
+            const std::string& begin) {
+  for (const ScalarColumn<Value>& column : columns)
+    list.emplace_back(begin + column.suffix, column.unit);
+}
+
+NamesAndUnits listed_history(const std::string& scalar) {
+  NamesAndUnits list = listed(history_columns());
+  append(list, history_scalar_columns(), scalar);
+  return list;
+}
+
+NamesAndUnits listed_drops(const std::string& scalar) {
+  NamesAndUnits list = listed(drop_columns());
+  append(list, drop_scalar_columns(), scalar);
+  return list;
+}
+
 /// The cells "| `name` | unit |" of the table under the heading of a file in docs/notation.md.
 NamesAndUnits explained(const std::string& file) {
   const std::string page = test::get(std::filesystem::path(MENISCUS_DOCS) / "notation.md");
@@ -40,12 +60,14 @@ NamesAndUnits explained(const std::string& file) {
 }
 
 TEST(RunTables, AreExplainedColumnByColumnInTheNotation) {
-  EXPECT_EQ(explained("history.csv"), listed(history_columns()));
-  EXPECT_EQ(explained("drops.csv"), listed(drop_columns()));
+  EXPECT_EQ(explained("history.csv"), listed_history("<name>"));
+  EXPECT_EQ(explained("drops.csv"), listed_drops("<name>"));
   EXPECT_EQ(explained("events.csv"), listed(event_columns()));
   std::vector<std::string> names;
   for (const auto& [name, unit] : explained("timing.csv")) names.push_back(name);
-  EXPECT_EQ(names, timing_columns());
+  EXPECT_EQ(names, timing_columns(false));
+  names.emplace_back("scalars");  // explained below the table
+  EXPECT_EQ(names, timing_columns(true));
 }
 
 /// A unit as plots write it: "μ_out G² R0³" is "μG²R₀³".
@@ -59,8 +81,8 @@ std::string typeset(std::string unit) {
 
 TEST(RunTables, HaveTheColumnsAndUnitsOfEveryPlot) {
   std::map<std::string, std::string> units;  // "drops.D" to ""
-  for (const auto& [name, unit] : listed(history_columns())) units["history." + name] = unit;
-  for (const auto& [name, unit] : listed(drop_columns())) units["drops." + name] = unit;
+  for (const auto& [name, unit] : listed_history("*")) units["history." + name] = unit;
+  for (const auto& [name, unit] : listed_drops("*")) units["drops." + name] = unit;
   for (const report::PlotSpec& plot : report::plot_catalogue())
     for (const report::PlotQuantity& quantity : plot.quantities) {
       if (plot.derivation == report::Derivation::sum) continue;
@@ -101,10 +123,57 @@ TEST(RunTables, LeaveCellsWithoutMeaningEmpty) {
 }
 
 TEST(RunTables, TimingHasAZeroForAPhaseThatTookNoTime) {
-  const std::vector<io::Cell> row = timing_row(7, 0.5, {{"solve", 2.0}});
-  ASSERT_EQ(row.size(), timing_columns().size());
-  for (std::size_t i = 2; i < row.size(); ++i)
-    EXPECT_EQ(row[i], io::Cell(timing_columns()[i] == "solve" ? 2.0 : 0.0));
+  for (const bool has_scalars : {false, true}) {
+    const std::vector<io::Cell> row = timing_row(7, 0.5, {{"solve", 2.0}}, has_scalars);
+    const std::vector<std::string> columns = timing_columns(has_scalars);
+    ASSERT_EQ(row.size(), columns.size());
+    for (std::size_t i = 2; i < row.size(); ++i)
+      EXPECT_EQ(row[i], io::Cell(columns[i] == "solve" ? 2.0 : 0.0));
+  }
+}
+
+std::vector<Scalar> heat_and_dye() {
+  std::vector<Scalar> scalars(2);
+  scalars[0].name = "heat";
+  scalars[1].name = "dye";
+  scalars[1].is_species = true;
+  return scalars;
+}
+
+/// What a list has behind the fixed columns.
+template <class T, class Row>
+std::vector<T> behind(const std::vector<T>& all, std::span<const Column<Row>> fixed) {
+  return {all.begin() + std::ssize(fixed), all.end()};
+}
+
+TEST(RunTables, HaveColumnsOfEachBulkScalarBehindTheOthers) {
+  const std::vector<Scalar> scalars = heat_and_dye();
+  EXPECT_EQ(behind(history_names(scalars), history_columns()),
+            (std::vector<std::string>{"heat_total", "heat_boundary_rate", "heat_source_rate",
+                                      "heat_min", "heat_max", "dye_total", "dye_boundary_rate",
+                                      "dye_source_rate", "dye_min", "dye_max"}));
+  EXPECT_EQ(
+      behind(drop_names(scalars), drop_columns()),
+      (std::vector<std::string>{"heat_amount", "heat_nusselt", "dye_amount", "dye_sherwood"}));
+  EXPECT_EQ(history_names({}), names_of(history_columns()));
+  EXPECT_EQ(drop_names({}), names_of(drop_columns()));
+}
+
+TEST(RunTables, HaveTheCellsOfEachBulkScalar) {
+  const std::vector<Scalar> scalars = heat_and_dye();
+  HistoryRow history;
+  history.scalars = {{1.0, 2.0, 3.0, 4.0, 5.0}, {6.0, 7.0, 8.0, 9.0, 10.0}};
+  std::vector<io::Cell> numbers;
+  for (int i = 1; i <= 10; ++i) numbers.emplace_back(static_cast<double>(i));
+  EXPECT_EQ(behind(history_cells(history, scalars), history_columns()), numbers);
+
+  DropRow drop;
+  drop.scalars = {{1.0, 2.0}, {3.0, {}}};
+  EXPECT_EQ(behind(drop_cells({2, 0.5, drop}, scalars), drop_columns()),
+            (std::vector<io::Cell>{1.0, 2.0, 3.0, {}}));
+  drop.scalars.clear();
+  EXPECT_EQ(drop_cells({2, 0.5, drop}, {}),
+            cells_of(drop_columns(), RowAtStep<DropRow>{2, 0.5, drop}));
 }
 
 }  // namespace

@@ -25,14 +25,17 @@ USES = {
     "flow/fem": ["core", "geometry", "mesh", "linear", "scene", "surface", "volume", "flow"],
     "flow/bem": ["core", "geometry", "mesh", "linear", "scene", "surface", "flow"],
     "transport": ["core", "geometry", "mesh", "scene", "surface"],
+    "transport/bulk": ["core", "geometry", "mesh", "linear", "scene", "surface", "volume", "flow",
+                       "flow/fem", "transport"],
     "evolve": ["core", "geometry", "mesh", "linear", "scene", "surface", "surface/repair",
                "topology", "volume", "flow", "transport"],
     "case": ["core", "geometry", "mesh", "io", "scene", "surface", "surface/repair", "topology",
-             "volume", "flow", "flow/fem", "flow/bem", "transport", "evolve"],
+             "volume", "flow", "flow/fem", "flow/bem", "transport", "transport/bulk",
+             "evolve"],
     "report": ["core", "geometry", "mesh", "io"],
     "app": ["core", "geometry", "mesh", "linear", "io", "scene", "surface", "surface/repair", "solids",
-            "topology", "volume", "flow", "flow/fem", "flow/bem", "transport", "evolve", "case",
-            "report"],
+            "topology", "volume", "flow", "flow/fem", "flow/bem", "transport", "transport/bulk",
+            "evolve", "case", "report"],
 }
 
 # Single headers that are closed to a room which may use the rest of their room.

@@ -98,6 +98,28 @@ TEST(MeshCut, GoesThroughTheDrop) {
   EXPECT_NEAR(inside, M_PI, 0.25 * M_PI);  // cells of 0.67 R0 for a disc of radius 1
 }
 
+/// A linear function's mean over the corners is its value at their mean; a value by corner of cells
+/// is that of the polygon's own cell, on either side of a jump.
+TEST(MeshCut, PolygonsHaveTheValuesOfPoints) {
+  const test::TemporaryFolder folder;
+  test::write_synthetic_run(folder.path(),
+                            {.num_frames = 1, .num_volume_frames = 1, .has_scalars = true});
+  const MeshCut cut = cut_through_drops(io::read_vtu(folder / "volume/volume-0000.vtu"), 2);
+  ASSERT_EQ(cut.fields.size(), 2U);
+  EXPECT_EQ(cut.fields[0].name, "temperature");  // 1 + 0.1 x
+  EXPECT_EQ(cut.fields[1].name, "dye");          // 1 + the region
+  ASSERT_EQ(cut.fields[0].values.size(), cut.polygons.size());
+  ASSERT_EQ(cut.fields[1].values.size(), cut.polygons.size());
+  for (std::size_t i = 0; i < cut.polygons.size(); ++i) {
+    const CutPolygon& polygon = cut.polygons[i];
+    double x = 0.0;
+    for (int k = 0; k < polygon.num_points; ++k)
+      x += cut.points[polygon.first_point + static_cast<std::size_t>(k)][0] / polygon.num_points;
+    EXPECT_NEAR(cut.fields[0].values[i], 1.0 + 0.1 * x, 1e-14);  // roundoff of a few sums
+    EXPECT_NEAR(cut.fields[1].values[i], 1.0 + polygon.region, 1e-14);
+  }
+}
+
 TEST(MeshCut, PictureHasOnePathPerCell) {
   const test::TemporaryFolder folder;
   const MeshCut cut = cut_through_drops(box_frame(folder), 2);

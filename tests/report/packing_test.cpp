@@ -198,6 +198,26 @@ TEST(PackedFrames, ManyVerticesHaveWideCorners) {
             65599U);  // the last along the curve is one of the sphere, above all the others
 }
 
+TEST(PackedFrames, CutsAreReadBackWithTheirFields) {
+  MeshCut cut;
+  cut.points = {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
+  cut.polygons = {{0, 3, 0, 36.0}, {3, 3, 1, 72.0}};
+  cut.fields = {{"dye", {4.0, 2.0}}};
+  const PackedFrame packed_frame = packed_cuts(0.5, {cut});
+  PackageReader package(packed_frame.bytes);
+  const nlohmann::json& header = package.header["cuts"][0];
+  EXPECT_EQ(package.take<std::uint8_t>(2), (std::vector<std::uint8_t>{3, 3}));
+  EXPECT_EQ(package.take<std::uint8_t>(2), (std::vector<std::uint8_t>{0, 1}));
+  (void)package.take<std::uint8_t>(2);
+  for (int k = 0; k < 2; ++k) (void)package.take_sums(6);
+  EXPECT_EQ(header["fields"][0]["name"], "dye");
+  EXPECT_EQ(header["fields"][0]["low"], 2.0);
+  EXPECT_EQ(header["fields"][0]["high"], 4.0);
+  EXPECT_EQ(package.take_sums(2), (std::vector<std::uint16_t>{Grid16::steps, 0}));
+  EXPECT_EQ(package.at, package.bytes.size());
+  EXPECT_LT(packed_frame.ranges.at("dye").low, packed_frame.ranges.at("dye").high);
+}
+
 TEST(SurfaceFrames, CoarseOnesKeepTheirFields) {
   const SurfaceFrame frame = sphere_frame(4000);
   const SurfaceFrame coarse = coarse_frame(frame, 1000);

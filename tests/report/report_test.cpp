@@ -102,6 +102,21 @@ TEST(Report, SeveralDropsAreSeveralCurves) {
   EXPECT_TRUE(has(page, "L solid, B dashed, W dotted"));
 }
 
+TEST(Report, BulkScalarsHavePlotsOfTheirOwn) {
+  const test::TemporaryFolder folder;
+  test::write_synthetic_run(folder.path(), {.num_frames = 1, .has_scalars = true});
+  const std::string page = page_of(folder.path());
+  for (const std::string name : {"temperature", "dye"})
+    for (const char* plot : {"amount", "amount in the drops", "amount gained per time", "range"})
+      EXPECT_TRUE(has(page, name + ": " + plot)) << name << ", " << plot;
+  EXPECT_TRUE(has(page, "temperature: Nusselt number"));
+  EXPECT_TRUE(has(page, "dye: Sherwood number"));
+  EXPECT_FALSE(has(page, "dye: Nusselt number"));
+  EXPECT_EQ(count(page, "<h2>Temperature and species</h2>"), 1);
+  test::write_synthetic_run(folder.path(), {.num_frames = 1});
+  EXPECT_FALSE(has(page_of(folder.path()), "Temperature and species"));
+}
+
 TEST(Report, EveryFileButOneMayBeMissing) {
   for (const char* kept : {"run.json", "history.csv"}) {
     const test::TemporaryFolder folder;

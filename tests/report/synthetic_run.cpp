@@ -3,6 +3,8 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -57,11 +59,13 @@ double curvature_at(const Shape& s, const Vec3& u) {
   return h * h * h / (abc * abc) * (axes.squaredNorm() - x.squaredNorm());
 }
 
+double temperature_at(const Vec3& x) { return 1.0 + 0.1 * x.x(); }
+
 void write_frame(const fs::path& path, const SyntheticRun& run, const SurfaceMesh& ball, double t) {
   std::vector<SurfaceMesh> meshes;
   io::NamedArray curvature{"curvature", 1, {}}, speed{"normal_velocity", 1, {}},
       velocity{"velocity", 3, {}}, density{"node_density", 1, {}}, jump{"pressure_jump", 1, {}},
-      drop{"drop", 1, {}};
+      drop{"drop", 1, {}}, temperature{"temperature", 1, {}}, dye{"dye", 1, {}};
   for (int k = 0; k < run.num_drops; ++k) {
     const Shape shape = shape_at(t, k);
     SurfaceMesh mesh = ball;
@@ -71,6 +75,8 @@ void write_frame(const fs::path& path, const SyntheticRun& run, const SurfaceMes
       jump.values.push_back(-curvature.values.back() / 0.3);
       velocity.values.insert(velocity.values.end(), {x.y(), 0.0, 0.0});
       x = stretch(shape) * x + shape.center;
+      temperature.values.push_back(temperature_at(x));
+      dye.values.push_back(x.z());
     }
     for (const double area : vertex_areas(mesh)) density.values.push_back(1.0 / area);
     drop.values.insert(drop.values.end(), static_cast<std::size_t>(mesh.num_faces()), k);
@@ -78,7 +84,9 @@ void write_frame(const fs::path& path, const SyntheticRun& run, const SurfaceMes
   }
   std::vector<const SurfaceMesh*> surfaces;
   for (const SurfaceMesh& mesh : meshes) surfaces.push_back(&mesh);
-  io::write_vtp(path, surfaces, {{curvature, speed, velocity, density, jump}, {drop}}, t);
+  io::MeshData data{{curvature, speed, velocity, density, jump}, {drop}};
+  if (run.has_scalars) data.on_vertices.insert(data.on_vertices.end(), {temperature, dye});
+  io::write_vtp(path, surfaces, data, t);
 }
 
 void write_frames(const fs::path& folder, const SyntheticRun& run) {
@@ -131,82 +139,115 @@ void write_volume_frames(const fs::path& folder, const SyntheticRun& run) {
   for (int i = 0; i < run.num_volume_frames; ++i) {
     const double t = run.num_volume_frames > 1 ? end_time * i / (run.num_volume_frames - 1) : 0.0;
     const TetMesh mesh = box_mesh(12, shape_at(t, 0));
-    io::NamedArray region{"region", 1, {}}, dihedral{"min_dihedral_deg", 1, {}};
+    io::NamedArray region{"region", 1, {}}, dihedral{"min_dihedral_deg", 1, {}},
+        temperature{"temperature", 1, {}}, dye{"dye", 1, {}};
     for (const CellId c : mesh.cells.ids()) {
       region.values.push_back(mesh.region[c].value);
       dihedral.values.push_back(30.0 + 25.0 * std::sin(c.value));
+      dye.values.insert(dye.values.end(), 4, 1.0 + mesh.region[c].value);
     }
+    for (const Vec3& x : mesh.x) temperature.values.push_back(temperature_at(x));
+    io::MeshData data{{}, {region, dihedral}};
+    if (run.has_scalars) data.on_vertices.push_back(temperature);
     entries.push_back({t, fmt::format("volume/volume-{:04}.vtu", i)});
-    io::write_vtu(folder / entries.back().file, mesh, {{}, {region, dihedral}}, t);
+    io::write_vtu(folder / entries.back().file, mesh, data, t,
+                  std::span(&dye, run.has_scalars ? 1 : 0));
   }
   io::write_pvd(folder / "volume.pvd", entries);
+}
+
+std::vector<Cell> with_scalars(std::vector<Cell> row, const SyntheticRun& run,
+                               const std::vector<Cell>& of_scalars) {
+  if (run.has_scalars) row.insert(row.end(), of_scalars.begin(), of_scalars.end());
+  return row;
+}
+
+std::vector<std::string> columns_with_scalars(std::vector<std::string> columns,
+                                              const SyntheticRun& run,
+                                              const std::vector<std::string>& of_scalars) {
+  if (run.has_scalars) columns.insert(columns.end(), of_scalars.begin(), of_scalars.end());
+  return columns;
 }
 
 void write_drops(io::TableWriter& drops, const SyntheticRun& run, int step, double t) {
   for (int k = 0; k < run.num_drops; ++k) {
     const Shape s = shape_at(t, k);
     const double volume = 4.0 / 3.0 * std::numbers::pi;
-    drops.add({std::int64_t{step}, t, std::int64_t{k}, Cell(), volume,
-               1e-13 * std::sin(5.0 * step + k), 1e-5 * (1.0 + std::sin(0.3 * step)), 12.6 * s.L,
-               s.center.x(), s.center.y(), s.center.z(), s.L, s.B, s.W, (s.L - s.B) / (s.L + s.B),
-               s.angle * 180.0 / std::numbers::pi, s.L, s.L * s.L, 0.9});
+    std::vector<Cell> of_scalars{volume, 2.0 + std::exp(-t), 2.0 * volume};
+    of_scalars.emplace_back();
+    if (step > 0) of_scalars.back() = 3.0;
+    drops.add(with_scalars(
+        {std::int64_t{step}, t, std::int64_t{k}, Cell(), volume, 1e-13 * std::sin(5.0 * step + k),
+         1e-5 * (1.0 + std::sin(0.3 * step)), 12.6 * s.L, s.center.x(), s.center.y(), s.center.z(),
+         s.L, s.B, s.W, (s.L - s.B) / (s.L + s.B), s.angle * 180.0 / std::numbers::pi, s.L,
+         s.L * s.L, 0.9},
+        run, of_scalars));
   }
 }
 
 void write_tables(const fs::path& folder, const SyntheticRun& run) {
-  io::TableWriter history(folder / "history.csv", {"step",
-                                                   "t",
-                                                   "dt",
-                                                   "drops",
-                                                   "surface_nodes",
-                                                   "nodes",
-                                                   "tetrahedra",
-                                                   "min_gap",
-                                                   "min_dihedral_deg",
-                                                   "linear_iterations",
-                                                   "power_in",
-                                                   "dissipation",
-                                                   "surface_rate",
-                                                   "power_residual",
-                                                   "stress_xx",
-                                                   "stress_yy",
-                                                   "stress_zz",
-                                                   "stress_xy",
-                                                   "stress_xz",
-                                                   "stress_yz",
-                                                   "N1",
-                                                   "N2"});
+  io::TableWriter history(folder / "history.csv",
+                          columns_with_scalars({"step",
+                                                "t",
+                                                "dt",
+                                                "drops",
+                                                "surface_nodes",
+                                                "nodes",
+                                                "tetrahedra",
+                                                "min_gap",
+                                                "min_dihedral_deg",
+                                                "linear_iterations",
+                                                "power_in",
+                                                "dissipation",
+                                                "surface_rate",
+                                                "power_residual",
+                                                "stress_xx",
+                                                "stress_yy",
+                                                "stress_zz",
+                                                "stress_xy",
+                                                "stress_xz",
+                                                "stress_yz",
+                                                "N1",
+                                                "N2"},
+                                               run,
+                                               {"temperature_total", "temperature_boundary_rate",
+                                                "temperature_source_rate", "temperature_min",
+                                                "temperature_max", "dye_total", "dye_boundary_rate",
+                                                "dye_source_rate", "dye_min", "dye_max"}));
   io::TableWriter drops(
       folder / "drops.csv",
-      {"step", "t", "drop", "parent", "volume", "volume_drift", "volume_correction", "area", "x",
-       "y", "z", "L", "B", "W", "D", "angle_deg", "extent_x", "H_max", "D_inertia"});
+      columns_with_scalars(
+          {"step", "t", "drop", "parent", "volume", "volume_drift", "volume_correction", "area",
+           "x", "y", "z", "L", "B", "W", "D", "angle_deg", "extent_x", "H_max", "D_inertia"},
+          run, {"temperature_amount", "temperature_nusselt", "dye_amount", "dye_sherwood"}));
   io::TableWriter timing(folder / "timing.csv", {"step", "t", "solve", "output"});
   for (int step = 0; step <= run.num_steps; ++step) {
     const double t = run.num_steps > 0 ? end_time * step / run.num_steps : 0.0;
     const double rate = 0.8 * std::exp(-t / 1.5);
     const Cell gap = run.num_drops > 1 ? Cell(0.3 + 0.1 * t) : Cell();
-    history.add({std::int64_t{step},
-                 t,
-                 step > 0 ? 0.1 : 0.0,
-                 std::int64_t{run.num_drops},
-                 std::int64_t{200 + step},
-                 std::int64_t{5400 + 20 * step},
-                 std::int64_t{30000 + 150 * step},
-                 gap,
-                 7.0 + std::sin(step),
-                 std::int64_t{44},
-                 9.0 - 0.1 * rate,
-                 9.0 - rate,
-                 0.88 * rate,
-                 0.02 * rate,
-                 0.1,
-                 -0.1,
-                 0.0,
-                 4.0 + rate,
-                 0.0,
-                 0.0,
-                 2.0 - 2.0 * rate,
-                 -0.6 + 0.6 * rate});
+    history.add(with_scalars({std::int64_t{step},
+                              t,
+                              step > 0 ? 0.1 : 0.0,
+                              std::int64_t{run.num_drops},
+                              std::int64_t{200 + step},
+                              std::int64_t{5400 + 20 * step},
+                              std::int64_t{30000 + 150 * step},
+                              gap,
+                              7.0 + std::sin(step),
+                              std::int64_t{44},
+                              9.0 - 0.1 * rate,
+                              9.0 - rate,
+                              0.88 * rate,
+                              0.02 * rate,
+                              0.1,
+                              -0.1,
+                              0.0,
+                              4.0 + rate,
+                              0.0,
+                              0.0,
+                              2.0 - 2.0 * rate,
+                              -0.6 + 0.6 * rate},
+                             run, {500.0 + t, 1.0, 0.5, 0.6, 1.4, 8.0, 0.0, 0.0, 1.0, 2.0}));
     write_drops(drops, run, step, t);
     timing.add({std::int64_t{step}, t, 0.3 + 0.05 * std::sin(step), 0.02});
   }

@@ -1,5 +1,5 @@
 // Writes the files of a synthetic run, for the tests of the page: make_run DIR FRAMES VERTICES
-// DROPS
+// DROPS [scalars]
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -7,13 +7,14 @@
 #include "tests/report/synthetic_run.hpp"
 
 int main(int argc, char** argv) {
-  if (argc != 5) return 2;
+  if (argc < 5 || argc > 6) return 2;
   const std::filesystem::path folder = argv[1];
   std::filesystem::remove_all(folder);
   meniscus::test::SyntheticRun run;
   run.num_frames = std::atoi(argv[2]);
   run.num_vertices = std::atoi(argv[3]);
   run.num_drops = std::atoi(argv[4]);
+  run.has_scalars = argc == 6;
   run.num_steps = 600;
   run.num_volume_frames = 3;
   meniscus::test::write_synthetic_run(folder, run);

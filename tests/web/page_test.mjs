@@ -1,6 +1,7 @@
-// The report in a browser: page_test.mjs WEB RUN COMPARISON OUT
+// The report in a browser: page_test.mjs WEB RUN COMPARISON SCALARS OUT
 //   WEB has node_modules; RUN is a folder of make_run with its report.html (200 frames, about 5,000
-//   triangles); COMPARISON a page of two runs; OUT takes the pictures to be looked at.
+//   triangles); COMPARISON a page of two runs; SCALARS a folder as RUN of a run with bulk scalars; OUT takes
+//   the pictures to be looked at.
 import assert from "node:assert/strict";
 import { mkdirSync, readFileSync, statSync } from "node:fs";
 import { join, resolve } from "node:path";
@@ -8,7 +9,7 @@ import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { findChromium, openBrowser, openPage, pixels, processorSeconds, until } from "./browser.mjs";
 
-const [web, run, comparison, out] = process.argv.slice(2).map((path) => resolve(path));
+const [web, run, comparison, scalars, out] = process.argv.slice(2).map((path) => resolve(path));
 const chromium = findChromium();
 const report = join(run, "report.html");
 const STAGE = ".stage canvas";
@@ -386,4 +387,30 @@ test("two runs in one page move together", async () => {
   await both.page.screenshot({ path: join(out, "comparison.png"), fullPage: true });
   assert.deepEqual(both.complaints, []);
   assert.equal(both.requests.length, 1);
+});
+
+test("bulk scalars colour the view and the cut, and have plots", async () => {
+  const shown = await openPage(browser.context, pathToFileURL(join(scalars, "report.html")).href);
+  const { page: other } = shown;
+  await until(other, () => performance.getEntriesByName("prepared").length > 0);
+  const options = (id) => other.$$eval(`${id} option`, (all) => all.map((option) => option.value));
+  assert.deepEqual((await options("#field")).slice(-2), ["dye", "temperature"]);
+  assert.deepEqual(await options("#cut-coloring"), ["liquid", "quality", "field dye", "field temperature"]);
+  const canvas = ".cut canvas";
+  await other.locator(canvas).scrollIntoViewIfNeeded();
+  const seen = new Set([await pixels(other, STAGE), await pixels(other, canvas)]);
+  for (const name of ["temperature", "dye"]) {
+    await other.selectOption("#field", name);
+    await other.selectOption("#cut-coloring", `field ${name}`);
+    await other.waitForTimeout(300);
+    seen.add(await pixels(other, STAGE)).add(await pixels(other, canvas));
+  }
+  assert.equal(seen.size, 6);
+  assert.match(await other.textContent(".cut .colorbar"), /^1.*2$/); // dye: the matrix, the drop
+  const titles = await other.$$eval(".plot-title", (all) => all.map((e) => e.textContent.trim()));
+  for (const title of ["temperature: amount [R₀³]", "dye: amount gained per time [R₀³G]",
+    "temperature: Nusselt number", "dye: Sherwood number"]) assert.ok(titles.includes(title), title);
+  assert.ok(titles.every((title) => !title.includes("*") && title !== "dye: Nusselt number"), titles.join(", "));
+  assert.deepEqual(shown.complaints, []);
+  await other.close();
 });

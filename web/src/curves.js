@@ -1,6 +1,24 @@
 // What the tables of a run give for a plot of the catalogue, as the program computes it for its
 // pictures (meniscus/report/history_curves.cpp).
 
+/** The plots of runs: the catalogue, its plots of bulk scalars (named `*`) for each that the tables name. */
+export function plotsOf(catalogue, runs) {
+  return catalogue.flatMap((plot) => {
+    const [first] = plot.quantities;
+    if (!first.column.startsWith("*")) return [plot];
+    return scalarNames(first.column.slice(1), runs.map((run) => run.tables[plot.table])).map((name) => {
+      const named = (text) => text.replace("*", () => name);
+      const quantities = plot.quantities.map(({ column, label }) => ({ column: named(column), label: named(label) }));
+      return { ...plot, title: named(plot.title), quantities };
+    });
+  });
+}
+
+function scalarNames(suffix, tables) {
+  const columns = tables.flatMap((table) => table?.names ?? []);
+  return [...new Set(columns.filter((c) => c.endsWith(suffix)).map((c) => c.slice(0, -suffix.length)))];
+}
+
 /** [{label, drop, quantity, column, table, t, values}] of one run. */
 export function curvesOf(plot, run) {
   const table = run.tables[plot.table];

@@ -1,12 +1,16 @@
-// The cut through the tetrahedral mesh, coloured by liquid or by quality.
+// The cut through the tetrahedral mesh, coloured by liquid, by quality or by a field.
 import { css, liquidColor, variable, viridis, VIRIDIS_GRADIENT } from "./colors.js";
+import { fieldsOf, rangeOf } from "./data.js";
 import { make, readable } from "./text.js";
 
 const BEST_ANGLE = 60; // degrees; the regular tetrahedron has 70.5, a good mesh little above 60
 
+const OF_FIELD = "field "; // begins the names of colourings by a field
+
 export class CutView {
-  constructor(run) {
+  constructor(run, fields) {
     this.cuts = run.cuts;
+    this.fields = fieldsOf(this.cuts.entries, fields);
     this.plane = 0;
     this.coloring = "liquid";
     this.at = this.cuts.length - 1;
@@ -22,6 +26,7 @@ export class CutView {
     const colorSelect = make(
       "select", { id: "cut-coloring", change: () => this.choose({ coloring: colorSelect.value }) },
       make("option", { value: "liquid" }, "liquid"), make("option", { value: "quality" }, "quality of the cells"),
+      ...this.fields.map(({ name, label }) => make("option", { value: OF_FIELD + name }, label)),
     );
     this.key = make("span", { class: "colorbar" });
     this.caption = make("figcaption", {});
@@ -132,20 +137,36 @@ export class CutView {
     this.describe();
   }
 
+  /** The field that colours the cut, with its range over all times; undefined where none does. */
+  coloringField() {
+    const field = this.fields.find(({ name }) => OF_FIELD + name === this.coloring);
+    return field && { ...field, range: rangeOf(this.cuts.entries, field.name) };
+  }
+
+  /** A function from a polygon's number to its colour. */
+  polygonColors() {
+    const { cut } = this;
+    if (this.coloring === "liquid") {
+      const liquids = Array.from({ length: 7 }, (_, region) => liquidColor(region));
+      return (p) => liquids[cut.region[p] === 0 ? 0 : 1 + ((cut.region[p] - 1) % 6)];
+    }
+    if (this.coloring === "quality") return (p) => css(viridis(cut.quality[p] / BEST_ANGLE));
+    const { name, range: [low, high] } = this.coloringField();
+    return (p) => css(viridis((cut.values[name]?.[p] - low) / (high - low)));
+  }
+
   drawPolygons(context, toX, toY) {
     const { cut } = this;
-    const isLiquid = this.coloring === "liquid";
-    const liquids = Array.from({ length: 7 }, (_, region) => liquidColor(region));
+    const colorOf = this.polygonColors();
     context.lineWidth = 0.7;
-    context.strokeStyle = variable(isLiquid ? "--soft" : "--card");
+    context.strokeStyle = variable(this.coloring === "liquid" ? "--soft" : "--card");
     let first = 0;
     for (let p = 0; p < cut.polygons; ++p) {
       context.beginPath();
       for (let k = 0; k < cut.corners[p]; ++k) context.lineTo(toX(cut.x[first + k]), toY(cut.y[first + k]));
       context.closePath();
       first += cut.corners[p];
-      const region = cut.region[p];
-      context.fillStyle = isLiquid ? liquids[region === 0 ? 0 : 1 + ((region - 1) % 6)] : css(viridis(cut.quality[p] / BEST_ANGLE));
+      context.fillStyle = colorOf(p);
       context.fill();
       context.stroke();
     }
@@ -156,10 +177,18 @@ export class CutView {
     this.caption.textContent =
       `${cut.polygons} cells of the mesh at t = ${readable(cut.t, 4)} in the plane ${"xyz"[cut.normal]} = ` +
       `${readable(Math.abs(cut.offset) < 1e-9 ? 0 : cut.offset, 3)}; ${cut.axes[0]} to the right, ${cut.axes[1]} upwards. The wheel zooms.`;
+    this.key.replaceChildren(...this.keyParts());
+  }
+
+  /** What the colours mean. */
+  keyParts() {
+    const scale = (low, high, unit) =>
+      [low, make("span", { class: "bar", style: `background:${VIRIDIS_GRADIENT}` }), high, make("span", { class: "unit" }, unit)];
+    if (this.coloring === "quality") return scale("0°", `${BEST_ANGLE}°`, "smallest dihedral angle");
+    const field = this.coloringField();
+    if (field) return scale(readable(field.range[0], 4), readable(field.range[1], 4), field.unit);
     const chip = (color, label) => make("span", { class: "chip" }, make("i", { style: `background:${color}` }), label);
-    const regions = [...new Set(cut.region)].sort((a, b) => a - b).slice(0, 7);
-    this.key.replaceChildren(...(this.coloring === "liquid"
-      ? regions.map((region) => chip(liquidColor(region), region === 0 ? "matrix" : `drop ${region - 1}`))
-      : ["0°", make("span", { class: "bar", style: `background:${VIRIDIS_GRADIENT}` }), `${BEST_ANGLE}°`, make("span", { class: "unit" }, "smallest dihedral angle")]));
+    const regions = [...new Set(this.cut.region)].sort((a, b) => a - b).slice(0, 7);
+    return regions.map((region) => chip(liquidColor(region), region === 0 ? "matrix" : `drop ${region - 1}`));
   }
 }

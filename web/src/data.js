@@ -173,7 +173,26 @@ export function unpackedCuts(bytes) {
     quality: Float32Array.from(reader.take(Uint8Array, cut.polygons), (q) => (q / 255) * cut.quality),
     x: ungridded(reader.takeSums(cut.points), cut.low[0], cut.high[0]),
     y: ungridded(reader.takeSums(cut.points), cut.low[1], cut.high[1]),
+    values: Object.fromEntries(cut.fields.map(({ name, low, high }) =>
+      [name, ungridded(reader.takeSums(cut.polygons), low, high)])),
   }));
+}
+
+/**
+ * The fields that frames (or cuts) have, by their entries: those that the program describes, then the
+ * others under their own names.
+ */
+export function fieldsOf(entries, described) {
+  const names = new Set(entries.flatMap((entry) => Object.keys(entry.ranges)));
+  const known = described.filter(({ name }) => names.delete(name));
+  return [...known, ...[...names].map((name) => ({ name, label: name, unit: "" }))];
+}
+
+/** [low, high] of a field over all entries that have it; undefined where none has. */
+export function rangeOf(entries, name) {
+  const ranges = entries.map((entry) => entry.ranges[name]).filter(Boolean);
+  if (ranges.length === 0) return undefined;
+  return [Math.min(...ranges.map((r) => r[0])), Math.max(...ranges.map((r) => r[1]))];
 }
 
 /**

@@ -1,6 +1,7 @@
 // The interface in 3-D with its controls: of one run, or of several side by side at equal times.
 import { Vector3 } from "three";
 import { VIRIDIS_GRADIENT } from "./colors.js";
+import { fieldsOf, rangeOf } from "./data.js";
 import { make, readable } from "./text.js";
 import { View3D } from "./view3d.js";
 
@@ -28,7 +29,7 @@ export class Explorer {
   constructor(runs, timeline, fields) {
     this.runs = runs;
     this.timeline = timeline;
-    this.fields = fields.filter(({ name }) => this.entries().some((entry) => entry.ranges[name]));
+    this.fields = fieldsOf(this.entries(), fields);
     this.field = this.fields[0]?.name;
     this.requests = runs.map(() => 0);
     this.makeViews();
@@ -127,10 +128,10 @@ export class Explorer {
 
   /** The range of the field over all frames there are. */
   useRange() {
-    const ranges = this.entries().map((entry) => entry.ranges[this.field]).filter(Boolean);
-    if (ranges.length === 0) return;
+    const range = rangeOf(this.entries(), this.field);
+    if (!range) return;
     this.isAuto = true;
-    this.applyRange(Math.min(...ranges.map((r) => r[0])), Math.max(...ranges.map((r) => r[1])));
+    this.applyRange(...range);
   }
 
   setRange(low, high) {

@@ -34,9 +34,9 @@ function addExplorer(page, runs, fields) {
   document.documentElement.classList.add("has-view");
 }
 
-function addCut(page, run) {
+function addCut(page, run, fields) {
   if (run.cuts.length === 0 || page.cut) return;
-  page.cut = new CutView(run);
+  page.cut = new CutView(run, fields);
   page.cutPlace.replaceChildren(make("h2", { class: "dynamic" }, "A cut through the mesh"), page.cut.element);
   return page.cut.show();
 }
@@ -107,7 +107,7 @@ async function showRuns({ runs: entries, fields, plots }) {
   performance.mark("first-picture");
   addHistory(page, plots, runs);
   if (runs.length === 1) {
-    await addCut(page, runs[0]);
+    await addCut(page, runs[0], fields);
     addCaseButtons(runs[0]);
   }
   window.meniscus = page; // for tests, and for the curious
@@ -137,7 +137,7 @@ async function showLive({ runs: [entry], fields, plots }) {
     }
     if (news.rows) live.showPhases();
     if (news.cuts && page.cut) page.cut.extend();
-    else if (news.cuts) await addCut(page, run);
+    else if (news.cuts) await addCut(page, run, fields);
     if (news.rows && page.history) page.history.extend();
     else if (news.rows) addHistory(page, plots, [run]);
   });

@@ -1,7 +1,7 @@
 // The plots of the history: linked, with values under the mouse, zoom, logarithmic axes, download.
 import uPlot from "uplot";
 import { lineColor, variable } from "./colors.js";
-import { curvesOf, referenceOf } from "./curves.js";
+import { curvesOf, plotsOf, referenceOf } from "./curves.js";
 import { plotSvg } from "./plot-svg.js";
 import { download, fileName, make, readable } from "./text.js";
 
@@ -285,7 +285,7 @@ export class History {
   addPlots() {
     const groups = new Map();
     this.plots = [];
-    for (const spec of this.catalogue) {
+    for (const spec of plotsOf(this.catalogue, this.runs)) {
       const plot = new HistoryPlot(spec, this.runs, this.timeline, this.events);
       if (!plot.isDrawable) continue;
       this.plots.push(plot);
@@ -310,7 +310,7 @@ export class History {
   }
 
   extend() {
-    const drawable = this.catalogue.filter((spec) =>
+    const drawable = plotsOf(this.catalogue, this.runs).filter((spec) =>
       styledCurves(spec, this.runs).some(({ values }) => values.some(Number.isFinite)),
     );
     if (drawable.length !== this.plots.length) {

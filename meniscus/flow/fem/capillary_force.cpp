@@ -78,7 +78,7 @@ Field<NodeId, double> node_tension(const Interface& interface, const FaceNodeTab
   Field<NodeId, double> tension(positions.x.size(), 0.0);
   for (const FaceId f : mesh.faces.ids())
     for (std::size_t k = 0; k < 3; ++k) tension[faces.of(f)[k]] = at_vertices[mesh.faces[f][k]];
-  if (faces.nodes_per_face == 3 || !interface.surfactant) return tension;
+  if (faces.nodes_per_face == 3) return tension;
   const SurfaceTopology topology(mesh);
   const FaceField<std::array<std::size_t, 3>> edges = face_edges(mesh, topology);
   std::vector<Vec3> middles(topology.edges().size());
@@ -109,9 +109,9 @@ void add_balanced_force(double tension, const Field<NodeId, double>& kappa,
 
 void add_capillary_force(const Interface& interface, CapillaryForm form, const FaceNodeTable& faces,
                          const NodePositions& positions, Field<NodeId, Vec3>& force) {
-  MENISCUS_ASSERT(form == CapillaryForm::weak || !interface.surfactant,
-                  "a surfactant on drop {} with another than the weak form", interface.drop);
-  if (interface.surfactant)
+  MENISCUS_ASSERT(form == CapillaryForm::weak || !has_varying_tension(interface),
+                  "the tension of drop {} varies with another than the weak form", interface.drop);
+  if (has_varying_tension(interface))
     return add_weak_force(node_tension(interface, faces, positions), faces, positions, force);
   switch (form) {
     case CapillaryForm::weak:

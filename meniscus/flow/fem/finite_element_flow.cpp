@@ -11,6 +11,7 @@
 #include "meniscus/flow/fem/excess_stress.hpp"
 #include "meniscus/flow/fem/face_elements.hpp"
 #include "meniscus/flow/fem/interpolated_state.hpp"
+#include "meniscus/flow/fem/scalar_coupling.hpp"
 #include "meniscus/flow/fem/solver_archive.hpp"
 #include "meniscus/flow/fem/stokes_residual.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
@@ -20,7 +21,8 @@
 namespace meniscus::fem {
 namespace {
 
-/// The problem's coefficients and forces; its tractions apart, as their power is paid for outside.
+/// The problem's coefficients and forces; tractions and buoyancy apart, as their power is paid for
+/// outside.
 struct InstantProblem {
   StokesProblem stokes;
   Field<NodeId, Vec3> traction;
@@ -42,8 +44,10 @@ SurfaceNodes surface_nodes(const Scene& scene, const TetMesh& mesh, const FlowSp
   return nodes;
 }
 
-InstantProblem instant_problem(const Scene& scene, const TetMesh& mesh, const FlowSpace& space,
+InstantProblem instant_problem(const FlowDomain& domain, const FlowSpace& space,
                                NodePositions positions, CapillaryForm form, double t) {
+  const Scene& scene = domain.scene;
+  const TetMesh& mesh = *domain.mesh;
   InstantProblem problem{StokesProblem(mesh, space, std::move(positions)), {}, {}};
   const NodePositions& at = problem.stokes.positions;
   const SurfaceNodes nodes = surface_nodes(scene, mesh, space);
@@ -60,6 +64,11 @@ InstantProblem instant_problem(const Scene& scene, const TetMesh& mesh, const Fl
   problem.stokes.constraints = std::move(conditions.constraints);
   problem.stokes.has_open_boundary = conditions.has_open_patch;
   problem.traction = std::move(conditions.traction);
+  if (domain.scalars != nullptr) {
+    const CellField<double> factors = viscosity_factors(scene, mesh, space, *domain.scalars);
+    for (const CellId c : mesh.cells.ids()) problem.stokes.viscosity[c] *= factors[c];
+    add_buoyancy(scene, *domain.scalars, problem.stokes, problem.traction);
+  }
   problem.stokes.force = problem.traction;
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
     if (scene.interfaces[i].tension != 0.0)
@@ -207,7 +216,7 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
       return failed_flow({FaultKind::inverted_cell, "a cell of the volume mesh is inverted",
                           mesh.x[mesh.cells[c][0]]});
   const InstantProblem problem = instant_problem(
-      domain.scene, mesh, space_, node_positions(domain.scene, mesh, space_, options_.processes),
+      domain, space_, node_positions(domain.scene, mesh, space_, options_.processes),
       options_.capillary, instant.t);
   if (problem.fault) return failed_flow(*problem.fault);
   StokesState state = first_guess(problem.stokes);
@@ -216,6 +225,8 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
       problem.stokes, state, is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh,
       times_);
   decide_on_preconditioner(problem.stokes, report, is_kept);
+  // A kept one could not be made again from a checkpoint, whose scalars are later ones.
+  if (has_varying_viscosity(domain.scene)) prepared_at_.reset();
   if (report.ok() && !problem.stokes.has_open_boundary)
     level_pressure(mesh, space_.pressure, state.p);
   FlowSolution result = report.ok() ? solution(domain, problem, state) : failed_flow(*report.fault);
@@ -264,8 +275,11 @@ FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const Instant
   result.power = {power.reaction + traction + power.body_force, power.dissipation};
   GeneralisedLiquids liquids = generalised_liquids(problem.stokes, state);
   result.excess_stress = std::move(liquids.excess_stress);
-  result.least_viscosity = std::move(liquids.least_viscosity);
-  BulkFlow bulk{at_vertices(state.v, mesh.num_vertices()), {}};
+  result.least_viscosity = has_varying_viscosity(domain.scene) ? least_viscosities(problem.stokes)
+                                                               : std::move(liquids.least_viscosity);
+  BulkFlow bulk{at_vertices(state.v, mesh.num_vertices()), {}, {}};
+  const auto at_edges = state.v.span().subspan(static_cast<std::size_t>(mesh.num_vertices()));
+  bulk.v_at_edges.assign(at_edges.begin(), at_edges.end());
   for (const std::int32_t node : space_.pressure.nodes.cell_nodes)
     bulk.corner_pressure.push_back(state.p[static_cast<std::size_t>(node)]);
   result.bulk = std::move(bulk);
@@ -290,9 +304,7 @@ void FiniteElementFlow::restore_preconditioner(const Archive& archive, const Flo
   iterations_then_ = static_cast<int>(
       entry_of_size(archive.integers, "flow/preconditioner/iterations", 1).front());
   // Time and forces matter to the right-hand side alone.
-  stokes_->prepare(
-      instant_problem(domain.scene, *domain.mesh, space_, *prepared_at_, options_.capillary, 0.0)
-          .stokes);
+  stokes_->prepare(instant_problem(domain, space_, *prepared_at_, options_.capillary, 0.0).stokes);
 }
 
 void FiniteElementFlow::load(const Archive& archive, const FlowDomain& domain) {

@@ -1,0 +1,70 @@
+// The keys of the case as a whole and of its imposed flow.
+#include "meniscus/case/schema_parts.hpp"
+#include "meniscus/case/words.hpp"
+
+namespace meniscus::schema {
+namespace {
+
+using namespace std::string_literals;
+using enum Type;
+
+const std::vector<Key> kFlowKeys{
+    {.path = "title",
+     .type = text,
+     .value = ""s,
+     .sentence = "What the case is, for the report and the progress display. On the command line: "
+                 "--set 'title=Two drops'."},
+
+    {.path = "flow.kind",
+     .type = word,
+     .words = words::list(words::flow_kinds),
+     .default_note = "required, or gradient",
+     .sentence = "The imposed flow: v = (y, 0, 0), (x, -y/2, -z/2), (x, -y, 0) or 0. It decides, "
+                 "whatever a schedule does later, how L, B and W are measured and the default "
+                 "conditions on a box."},
+    {.path = "flow.gradient",
+     .type = matrix,
+     .dimension = Dimension::rate,
+     .range = kFinite,
+     .default_note = "required, or kind",
+     .sentence = "The velocity gradient G of a general flow v = G·x, row by row; its trace is 0."},
+    {.path = "flow.capillary-number",
+     .range = {.min = 0.0, .open_min = true, .infinity = true},
+     .value = 1.0,
+     .applies = "without [scale]",
+     .sentence =
+         "Ca = mu_out G R0/sigma; inf: no surface tension. 1 or inf where neither the flow nor "
+         "a patch sets a rate: then times are in mu_out R0/sigma."},
+
+    {.path = "flow.schedule[].time",
+     .dimension = Dimension::time,
+     .range = kNotNegative,
+     .default_note = "required",
+     .sentence = "When the entry begins to hold."},
+    {.path = "flow.schedule[].kind",
+     .type = word,
+     .words = words::list(words::flow_kinds),
+     .default_note = "the flow the case begins with",
+     .sentence = "The flow from then on."},
+    {.path = "flow.schedule[].gradient",
+     .type = matrix,
+     .dimension = Dimension::rate,
+     .range = kFinite,
+     .default_note = "the flow the case begins with",
+     .sentence = "Its velocity gradient, instead of a kind; trace 0."},
+    {.path = "flow.schedule[].factor",
+     .range = kFinite,
+     .value = 1.0,
+     .sentence = "Multiplies the gradient: 0 stops, -1 reverses the flow."},
+    {.path = "flow.schedule[].ramp",
+     .dimension = Dimension::time,
+     .range = kNotNegative,
+     .value = 0.0,
+     .sentence = "Time over which the gradient passes linearly from the one before; 0: at once."},
+};
+
+}  // namespace
+
+std::span<const Key> flow_keys() { return kFlowKeys; }
+
+}  // namespace meniscus::schema

@@ -1,0 +1,202 @@
+// The keys of the matrix and the drops.
+#include "meniscus/case/schema_parts.hpp"
+#include "meniscus/case/words.hpp"
+#include "meniscus/surface/constants.hpp"
+
+namespace meniscus::schema {
+namespace {
+
+using namespace std::string_literals;
+using enum Type;
+
+// 200 000: the meshes of docs/volume-mesh.md have up to 10 nodes per vertex of a drop. That means
+// one to two million nodes. At an estimated 10 kB per node (tetrahedra, matrix, multigrid) they
+// fill a machine of 24 GiB.
+constexpr Range kDropNodes{.min = kFewestVertices, .max = 200000};
+
+// Above 3 no liquid is known, and Newton's method has not been tried.
+constexpr Range kPowerIndex{.min = 0.0, .max = 3.0, .open_min = true};
+constexpr std::string_view kWithLaw = "with viscosity-law = \"carreau-yasuda\" or \"power-law\"";
+constexpr std::string_view kWithCarreau = "with viscosity-law = \"carreau-yasuda\"";
+constexpr std::string_view kWithPowerLaw = "with viscosity-law = \"power-law\"";
+constexpr std::string_view kLawSentence =
+    "How the viscosity depends on the rate of shear g = sqrt(2 D:D): it is the liquid's own "
+    "(viscosity-ratio of a drop, 1 of the matrix) times 1, or r + (1 - r) (1 + (t g)^a)^((n - "
+    "1)/a), or g^(n - 1) between a floor and a ceiling.";
+constexpr std::string_view kIndexSentence =
+    "n: below 1 the liquid thins with shear, above 1 it "
+    "thickens.";
+constexpr std::string_view kConstantSentence = "t: the liquid begins to thin at rates about 1/t.";
+constexpr std::string_view kYasudaSentence = "a: how sharply; 2 is Carreau's law.";
+constexpr std::string_view kInfiniteSentence = "r: viscosity at infinite rate over that at rest.";
+constexpr std::string_view kFloorSentence =
+    "The least that the power law may multiply the liquid's viscosity by.";
+constexpr std::string_view kCeilingSentence = "The most: what a thinning liquid has at rest.";
+
+constexpr std::string_view kShapeRequired = "required: one of radius, axes, surface, from-run";
+
+const std::vector<Key> kLiquidKeys{
+    {.path = "matrix.body-force",
+     .type = vector,
+     .dimension = Dimension::force_density,
+     .range = kFinite,
+     .value = Vec3(Vec3::Zero()),
+     .sentence = "Uniform force per volume on the liquid around the drops. Only its difference "
+                 "from that of a drop moves anything."},
+    {.path = "matrix.viscosity-law",
+     .type = word,
+     .words = words::list(words::viscosity_laws),
+     .value = "newtonian"s,
+     .sentence = kLawSentence},
+    {.path = "matrix.power-index",
+     .range = kPowerIndex,
+     .default_note = "required with such a law",
+     .applies = kWithLaw,
+     .sentence = kIndexSentence},
+    {.path = "matrix.time-constant",
+     .dimension = Dimension::time,
+     .range = kPositive,
+     .default_note = "required with carreau-yasuda",
+     .applies = kWithCarreau,
+     .sentence = kConstantSentence},
+    {.path = "matrix.yasuda-exponent",
+     .range = {.min = 0.0, .max = 10.0, .open_min = true},
+     .value = 2.0,
+     .applies = kWithCarreau,
+     .sentence = kYasudaSentence},
+    {.path = "matrix.infinite-shear-ratio",
+     .range = {.min = 0.0, .max = 1.0},
+     .value = 0.0,
+     .applies = kWithCarreau,
+     .sentence = kInfiniteSentence},
+    {.path = "matrix.viscosity-floor",
+     .range = {.min = 0.0, .max = 1.0, .open_min = true},
+     .value = 1e-3,
+     .applies = kWithPowerLaw,
+     .sentence = kFloorSentence},
+    {.path = "matrix.viscosity-ceiling",
+     .range = {.min = 1.0, .max = 1e6},
+     .value = 1e3,
+     .applies = kWithPowerLaw,
+     .sentence = kCeilingSentence},
+
+    {.path = "drop[].center",
+     .type = vector,
+     .dimension = Dimension::length,
+     .range = kPlace,
+     .value = Vec3(Vec3::Zero()),
+     .sentence = "Centre of the sphere or ellipsoid; a surface from a file or a run is shifted by "
+                 "it."},
+    {.path = "drop[].radius",
+     .dimension = Dimension::length,
+     .range = kLength,
+     .default_note = kShapeRequired,
+     .sentence = "Radius of a sphere."},
+    {.path = "drop[].axes",
+     .type = vector,
+     .dimension = Dimension::length,
+     .range = kLength,
+     .default_note = kShapeRequired,
+     .sentence = "Half-axes of an ellipsoid, along x, y and z; the longest at most 1000 times the "
+                 "shortest."},
+    {.path = "drop[].surface",
+     .type = path,
+     .default_note = kShapeRequired,
+     .sentence = "A closed triangulated surface in one piece, faces outward (stl, ply, obj, off, "
+                 "vtp); from the "
+                 "case file's folder if relative."},
+    {.path = "drop[].from-run",
+     .type = path,
+     .default_note = kShapeRequired,
+     .sentence = "The folder of another run: the shape in its newest checkpoint."},
+    {.path = "drop[].from-drop",
+     .type = whole,
+     .range = {.min = 0, .max = 1e9},
+     .default_note = "the only drop of that run",
+     .applies = "with from-run",
+     .sentence = "Which drop of the other run, by its id in drops.csv."},
+    {.path = "drop[].viscosity-ratio",
+     .range = kPositive,
+     .value = 1.0,
+     .sentence = "lambda: the drop's viscosity over the matrix's; where one depends on the rate of "
+                 "shear, that at rest (carreau-yasuda) or at the rate G (power-law)."},
+    {.path = "drop[].viscosity-law",
+     .type = word,
+     .words = words::list(words::viscosity_laws),
+     .value = "newtonian"s,
+     .sentence = kLawSentence},
+    {.path = "drop[].power-index",
+     .range = kPowerIndex,
+     .default_note = "required with such a law",
+     .applies = kWithLaw,
+     .sentence = kIndexSentence},
+    {.path = "drop[].time-constant",
+     .dimension = Dimension::time,
+     .range = kPositive,
+     .default_note = "required with carreau-yasuda",
+     .applies = kWithCarreau,
+     .sentence = kConstantSentence},
+    {.path = "drop[].yasuda-exponent",
+     .range = {.min = 0.0, .max = 10.0, .open_min = true},
+     .value = 2.0,
+     .applies = kWithCarreau,
+     .sentence = kYasudaSentence},
+    {.path = "drop[].infinite-shear-ratio",
+     .range = {.min = 0.0, .max = 1.0},
+     .value = 0.0,
+     .applies = kWithCarreau,
+     .sentence = kInfiniteSentence},
+    {.path = "drop[].viscosity-floor",
+     .range = {.min = 0.0, .max = 1.0, .open_min = true},
+     .value = 1e-3,
+     .applies = kWithPowerLaw,
+     .sentence = kFloorSentence},
+    {.path = "drop[].viscosity-ceiling",
+     .range = {.min = 1.0, .max = 1e6},
+     .value = 1e3,
+     .applies = kWithPowerLaw,
+     .sentence = kCeilingSentence},
+    {.path = "drop[].tension-ratio",
+     .range = kNotNegative,
+     .value = 1.0,
+     .sentence = "This drop's surface tension over the case's."},
+    {.path = "drop[].nodes",
+     .type = whole,
+     .range = kDropNodes,
+     .value = std::int64_t{110},
+     .sentence = "N0, the vertices on the drop were it a sphere: sets C0 = N0/4π; any other shape "
+                 "gets C0 ∮κ_rms² dS vertices."},
+    {.path = "drop[].body-force",
+     .type = vector,
+     .dimension = Dimension::force_density,
+     .range = kFinite,
+     .value = Vec3(Vec3::Zero()),
+     .sentence = "Uniform force per volume on the liquid of the drop: makes it rise or settle."},
+
+    {.path = "drop[].surfactant.equation-of-state",
+     .type = word,
+     .words = words::list(words::equations_of_state),
+     .value = "linear"s,
+     .sentence = "Tension over that at Gamma = 1: 1 - beta (Gamma - 1), or [1 + E ln(1 - X Gamma)]"
+                 "/[1 + E ln(1 - X)]."},
+    {.path = "drop[].surfactant.elasticity",
+     .range = kNotNegative,
+     .default_note = "required",
+     .sentence = "beta of the linear law, E of Langmuir's."},
+    {.path = "drop[].surfactant.coverage",
+     .range = {.min = 0.0, .max = 1.0, .open_min = true, .open_max = true},
+     .default_note = "required with langmuir",
+     .applies = "with equation-of-state = \"langmuir\"",
+     .sentence = "X: the initial concentration over that of close packing."},
+    {.path = "drop[].surfactant.peclet",
+     .range = {.min = 0.0, .open_min = true, .infinity = true},
+     .value = std::numeric_limits<double>::infinity(),
+     .sentence = "Pe_s = G R0²/D_s, in quiescent cases sigma R0/(mu_out D_s): convection along the "
+                 "surface over diffusion; inf: no diffusion."},
+};
+
+}  // namespace
+
+std::span<const Key> liquid_keys() { return kLiquidKeys; }
+
+}  // namespace meniscus::schema

@@ -1,0 +1,234 @@
+// The keys of how a case is run: interfaces, solver, time, output, and of its units.
+#include "meniscus/case/schema_parts.hpp"
+#include "meniscus/case/words.hpp"
+
+namespace meniscus::schema {
+namespace {
+
+using namespace std::string_literals;
+using enum Type;
+
+constexpr Range kCount{.min = 1, .max = 1e9};
+constexpr Range kCountOrNone{.min = 0, .max = 1e9};
+constexpr std::string_view kWithIntegrals = "with method = \"boundary-integral\"";
+
+const std::vector<Key> kRunKeys{
+    {.path = "interface.surface-tension",
+     .type = word,
+     .words = words::list(words::capillary_forms),
+     .value = "weak"s,
+     .applies = kWithElements,
+     .sentence = "Form of the capillary force: weak (integrated by parts, the paper's eq. 15), "
+                 "nodal (curvature of a paraboloid fit, eqs 16-17), balanced (no flow for constant "
+                 "curvature)."},
+    {.path = "interface.motion-normal",
+     .type = word,
+     .words = words::list(words::motion_normals),
+     .value = "area-vector"s,
+     .sentence = "Normal along which vertices move: area-vector keeps the volume's rate of change "
+                 "at round-off, fit is the paper's paraboloid, smooth that of the fitted surface "
+                 "(boundary integrals take it unless told otherwise), faces the same with speeds "
+                 "that follow the liquid in the mean over curved faces (P2-P1 elements do)."},
+    {.path = "interface.volume-motion",
+     .type = word,
+     .words = words::list(words::volume_motions),
+     .value = "spines"s,
+     .applies = kWithElements,
+     .sentence = "How the vertices between the surfaces follow: along rays from the drop's centre "
+                 "(harmonic where a drop is not star-shaped or there are several), with the "
+                 "liquid, or by harmonic extension."},
+    {.path = "interface.remesh-every",
+     .type = whole,
+     .range = kCountOrNone,
+     .default_note = "0; 1 with time.control = \"paper\"",
+     .sentence =
+         "Steps from one remeshing of the interfaces to the next: 3 remeshes at the end of steps "
+         "3, 6, 9; in between vertices only move, and volumes are restored. 0 remeshes when edges "
+         "or the density of vertices leave their range, and keeps the tetrahedra until then."},
+    {.path = "interface.equilibrium",
+     .range = {.min = 0.0, .max = 0.99},
+     .value = 0.0,
+     .sentence = "Remeshing slides the vertices over the surface until each is within this "
+                 "fraction of its wanted edge of where springs would have it; 0: 0.006, less above "
+                 "1000 nodes; with 0.9 next to none slides."},
+    {.path = "interface.edge-floor",
+     .dimension = Dimension::length,
+     .range = {.min = 0.0, .max = 1e6},
+     .default_note = "half of topology.breakup-radius",
+     .sentence =
+         "No interface edge is asked to be shorter, however curved the interface. A floor above "
+         "half the edge length with which a drop has 42 vertices is lowered to that, for "
+         "this drop."},
+    {.path = "interface.neck-edges",
+     .type = whole,
+     .range = {.min = 0, .max = 100},
+     .default_note = "15 with P2-P1; 0 without",
+     .sentence = "Edges asked for around a neck or a thread, however thin, down to the edge floor; "
+                 "0: as many as nodes gives."},
+    {.path = "interface.gap-layers",
+     .type = whole,
+     .range = {.min = 0, .max = 100},
+     .value = std::int64_t{3},
+     .sentence =
+         "Layers of tetrahedra asked for where an interface is close to another one, to the outer "
+         "boundary or to a sheet of its own, down to the edge floor; 0: gaps are not refined."},
+
+    {.path = "topology.breakup-radius",
+     .dimension = Dimension::length,
+     .range = kNotNegative,
+     .value = 0.01,
+     .sentence = "A thinning neck below this radius (its perimeter over 2 pi) is cut; 0: never."},
+    {.path = "topology.coalescence",
+     .type = word,
+     .words = words::list(words::on_off),
+     .value = "on"s,
+     .sentence = "Whether interfaces that come close merge, and liquid films rupture; off refuses "
+                 "any step that would make drops touch."},
+    {.path = "topology.coalescence-gap",
+     .dimension = Dimension::length,
+     .range = kNotNegative,
+     .value = 0.01,
+     .sentence = "The gap below which interfaces that approach each other merge; 0: never. Twice "
+                 "the edge floor or more."},
+
+    {.path = "solver.method",
+     .type = word,
+     .words = words::list(words::methods),
+     .value = "finite-element"s,
+     .sentence = "How the Stokes flow is found: by elements that fill the domain, or by integrals "
+                 "over the interfaces alone, in an unbounded domain."},
+    {.path = "solver.threads",
+     .type = whole,
+     .range = kCount,
+     .value = std::int64_t{1},
+     .applies = kWithIntegrals,
+     .sentence = "Threads that share the sums; the results do not depend on it."},
+    {.path = "solver.elements",
+     .type = word,
+     .words = words::list(words::elements),
+     .default_note =
+         "\"P2-P1\"; \"P1-P1\" with surface-tension = \"nodal\" or linear = \"paper-gmres\"",
+     .applies = kWithElements,
+     .sentence =
+         "P2-P1: quadratic velocity, linear pressure, curved at interfaces and round walls; a "
+         "drop's volume is then that of the curved surface. P1-P1: linear velocity and pressure, "
+         "pressure-stabilised, as in the paper."},
+    {.path = "solver.linear",
+     .type = word,
+     .words = words::list(words::linear_solvers),
+     .value = "block"s,
+     .applies = kWithElements,
+     .sentence = "Linear solver: block-preconditioned FGMRES, the paper's scaled GMRES, "
+                 "block-diagonal MINRES, or direct."},
+    {.path = "solver.rtol",
+     .range = {.min = 0.0, .max = 0.1, .open_min = true},
+     .value = 1e-6,
+     .sentence = "Relative residual of the linear solve, however far the walls are; 1e-6 leaves "
+                 "2.5e-5 in the rate of deformation."},
+    {.path = "solver.max-iterations",
+     .type = whole,
+     .range = kCount,
+     .value = std::int64_t{2000},
+     .sentence = "Linear iterations after which a solve has failed."},
+    {.path = "solver.petsc-options",
+     .type = text,
+     .value = ""s,
+     .applies = kWithElements,
+     .sentence = "Further options for PETSc, as on its command line: \"-name value -name …\"."},
+
+    {.path = "time.scheme",
+     .type = word,
+     .words = words::list(words::time_schemes),
+     .default_note = "\"semi-implicit\"; \"rk2\" with control = \"paper\"",
+     .sentence = "Midpoint Runge-Kutta (the paper's eq. 22), explicit Euler (eq. 21); the midpoint "
+                 "rule with surface tension damped so that long steps are stable; or "
+                 "Runge-Kutta-Chebyshev: of second order too, with as many solves of "
+                 "the flow, 3 to 24, as make the step stable."},
+    {.path = "time.end",
+     .dimension = Dimension::time,
+     .range = kNotNegative,
+     .value = 10.0,
+     .sentence = "The run stops at the first step at or past this time."},
+    {.path = "time.control",
+     .type = word,
+     .words = words::list(words::step_controls),
+     .default_note = "\"paper\" with step-factor, step-edges or \"euler\", else \"error\"",
+     .sentence =
+         "What sets the length of steps: the paper's rule, or an estimate of the error with "
+         "bounds from stability, from the flow along the interface, from the motion of "
+         "vertices and from necks."},
+    {.path = "time.tolerance",
+     .range = {.min = 0.0, .max = 1.0, .open_min = true},
+     .value = kDefaultTolerance,
+     .applies = "with control = \"error\"",
+     .sentence = "Largest estimated error of a step at any vertex, over the shortest edge there. "
+                 "The error at a given time is proportional to it, and far smaller."},
+    {.path = "time.step-factor",
+     .range = {.min = 0.0, .max = 10.0, .open_min = true},
+     .value = 0.5,
+     .applies = "with control = \"paper\"",
+     .sentence = "dt = step-factor · min(1, Ca) · (shortest edge): the paper's eq. 27."},
+    {.path = "time.step-edges",
+     .type = word,
+     .words = words::list(words::step_edges),
+     .value = "interface"s,
+     .applies = "with control = \"paper\"",
+     .sentence = "Where the shortest edge is looked for; mesh is the paper's."},
+    {.path = "time.max-step",
+     .dimension = Dimension::time,
+     .range = kPositive,
+     .default_note = "1; 0.1 with control = \"paper\"",
+     .sentence = "No step is longer."},
+    {.path = "time.min-step",
+     .dimension = Dimension::time,
+     .range = kPositive,
+     .value = 1e-6,
+     .sentence = "A step that fails at this size ends the run; at most max-step."},
+
+    {.path = "output.interval",
+     .dimension = Dimension::time,
+     .range = kPositive,
+     .value = 0.2,
+     .sentence = "Time between two surfaces written for viewing (at the first step past each "
+                 "multiple)."},
+    {.path = "output.volume",
+     .type = flag,
+     .value = true,
+     .sentence = "Whether volume meshes with velocity and pressure are written too, where there "
+                 "are any."},
+    {.path = "output.volume-interval",
+     .dimension = Dimension::time,
+     .range = kPositive,
+     .default_note = "output.interval",
+     .applies = "with volume = true, where there are volume meshes",
+     .sentence = "Time between two volume meshes."},
+    {.path = "output.checkpoint-every",
+     .type = whole,
+     .range = kCount,
+     .value = std::int64_t{10},
+     .sentence = "Steps from one checkpoint to the next; the last two are kept."},
+
+    {.path = "scale.length",
+     .range = kPositive,
+     .default_note = "required with [scale]",
+     .sentence = "R0 in metres."},
+    {.path = "scale.viscosity",
+     .range = kPositive,
+     .default_note = "required with [scale]",
+     .sentence = "mu_out in pascal seconds."},
+    {.path = "scale.surface-tension",
+     .range = kNotNegative,
+     .default_note = "required with [scale]",
+     .sentence = "sigma in newtons per metre; 0: none."},
+    {.path = "scale.rate",
+     .range = kPositive,
+     .default_note = "required with [scale]; surface-tension/(viscosity · length) in a quiescent "
+                     "flow",
+     .sentence = "G per second, the rate of shear or strain; a kind of flow has this rate."},
+};
+
+}  // namespace
+
+std::span<const Key> run_keys() { return kRunKeys; }
+
+}  // namespace meniscus::schema

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vector>
+
+#include "meniscus/core/archive.hpp"
+#include "meniscus/core/timer.hpp"
+#include "meniscus/flow/flow_solver.hpp"
+
+namespace meniscus {
+
+/// A way of the mesh, of one connectivity, and the flow that convects on it.
+struct ScalarPath {
+  FlowDomain start, end;
+  double duration = 0.0;
+  const FlowSolution& flow;  ///< of the whole way: of its middle, or of its start
+};
+
+/// The content of one region.
+struct ScalarContent {
+  double amount = 0.0;  ///< ∫γT dV [R0³]
+  double volume = 0.0;  ///< [R0³]
+};
+/// An interface as a scalar sees it.
+struct ScalarExchange {
+  double outflow = 0.0;       ///< −∮k ∂T/∂n dS, n out of the drop [R0]
+  double area = 0.0;          ///< [R0²]
+  double mean_outside = 0.0;  ///< mean of c on the outer side
+};
+/// What tables say of one scalar at one instant.
+struct ScalarMeasures {
+  std::vector<ScalarContent> regions;
+  std::vector<ScalarExchange> interfaces;
+  double least = 0.0, largest = 0.0;  ///< of T at the nodes
+  double reference = 0.0;  ///< mean over the patches with a given value, else over the matrix
+};
+
+/// What evolution asks of whatever convects and diffuses the bulk scalars of a scene.
+class ScalarSolver {
+ public:
+  virtual ~ScalarSolver() = default;
+
+  /// The scalars as the liquids' initial profiles say. Where liquids meet the amount decides.
+  virtual BulkScalars initial(const FlowDomain& domain) = 0;
+  /// Convects and diffuses the scalars along a path. Amounts change by what boundaries and sources
+  /// give; a constant stays.
+  virtual Report advance(const ScalarPath& path, BulkScalars& scalars) = 0;
+  /// The scalars on the mesh that took the place of another (`MeshChange`); the amount of each
+  /// stays. `before` is the scene that the mesh before belonged to.
+  virtual BulkScalars follow(const MeshChange& change, const Scene& before,
+                             const FlowDomain& domain, const BulkScalars& scalars) = 0;
+  [[nodiscard]] virtual std::vector<ScalarMeasures> measures(const FlowDomain& domain,
+                                                             const BulkScalars& scalars) = 0;
+
+  [[nodiscard]] virtual const PhaseTimes& times() const = 0;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,207 @@
+#include "meniscus/transport/bulk/finite_element_scalars.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <numeric>
+#include <optional>
+#include <tuple>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/transport/bulk/keep_range.hpp"
+#include "meniscus/transport/bulk/scalar_measures.hpp"
+#include "meniscus/transport/bulk/scalar_step.hpp"
+#include "meniscus/transport/bulk/scalar_transfer.hpp"
+
+namespace meniscus::bulk {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// The liquid's velocity at the nodes; zero where no flow is known.
+Field<NodeId, Vec3> node_velocity(const FlowSolution& flow, const ScalarSpace& space) {
+  Field<NodeId, Vec3> v;
+  v.reserve(space.num_nodes());
+  if (!flow.bulk) return Field<NodeId, Vec3>(space.num_nodes(), Vec3::Zero());
+  for (const Vec3& each : flow.bulk->v) v.add(each);
+  for (const Vec3& each : flow.bulk->v_at_edges) v.add(each);
+  MENISCUS_ASSERT(v.size() == space.num_nodes(), "velocities of {} of {} nodes", v.size(),
+                  space.num_nodes());
+  return v;
+}
+
+double amount(std::span<const double> rows, std::span<const double> values) {
+  return std::inner_product(rows.begin(), rows.end(), values.begin(), 0.0);
+}
+
+class FiniteElementScalars final : public ScalarSolver {
+ public:
+  FiniteElementScalars(fem::Elements elements, linear::Processes processes)
+      : elements_(elements), processes_(processes) {}
+
+  BulkScalars initial(const FlowDomain& domain) override;
+  Report advance(const ScalarPath& path, BulkScalars& scalars) override;
+  BulkScalars follow(const MeshChange& change, const Scene& before, const FlowDomain& domain,
+                     const BulkScalars& scalars) override;
+  std::vector<ScalarMeasures> measures(const FlowDomain& domain,
+                                       const BulkScalars& scalars) override;
+  const PhaseTimes& times() const override { return times_; }
+
+ private:
+  /// The space on a domain's mesh, and where its nodes are.
+  struct Placed {
+    std::int64_t connectivity = 0;
+    std::shared_ptr<const ScalarSpace> space;
+    Field<TetVertexId, Vec3> vertices;  ///< that the positions were found for
+    std::shared_ptr<const NodePositions> positions;
+    /// By scalar, those that were asked for.
+    std::shared_ptr<std::vector<std::unique_ptr<const MassMatrix>>> masses;
+  };
+  const Placed& placed(const FlowDomain& domain);
+  static const MassMatrix& mass(const Placed& at, const Scene& scene, const TetMesh& mesh,
+                                std::size_t k);
+
+  fem::Elements elements_;
+  linear::Processes processes_;
+  std::deque<Placed> last_;  // a step asks again for its start
+  PhaseTimes times_;
+};
+
+const FiniteElementScalars::Placed& FiniteElementScalars::placed(const FlowDomain& domain) {
+  constexpr std::size_t kMostKept = 3;
+  MENISCUS_ASSERT(domain.mesh != nullptr, "bulk scalars need a volume mesh");
+  std::shared_ptr<const ScalarSpace> space;
+  for (const Placed& each : last_) {
+    if (each.connectivity != domain.connectivity) continue;
+    space = each.space;
+    if (each.vertices == domain.mesh->x) return each;
+  }
+  if (!space) space = std::make_shared<const ScalarSpace>(scalar_space(domain, elements_));
+  auto positions = std::make_shared<const NodePositions>(
+      fem::node_positions(domain.scene, *domain.mesh, space->elements, processes_));
+  last_.push_front({domain.connectivity, std::move(space), domain.mesh->x, std::move(positions),
+                    std::make_shared<std::vector<std::unique_ptr<const MassMatrix>>>(
+                        domain.scene.scalars.size())});
+  if (last_.size() > kMostKept) last_.pop_back();
+  return last_.front();
+}
+
+const MassMatrix& FiniteElementScalars::mass(const Placed& at, const Scene& scene,
+                                             const TetMesh& mesh, std::size_t k) {
+  std::unique_ptr<const MassMatrix>& known = (*at.masses)[k];
+  if (!known)
+    known = std::make_unique<const MassMatrix>(
+        mass_matrix(scene, mesh, *at.space, *at.positions, capacities(scene, k)));
+  return *known;
+}
+
+BulkScalars FiniteElementScalars::initial(const FlowDomain& domain) {
+  const PhaseTimer timer(times_, "scalars");
+  const Scene& scene = domain.scene;
+  const TetMesh& mesh = *domain.mesh;
+  const Placed here = placed(domain);
+  BulkScalars scalars(scene.scalars.size());
+  for (std::size_t k = 0; k < scalars.size(); ++k) {
+    std::vector<double> held(at(here.space->num_nodes()), 0.0), room = held;
+    for (const RegionId region : scene.liquids.ids()) {
+      const ScalarLiquid& liquid = scene.liquids[region].scalars[k];
+      std::vector<double> alone(at(scene.liquids.size()), 0.0);
+      alone[at(region.value)] = liquid.capacity;
+      const std::vector<double> rows =
+          mass_matrix(scene, mesh, *here.space, *here.positions, alone).rows;
+      const double unit = scene.scalars[k].is_species ? liquid.capacity : 1.0;
+      for (const NodeId i : here.positions->x.ids()) {
+        const double T = liquid.initial.at(here.positions->x[i]) / unit;
+        held[at(i.value)] += rows[at(i.value)] * T;
+        room[at(i.value)] += rows[at(i.value)];
+      }
+    }
+    for (std::size_t i = 0; i < held.size(); ++i) held[i] /= room[i];
+    scalars[k].values = std::move(held);
+    std::tie(scalars[k].least, scalars[k].largest) = std::pair(
+        *std::ranges::min_element(scalars[k].values), *std::ranges::max_element(scalars[k].values));
+    if (scene.scalars[k].peclet == 0.0)
+      (void)conduct(scene, mesh, *here.space, *here.positions, k, {}, scalars[k]);
+  }
+  return scalars;
+}
+
+Report FiniteElementScalars::advance(const ScalarPath& path, BulkScalars& scalars) {
+  const PhaseTimer timer(times_, "scalars");
+  const Placed from = placed(path.start), to = placed(path.end);
+  MENISCUS_ASSERT(from.connectivity == to.connectivity, "a path between meshes {} and {}",
+                  from.connectivity, to.connectivity);
+  const Field<NodeId, Vec3> v = node_velocity(path.flow, *to.space);
+  for (std::size_t k = 0; k < scalars.size(); ++k) {
+    const Scalar& scalar = path.end.scene.scalars[k];
+    if (scalar.peclet > 0.0) {
+      const ScalarMotion motion{path.start.scene,
+                                path.end.scene,
+                                *path.end.mesh,
+                                *to.space,
+                                *from.positions,
+                                *to.positions,
+                                mass(from, path.start.scene, *path.start.mesh, k),
+                                mass(to, path.end.scene, *path.end.mesh, k),
+                                v,
+                                path.duration};
+      if (Report moved = convect(motion, k, scalars[k]); !moved.ok()) return moved;
+      continue;
+    }
+    std::vector<double> heat;
+    if (scalar.brinkman > 0.0) {
+      heat = dissipation(path.end.scene, *path.end.mesh, *to.space, *to.positions, v);
+      for (double& each : heat) each *= scalar.brinkman;
+    }
+    if (Report solved =
+            conduct(path.end.scene, *path.end.mesh, *to.space, *to.positions, k, heat, scalars[k]);
+        !solved.ok())
+      return solved;
+  }
+  return {};
+}
+
+BulkScalars FiniteElementScalars::follow(const MeshChange& change, const Scene& before,
+                                         const FlowDomain& domain, const BulkScalars& scalars) {
+  const PhaseTimer timer(times_, "scalars");
+  const auto old_space = std::ranges::find_if(
+      last_, [&](const Placed& each) { return each.vertices == change.before.x; });
+  MENISCUS_ASSERT(old_space != last_.end(), "the mesh before the change is not known");
+  const Placed old = *old_space;
+  const Placed now = placed(domain);
+  BulkScalars result(scalars.size());
+  for (std::size_t k = 0; k < scalars.size(); ++k) {
+    result[k] = scalars[k];
+    if (before.liquids.size() != domain.scene.liquids.size()) result[k].region_loss.clear();
+    result[k].values =
+        interpolated_values(scalars[k].values, {change.before, *old.space, *old.positions},
+                            {*domain.mesh, *now.space, *now.positions}, change.sources);
+    const GivenValues given = given_values(domain.scene, k, *now.space, *now.positions);
+    for (std::size_t i = 0; i < given.value.size(); ++i)
+      if (given.is_given[i] != 0) result[k].values[i] = given.value[i];
+    keep_range(around(scalars[k].least, scalars[k].largest),
+               amount(mass(old, before, change.before, k).rows, scalars[k].values),
+               mass(now, domain.scene, *domain.mesh, k).rows, *now.space, given.is_given,
+               result[k].values);
+  }
+  return result;
+}
+
+std::vector<ScalarMeasures> FiniteElementScalars::measures(const FlowDomain& domain,
+                                                           const BulkScalars& scalars) {
+  const PhaseTimer timer(times_, "diagnostics");
+  const Placed here = placed(domain);
+  std::vector<ScalarMeasures> result;
+  for (std::size_t k = 0; k < scalars.size(); ++k)
+    result.push_back(
+        scalar_measures(domain.scene, *domain.mesh, *here.space, *here.positions, k, scalars[k]));
+  return result;
+}
+
+}  // namespace
+
+std::unique_ptr<ScalarSolver> make_finite_element_scalars(fem::Elements elements,
+                                                          linear::Processes processes) {
+  return std::make_unique<FiniteElementScalars>(elements, processes);
+}
+
+}  // namespace meniscus::bulk

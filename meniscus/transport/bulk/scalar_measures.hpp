@@ -1,0 +1,15 @@
+#pragma once
+
+#include "meniscus/flow/scalar_solver.hpp"
+#include "meniscus/transport/bulk/scalar_space.hpp"
+
+namespace meniscus::bulk {
+
+/// What tables say of scalar k (`ScalarMeasures`). What leaves a drop is what its balance over the
+/// last step says; where there was none, the mean of the fluxes on both sides of its interface.
+[[nodiscard]] ScalarMeasures scalar_measures(const Scene& scene, const TetMesh& mesh,
+                                             const ScalarSpace& space,
+                                             const NodePositions& positions, std::size_t k,
+                                             const BulkScalar& scalar);
+
+}  // namespace meniscus::bulk

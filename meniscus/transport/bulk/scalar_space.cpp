@@ -1,0 +1,77 @@
+#include "meniscus/transport/bulk/scalar_space.hpp"
+
+#include "meniscus/flow/fem/elements.hpp"
+
+namespace meniscus::bulk {
+
+ScalarSpace scalar_space(const FlowDomain& domain, fem::Elements elements) {
+  const TetMesh& mesh = *domain.mesh;
+  ScalarSpace space;
+  space.elements = fem::flow_space(mesh, elements);
+  space.graph = fem::node_graph(space.elements.velocity, space.elements.velocity);
+  for (std::size_t i = 0; i < mesh.interfaces.size(); ++i)
+    space.interfaces.push_back(
+        fem::face_nodes(space.elements, mesh, domain.scene.interfaces[i].mesh, mesh.interfaces[i]));
+  space.boundary = fem::face_nodes(space.elements, mesh, domain.scene.boundary.mesh, mesh.boundary);
+  return space;
+}
+
+NodePositions halfway(const NodePositions& from, const NodePositions& to) {
+  NodePositions middle = from;
+  for (const NodeId i : middle.x.ids()) middle.x[i] = 0.5 * (from.x[i] + to.x[i]);
+  for (const CellId c : from.is_curved.ids())
+    middle.is_curved[c] = static_cast<char>(from.is_curved[c] != 0 || to.is_curved[c] != 0);
+  return middle;
+}
+
+std::vector<double> element_volumes(const TetMesh& mesh, const ScalarSpace& space,
+                                    const NodePositions& positions) {
+  std::vector<double> volumes(mesh.interfaces.size() + 1, 0.0);
+  for (const CellId c : mesh.cells.ids()) {
+    const auto nodes = space.elements.velocity.of(c);
+    double volume = 0.0;
+    if (positions.is_curved[c] != 0) {
+      for (const fem::CurvedMap& map : fem::curved_maps(positions.x, nodes)) volume += map.weight;
+    } else {
+      volume = linear_tetrahedron({positions.x[NodeId{nodes[0]}], positions.x[NodeId{nodes[1]}],
+                                   positions.x[NodeId{nodes[2]}], positions.x[NodeId{nodes[3]}]})
+                   .volume;
+    }
+    volumes[static_cast<std::size_t>(mesh.region[c].value)] += volume;
+  }
+  return volumes;
+}
+
+std::vector<double> nominal_volumes(const Scene& scene, double total) {
+  std::vector<double> volumes(scene.interfaces.size() + 1, 0.0);
+  volumes[0] = total;
+  for (const Interface& interface : scene.interfaces) {
+    volumes[static_cast<std::size_t>(interface.inside.value)] += interface.volume;
+    volumes[static_cast<std::size_t>(interface.outside.value)] -= interface.volume;
+  }
+  return volumes;
+}
+
+GivenValues given_values(const Scene& scene, std::size_t scalar, const ScalarSpace& space,
+                         const NodePositions& positions) {
+  const auto count = static_cast<std::size_t>(space.num_nodes());
+  GivenValues given{std::vector<char>(count, 0), std::vector<double>(count, 0.0)};
+  const OuterBoundary& boundary = scene.boundary;
+  for (const PatchId patch : boundary.patches.ids()) {
+    const ScalarCondition& condition = boundary.patches[patch].scalars[scalar];
+    if (condition.kind != ScalarCondition::Kind::value) continue;
+    given.any = true;
+    for (const FaceId f : space.boundary.faces()) {
+      if (boundary.patch[f] != patch) continue;
+      for (const NodeId i : space.boundary.of(f)) {
+        const auto at = static_cast<std::size_t>(i.value);
+        if (given.is_given[at] != 0) continue;
+        given.is_given[at] = 1;
+        given.value[at] = condition.value + condition.gradient.dot(positions.x[i]);
+      }
+    }
+  }
+  return given;
+}
+
+}  // namespace meniscus::bulk

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "meniscus/flow/fem/node_graph.hpp"
+#include "meniscus/flow/fem/node_positions.hpp"
+#include "meniscus/flow/flow_solver.hpp"
+
+namespace meniscus::bulk {
+
+using fem::NodeId;
+using fem::NodePositions;
+
+/// The finite elements of bulk scalars on one connectivity: those of the flow's velocity.
+struct ScalarSpace {
+  fem::FlowSpace elements;
+  fem::NodeGraph graph;  ///< of the nodes with one another
+  std::vector<fem::FaceNodeTable> interfaces;
+  fem::FaceNodeTable boundary;
+
+  [[nodiscard]] std::int32_t num_nodes() const { return elements.velocity.num_nodes; }
+};
+[[nodiscard]] ScalarSpace scalar_space(const FlowDomain& domain, fem::Elements elements);
+
+/// Where the nodes are half way on straight lines.
+[[nodiscard]] NodePositions halfway(const NodePositions& from, const NodePositions& to);
+
+/// The volumes of the regions' elements [R0³].
+[[nodiscard]] std::vector<double> element_volumes(const TetMesh& mesh, const ScalarSpace& space,
+                                                  const NodePositions& positions);
+/// The volumes that the scene's regions are to have; that of the matrix is what is left of `total`.
+[[nodiscard]] std::vector<double> nominal_volumes(const Scene& scene, double total);
+
+/// The nodes at which a scalar is given, with its value.
+struct GivenValues {
+  std::vector<char> is_given;  ///< by node
+  std::vector<double> value;   ///< 0 elsewhere
+  bool any = false;
+};
+/// Where patches meet, that of the lowest id counts.
+[[nodiscard]] GivenValues given_values(const Scene& scene, std::size_t scalar,
+                                       const ScalarSpace& space, const NodePositions& positions);
+
+}  // namespace meniscus::bulk

@@ -1,0 +1,373 @@
+#include "meniscus/transport/bulk/scalar_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/flow/fem/face_elements.hpp"
+#include "meniscus/linear/transport_solver.hpp"
+#include "meniscus/transport/bulk/cell_kernel.hpp"
+#include "meniscus/transport/bulk/keep_range.hpp"
+
+namespace meniscus::bulk {
+namespace {
+
+/// The share of a step that each of the two stages is implicit in (alexander1977): 1 − 1/√2.
+constexpr double kStage = 1.0 - 0.5 * std::numbers::sqrt2;
+/// Of the linear systems; what an amount loses by it is put back where no value is given.
+constexpr double kTolerance = 1e-7;
+constexpr int kMostIterations = 500;
+
+double sum(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+double dot(std::span<const double> a, std::span<const double> b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+double over_peclet(const Scalar& scalar) {
+  return std::isinf(scalar.peclet) ? 0.0 : 1.0 / scalar.peclet;
+}
+
+Coefficients coefficients(const Scene& scene, std::size_t k) {
+  Coefficients result;
+  for (const Liquid& liquid : scene.liquids) {
+    result.capacity.push_back(liquid.scalars[k].capacity);
+    result.conductivity.push_back(liquid.scalars[k].conductivity * over_peclet(scene.scalars[k]));
+    result.source.push_back(liquid.scalars[k].source);
+  }
+  return result;
+}
+
+/// ∮ flux φ_i/Pe of the patches where the flux is given.
+std::vector<double> given_flux(const Scene& scene, std::size_t k, const ScalarSpace& space,
+                               const NodePositions& positions, double factor) {
+  std::vector<double> result(static_cast<std::size_t>(space.num_nodes()), 0.0);
+  for (const FaceId f : space.boundary.faces()) {
+    const ScalarCondition& condition = scene.boundary.patches[scene.boundary.patch[f]].scalars[k];
+    if (condition.kind != ScalarCondition::Kind::flux) continue;
+    const auto nodes = space.boundary.of(f);
+    for (const fem::FacePoint& point : fem::face_points(positions.x, nodes))
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        result[static_cast<std::size_t>(nodes[i].value)] +=
+            factor * condition.flux * point.value[i] * point.area.norm();
+  }
+  return result;
+}
+
+/// Makes the rows of given values identities.
+void fix_rows(const ScalarSpace& space, const GivenValues& given, MatrixValues& matrix,
+              std::vector<double>& right) {
+  const fem::NodeGraph& graph = space.graph;
+  for (std::size_t i = 0; i < right.size(); ++i) {
+    if (given.is_given[i] == 0) continue;
+    for (auto e = static_cast<std::size_t>(graph.row_start[i]);
+         e < static_cast<std::size_t>(graph.row_start[i + 1]); ++e)
+      matrix[e] = graph.columns[e] == static_cast<std::int32_t>(i) ? 1.0 : 0.0;
+    right[i] = given.value[i];
+  }
+}
+
+/// Whether conduction outweighs the masses of most nodes in a stage of this length.
+linear::ScalarSystem kind_of(const ScalarSpace& space, const MassMatrix& mass,
+                             const TransportMatrices& matrices, double stage) {
+  const fem::NodeGraph& graph = space.graph;
+  double masses = 0.0, rates = 0.0;
+  for (std::size_t i = 0; i < mass.rows.size(); ++i)
+    for (auto e = static_cast<std::size_t>(graph.row_start[i]);
+         e < static_cast<std::size_t>(graph.row_start[i + 1]); ++e)
+      if (graph.columns[e] == static_cast<std::int32_t>(i)) {
+        masses += mass.values[e];
+        rates += stage * std::abs(matrices.rates[e]);
+      }
+  constexpr double kOutweighs = 100.0;
+  return rates > kOutweighs * masses ? linear::ScalarSystem::conduction
+                                     : linear::ScalarSystem::transport;
+}
+
+/// One step of a scalar: its matrices and its two stages.
+class ScalarStep {
+ public:
+  ScalarStep(const ScalarMotion& motion, std::size_t k, const BulkScalar& scalar)
+      : motion_(motion),
+        space_(motion.space),
+        dt_(motion.duration),
+        coefficients_(coefficients(motion.start, k)),
+        before_(scalar.values),
+        mass0_(motion.mass_at_start),
+        mass1_(motion.mass_at_end),
+        middle_(halfway(motion.at_start, motion.at_end)),
+        velocity_(relative_velocity(motion.start.scalars[k].is_convected)),
+        matrices_(transport_matrices(motion.mesh, space_, middle_, velocity_, coefficients_, dt_)),
+        given_(given_values(motion.end, k, space_, motion.at_end)) {
+    set_forcing(k);
+  }
+
+  Report take(BulkScalar& scalar) {
+    const std::vector<double> start = start_amounts();
+    std::vector<double> first = before_, right = start;
+    for (std::size_t i = 0; i < right.size(); ++i) right[i] += kStage * dt_ * forcing_[i];
+    MatrixValues system = system_matrix(kStage);
+    fix_rows(space_, given_, system, right);
+    const linear::TransportSolver solver(view(system),
+                                         kind_of(space_, mass1_, matrices_, kStage * dt_));
+    if (Report solved = solve(solver, right, first); !solved.ok()) return solved;
+
+    // The first stage says what its rates are: (A first − start)/(kStage Δt).
+    const std::vector<double> reached = mass_times(first, kStage);
+    const double ratio = (1.0 - kStage) / kStage;
+    for (std::size_t i = 0; i < right.size(); ++i)
+      right[i] = start[i] + ratio * (reached[i] - start[i]) + kStage * dt_ * forcing_[i];
+    std::ranges::copy(system_matrix(1.0), system.begin());  // in place: the solver refers to it
+    fix_rows(space_, given_, system, right);
+    // Stages lie on a line to first order.
+    std::vector<double> second = first;
+    for (std::size_t i = 0; i < second.size(); ++i)
+      second[i] = before_[i] + (first[i] - before_[i]) / kStage;
+    if (Report solved = solve(solver, right, second); !solved.ok()) return solved;
+    settle(first, second, scalar);
+    return {};
+  }
+
+ private:
+  TransportVelocity relative_velocity(bool is_convected) {
+    Field<NodeId, Vec3> u(space_.num_nodes(), Vec3::Zero());
+    const Field<NodeId, Vec3> none = u;
+    const Field<NodeId, Vec3>& v = is_convected ? motion_.v : none;
+    for (const NodeId i : u.ids())
+      u[i] = v[i] - (motion_.at_end.x[i] - motion_.at_start.x[i]) / dt_;
+    std::vector<double> growth(mass0_.rows.size());
+    for (std::size_t i = 0; i < growth.size(); ++i)
+      growth[i] = (mass1_.rows[i] - mass0_.rows[i]) / dt_;
+    return transport_velocity(motion_.mesh, space_, middle_, std::move(u), v,
+                              coefficients_.capacity, growth);
+  }
+
+  /// What does not depend on the new values, as rates of amounts; the defect of the velocity takes
+  /// the mean, so that a constant stays and no amount is lost.
+  void set_forcing(std::size_t k) {
+    const Scalar& scalar = motion_.start.scalars[k];
+    forcing_ = given_flux(motion_.start, k, space_, middle_, over_peclet(scalar));
+    flux_rate_ = sum(forcing_);
+    std::vector<double> sources = std::move(matrices_.sources);
+    if (scalar.brinkman > 0.0) {
+      const std::vector<double> heat =
+          dissipation(motion_.start, motion_.mesh, space_, middle_, motion_.v);
+      for (std::size_t i = 0; i < sources.size(); ++i)
+        sources[i] += scalar.brinkman * over_peclet(scalar) * heat[i];
+    }
+    source_rate_ = sum(sources);
+    note_drives(k);
+    const double mean = dot(mass0_.rows, before_) / sum(mass0_.rows);
+    for (std::size_t i = 0; i < forcing_.size(); ++i)
+      forcing_[i] += sources[i] - mean * velocity_.defect[i];
+  }
+
+  /// Notes what may lead beyond the range of the values.
+  void note_drives(std::size_t k) {
+    const auto note = [&](double rate) {
+      is_driven_up_ = is_driven_up_ || rate > 0.0;
+      is_driven_down_ = is_driven_down_ || rate < 0.0;
+    };
+    note(motion_.start.scalars[k].brinkman);
+    for (const double source : coefficients_.source) note(source);
+    for (const Patch& patch : motion_.start.boundary.patches)
+      if (patch.scalars[k].kind == ScalarCondition::Kind::flux) note(patch.scalars[k].flux);
+  }
+
+  [[nodiscard]] linear::CsrView view(const MatrixValues& values) const {
+    return {space_.num_nodes(), space_.num_nodes(), space_.graph.row_start, space_.graph.columns,
+            values};
+  }
+
+  /// (M_s + S) x, M_s the mass matrix after a share s of the step.
+  [[nodiscard]] std::vector<double> mass_times(std::span<const double> x, double share) const {
+    return product(space_, mass_at(share), x);
+  }
+  [[nodiscard]] MatrixValues mass_at(double share) const {
+    MatrixValues values = matrices_.streamline;
+    for (std::size_t e = 0; e < values.size(); ++e)
+      values[e] += mass0_.values[e] + share * (mass1_.values[e] - mass0_.values[e]);
+    return values;
+  }
+  [[nodiscard]] MatrixValues system_matrix(double share) const {
+    MatrixValues values = mass_at(share);
+    for (std::size_t e = 0; e < values.size(); ++e) values[e] -= kStage * dt_ * matrices_.rates[e];
+    return values;
+  }
+  [[nodiscard]] std::vector<double> start_amounts() const { return mass_times(before_, 0.0); }
+
+  static Report solve(const linear::TransportSolver& solver, std::span<const double> right,
+                      std::span<double> solution) {
+    const linear::LinearReport report = solver.solve(right, solution, kTolerance, kMostIterations);
+    if (report.converged) return {};
+    return {Fault{FaultKind::not_converged,
+                  fmt::format("a scalar's equations were not solved: {}", report.reason)}};
+  }
+
+  /// Records the rates, and puts back what the linear solver's residual took of the amount.
+  void settle(std::span<const double> first, std::vector<double>& second, BulkScalar& scalar) {
+    const double before = dot(mass0_.rows, before_);
+    double boundary = flux_rate_;
+    if (!matrices_.boundary.empty())
+      boundary += (1.0 - kStage) * sum(product(space_, matrices_.boundary, first)) +
+                  kStage * sum(product(space_, matrices_.boundary, second));
+    double amount = dot(mass1_.rows, second);
+    if (given_.any) {
+      boundary += reaction(first, second);
+    } else {
+      amount = before + dt_ * (boundary + source_rate_);
+    }
+    keep_range(bounds(scalar), amount, mass1_.rows, space_, given_.is_given, second);
+    scalar.boundary_rate = boundary;
+    scalar.source_rate = source_rate_;
+    scalar.values = std::move(second);
+  }
+
+  /// The range that the scalar may have, with the values given; open where sources or fluxes lead
+  /// beyond.
+  [[nodiscard]] ValueBounds bounds(BulkScalar& scalar) const {
+    for (std::size_t i = 0; i < given_.value.size(); ++i) {
+      if (given_.is_given[i] == 0) continue;
+      scalar.least = std::min(scalar.least, given_.value[i]);
+      scalar.largest = std::max(scalar.largest, given_.value[i]);
+    }
+    ValueBounds result = around(scalar.least, scalar.largest);
+    if (is_driven_down_) result.least = ValueBounds{}.least;
+    if (is_driven_up_) result.largest = ValueBounds{}.largest;
+    return result;
+  }
+
+  /// What comes through the nodes of given values: what their rows leave over.
+  [[nodiscard]] double reaction(std::span<const double> first,
+                                std::span<const double> second) const {
+    const std::vector<double> start = start_amounts(), end = mass_times(second, 1.0),
+                              rates1 = product(space_, matrices_.rates, first),
+                              rates2 = product(space_, matrices_.rates, second);
+    double total = 0.0;
+    for (std::size_t i = 0; i < start.size(); ++i)
+      if (given_.is_given[i] != 0)
+        total += (end[i] - start[i]) / dt_ - (1.0 - kStage) * rates1[i] - kStage * rates2[i] -
+                 forcing_[i];
+    return total;
+  }
+
+  const ScalarMotion& motion_;
+  const ScalarSpace& space_;
+  double dt_;
+  Coefficients coefficients_;
+  std::vector<double> before_;
+  const MassMatrix &mass0_, &mass1_;
+  NodePositions middle_;
+  TransportVelocity velocity_;
+  TransportMatrices matrices_;
+  GivenValues given_;
+  std::vector<double> forcing_;
+  double flux_rate_ = 0.0, source_rate_ = 0.0;
+  bool is_driven_up_ = false, is_driven_down_ = false;
+};
+
+}  // namespace
+
+std::vector<double> capacities(const Scene& scene, std::size_t k) {
+  std::vector<double> result;
+  for (const Liquid& liquid : scene.liquids) result.push_back(liquid.scalars[k].capacity);
+  return result;
+}
+
+std::vector<double> inner_amounts(const Scene& scene, const TetMesh& mesh, const ScalarSpace& space,
+                                  const NodePositions& positions, std::size_t k,
+                                  std::span<const double> values) {
+  const std::vector<double> filled = element_volumes(mesh, space, positions);
+  const std::vector<double> nominal = nominal_volumes(scene, sum(filled));
+  std::vector<double> amounts(filled.size(), 0.0);
+  with_kernel(space, positions, [&](auto& cell) {
+    for (const CellId c : mesh.cells.ids()) {
+      const auto region = static_cast<std::size_t>(mesh.region[c].value);
+      if (region == 0) continue;
+      cell.go_to(c);
+      const auto here = cell.at_points(values);
+      for (std::size_t q = 0; q < here.size(); ++q) amounts[region] += cell.weights()[q] * here[q];
+    }
+  });
+  const std::vector<double> capacity = capacities(scene, k);
+  for (std::size_t r = 1; r < amounts.size(); ++r)
+    amounts[r] *=
+        capacity[r] * (nominal[r] > 0.0 && filled[r] > 0.0 ? nominal[r] / filled[r] : 1.0);
+  return amounts;
+}
+
+Report convect(const ScalarMotion& motion, std::size_t k, BulkScalar& scalar) {
+  MENISCUS_ASSERT(static_cast<std::int32_t>(scalar.values.size()) == motion.space.num_nodes(),
+                  "{} values at {} nodes", scalar.values.size(), motion.space.num_nodes());
+  const auto held = [&](const Scene& scene, const NodePositions& positions) {
+    return inner_amounts(scene, motion.mesh, motion.space, positions, k, scalar.values);
+  };
+  const std::vector<double> before = held(motion.start, motion.at_start);
+  Report report = ScalarStep(motion, k, scalar).take(scalar);
+  if (!report.ok()) return report;
+  const std::vector<double> after = held(motion.end, motion.at_end);
+  scalar.region_loss.resize(after.size());
+  for (std::size_t r = 0; r < after.size(); ++r)
+    scalar.region_loss[r] = (before[r] - after[r]) / motion.duration;
+  return report;
+}
+
+std::vector<double> dissipation(const Scene& scene, const TetMesh& mesh, const ScalarSpace& space,
+                                const NodePositions& positions, const Field<NodeId, Vec3>& v) {
+  std::vector<double> result(static_cast<std::size_t>(space.num_nodes()), 0.0);
+  with_kernel(space, positions, [&](auto& cell) {
+    for (const CellId c : mesh.cells.ids()) {
+      cell.go_to(c);
+      const Liquid& liquid = scene.liquids[mesh.region[c]];
+      const auto gradients = cell.gradients_of(v);
+      for (std::size_t q = 0; q < gradients.size(); ++q) {
+        const double squared = (0.5 * (gradients[q] + gradients[q].transpose())).squaredNorm();
+        const double heat = 2.0 * liquid.viscosity *
+                            relative_viscosity(liquid.law, std::sqrt(2.0 * squared)).value *
+                            squared;
+        for (std::size_t i = 0; i < cell.nodes().size(); ++i)
+          result[static_cast<std::size_t>(cell.nodes()[i])] +=
+              cell.weights()[q] * heat * cell.values()[q * cell.kWidth + i];
+      }
+    }
+  });
+  return result;
+}
+
+Report conduct(const Scene& scene, const TetMesh& mesh, const ScalarSpace& space,
+               const NodePositions& positions, std::size_t k, std::span<const double> heat,
+               BulkScalar& scalar) {
+  std::vector<double> conductivity;
+  for (const Liquid& liquid : scene.liquids) conductivity.push_back(liquid.scalars[k].conductivity);
+  const MatrixValues stiffness = stiffness_matrix(mesh, space, positions, conductivity);
+  const GivenValues given = given_values(scene, k, space, positions);
+  MENISCUS_ASSERT(given.any, "{} conducts at once and is given nowhere", scene.scalars[k].name);
+  std::vector<double> right = given_flux(scene, k, space, positions, 1.0);
+  const double flux = sum(right);
+  for (std::size_t i = 0; i < heat.size(); ++i) right[i] += heat[i];
+  const std::vector<double> free_right = right;
+  MatrixValues system = stiffness;
+  fix_rows(space, given, system, right);
+  const linear::TransportSolver solver(
+      {space.num_nodes(), space.num_nodes(), space.graph.row_start, space.graph.columns, system},
+      linear::ScalarSystem::conduction);
+  const linear::LinearReport report =
+      solver.solve(right, scalar.values, kTolerance, kMostIterations);
+  if (!report.converged)
+    return {Fault{FaultKind::not_converged, fmt::format("the conduction of {} was not solved: {}",
+                                                        scene.scalars[k].name, report.reason)}};
+  const std::vector<double> left = product(space, stiffness, scalar.values);
+  scalar.boundary_rate = flux;
+  scalar.source_rate = sum(heat);
+  for (std::size_t i = 0; i < left.size(); ++i)
+    if (given.is_given[i] != 0) scalar.boundary_rate += left[i] - free_right[i];
+  return {};
+}
+
+}  // namespace meniscus::bulk

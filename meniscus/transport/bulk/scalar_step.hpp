@@ -1,0 +1,46 @@
+#pragma once
+
+#include "meniscus/core/fault.hpp"
+#include "meniscus/transport/bulk/transport_matrices.hpp"
+
+namespace meniscus::bulk {
+
+/// What moves a scalar through one step.
+struct ScalarMotion {
+  const Scene& start;
+  const Scene& end;
+  const TetMesh& mesh;  ///< any of the two: only its connectivity counts
+  const ScalarSpace& space;
+  const NodePositions& at_start;
+  const NodePositions& at_end;
+  const MassMatrix& mass_at_start;  ///< of the scalar
+  const MassMatrix& mass_at_end;
+  const Field<NodeId, Vec3>& v;  ///< of the liquid, at the nodes [G R0]
+  double duration;
+};
+
+/// Takes scalar number `k` of the scene through one step, L-stable and of second order
+/// (alexander1977, two stages), by finite elements upstream weighted as a whole (SUPG). The mass
+/// matrix is taken to change linearly. Amounts change by boundaries and sources alone; a constant
+/// stays.
+Report convect(const ScalarMotion& motion, std::size_t k, BulkScalar& scalar);
+/// Solves ∇·(k∇T) = 0 for scalar k, at Pe = 0; `heat` is Pe q + Br 2μ D:D, by node ∫φ_i.
+Report conduct(const Scene& scene, const TetMesh& mesh, const ScalarSpace& space,
+               const NodePositions& positions, std::size_t k, std::span<const double> heat,
+               BulkScalar& scalar);
+/// ∫2μ D:D φ_i by node: the heat of viscous dissipation [μ_out G² R0³].
+[[nodiscard]] std::vector<double> dissipation(const Scene& scene, const TetMesh& mesh,
+                                              const ScalarSpace& space,
+                                              const NodePositions& positions,
+                                              const Field<NodeId, Vec3>& v);
+
+/// ∫γT dV of every region [R0³]; the matrix's is not asked for, and 0.
+[[nodiscard]] std::vector<double> inner_amounts(const Scene& scene, const TetMesh& mesh,
+                                                const ScalarSpace& space,
+                                                const NodePositions& positions, std::size_t k,
+                                                std::span<const double> values);
+
+/// γ of scalar k by region.
+[[nodiscard]] std::vector<double> capacities(const Scene& scene, std::size_t k);
+
+}  // namespace meniscus::bulk

@@ -1,0 +1,62 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/transport/bulk/conduction_run.hpp"
+
+namespace meniscus::bulk {
+namespace {
+
+TEST(SphereConduction, MeetsTheTable) {
+  EXPECT_NEAR(SphereConduction(10, 5, 10).at(0.0, 0.5), 0.2639191423, 1e-8);
+  EXPECT_NEAR(SphereConduction(10, 5, 10).at(1.0, 0.05), 0.6432584217, 1e-8);
+  EXPECT_NEAR(SphereConduction(0.1, 0.5, 10).at(1.0, 2.0), 0.0048585824, 1e-8);
+  EXPECT_NEAR(SphereConduction(1, 1, 10).at(0.0, 0.1), 0.8282028557, 1e-8);
+}
+
+TEST(Conduction, OfASpeciesBetweenUnlikeLiquidsIsExactInTwoThousandths) {
+  for (const ConductionErrors& e : conduction_errors(kBetter, {.is_species = true})) {
+    EXPECT_LT(std::abs(e.centre), 2e-3);
+    EXPECT_LT(std::abs(e.surface), 2e-3);
+    EXPECT_LT(std::abs(e.mean), 2e-3);
+  }
+}
+
+/// T at all nodes at t = 1 after so many steps from the exact field at t = 0.2.
+std::vector<double> after_steps(int steps, fem::Elements elements) {
+  ScalarScene::Options options;
+  options.elements = elements;
+  options.spheres.num_vertices = 60;
+  options.spheres.outer_radius = 4.0;
+  options.drop = {.capacity = 0.2, .conductivity = 0.1};
+  options.wall.kind = ScalarCondition::Kind::value;
+  ScalarScene drop(options);
+  const SphereConduction exact(0.1, 0.5, 4.0);
+  const NodePositions at = drop.positions(elements);
+  BulkScalars scalars = drop.solver->initial(drop.domain());
+  for (const NodeId i : at.x.ids())
+    scalars[0].values[static_cast<std::size_t>(i.value)] =
+        at.x[i].norm() < 3.99 ? exact.at(at.x[i].norm(), 0.2) : 0.0;
+  const FlowSolution rest;
+  for (int n = 0; n < steps; ++n)
+    EXPECT_TRUE(
+        drop.solver->advance({drop.domain(), drop.domain(), 0.8 / steps, rest}, scalars).ok());
+  return scalars[0].values;
+}
+
+double distance(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum);
+}
+
+TEST(Conduction, IsOfSecondOrderInTheStep) {
+  for (const fem::Elements elements : {fem::Elements::p1_p1, fem::Elements::p2_p1}) {
+    const auto coarse = after_steps(8, elements), middle = after_steps(16, elements),
+               fine = after_steps(32, elements);
+    EXPECT_NEAR(std::log2(distance(coarse, middle) / distance(middle, fine)), 2.0, 0.2);
+  }
+}
+
+}  // namespace
+}  // namespace meniscus::bulk

@@ -1,0 +1,100 @@
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "meniscus/transport/bulk/transport_matrices.hpp"
+#include "tests/transport/bulk/scalar_scene.hpp"
+
+namespace meniscus::bulk {
+namespace {
+
+/// A drop that is stretched at constant volume within a step, by a flow that knows nothing of it:
+/// its velocities are random, and zero on the wall.
+class RandomStep {
+ public:
+  RandomStep(fem::Elements elements, double capacity, double peclet)
+      : before(options(elements, capacity, peclet)), after(options(elements, capacity, peclet)) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> one(-1.0, 1.0);
+    const double stretch = 1.02;
+    const Vec3 factor(stretch, 1.0 / std::sqrt(stretch), 1.0 / std::sqrt(stretch));
+    Interface& drop = after.scene.interfaces[0];
+    for (Vec3& x : drop.mesh.x) x = x.cwiseProduct(factor);
+    const EmbeddedSurface& embedded = after.mesh.interfaces[0];
+    for (const VertexId v : drop.mesh.x.ids()) after.mesh.x[embedded.vertex(v)] = drop.mesh.x[v];
+    const std::int32_t first =
+        after.mesh.boundary.first_vertex.value + after.mesh.boundary.num_vertices;
+    for (const TetVertexId v : after.mesh.x.ids())
+      if (v.value >= first) after.mesh.x[v] += 2e-3 * Vec3(one(random), one(random), one(random));
+    for (const CellId c : after.mesh.cells.ids()) EXPECT_GT(signed_volume(after.mesh, c), 0.0);
+    BulkFlow bulk;
+    const ScalarSpace space = scalar_space(before.domain(), elements);
+    std::vector<char> is_wall(static_cast<std::size_t>(space.num_nodes()), 0);
+    for (const NodeId i : space.boundary.face_nodes) is_wall[static_cast<std::size_t>(i.value)] = 1;
+    for (std::int32_t i = 0; i < space.num_nodes(); ++i) {
+      Vec3 v = Vec3(one(random), one(random), one(random));
+      if (is_wall[static_cast<std::size_t>(i)] != 0) v.setZero();
+      if (i < space.elements.num_vertices())
+        bulk.v.add(v);
+      else
+        bulk.v_at_edges.push_back(v);
+    }
+    flow.bulk = std::move(bulk);
+  }
+
+  Report take(BulkScalars& scalars) const {
+    return before.solver->advance({before.domain(), after.domain(), 0.1, flow}, scalars);
+  }
+  [[nodiscard]] static double total(const ScalarScene& at, const BulkScalars& scalars) {
+    double sum = 0.0;
+    const ScalarMeasures measures = at.solver->measures(at.domain(), scalars)[0];
+    for (const ScalarContent& region : measures.regions) sum += region.amount;
+    return sum;
+  }
+
+  ScalarScene before, after;
+  FlowSolution flow;
+
+ private:
+  static ScalarScene::Options options(fem::Elements elements, double capacity, double peclet) {
+    ScalarScene::Options result;
+    result.elements = elements;
+    result.spheres.num_vertices = 60;
+    result.spheres.outer_radius = 3.0;
+    result.scalar.peclet = peclet;
+    result.drop.capacity = capacity;
+    return result;
+  }
+};
+
+class EveryElement : public testing::TestWithParam<fem::Elements> {};
+INSTANTIATE_TEST_SUITE_P(Transport, EveryElement,
+                         testing::Values(fem::Elements::p1_p1, fem::Elements::p2_p1),
+                         [](const auto& tested) {
+                           return tested.param == fem::Elements::p1_p1 ? "P1" : "P2";
+                         });
+
+TEST_P(EveryElement, KeepsConstantsOnAMovingMesh) {
+  const RandomStep step(GetParam(), 3.0, 50.0);
+  BulkScalars scalars = step.before.solver->initial(step.before.domain());
+  std::ranges::fill(scalars[0].values, 2.5);
+  const Report moved = step.take(scalars);
+  ASSERT_TRUE(moved.ok()) << moved.text();
+  for (const double T : scalars[0].values) EXPECT_NEAR(T, 2.5, 1e-8);
+}
+
+TEST_P(EveryElement, KeepsTotalsOnAMovingMesh) {
+  const RandomStep step(GetParam(), 3.0, 50.0);
+  BulkScalars scalars = step.before.solver->initial(step.before.domain());
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> one(0.0, 1.0);
+  for (double& T : scalars[0].values) T = one(random);
+  const double before = RandomStep::total(step.before, scalars);
+  const Report moved = step.take(scalars);
+  ASSERT_TRUE(moved.ok()) << moved.text();
+  EXPECT_NEAR(RandomStep::total(step.after, scalars), before, 1e-12 * before);
+}
+
+}  // namespace
+}  // namespace meniscus::bulk
