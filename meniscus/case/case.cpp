@@ -113,11 +113,15 @@ Case parse_case(std::string_view text, const std::string& name, const std::files
     c.boundary_integral = read_boundary_integrals(c.settings);
   } else {
     c.scalars = read_scalars(c.settings, c.domain, c.drops.size());
+    read_adsorption(c.settings, c.scalars, c.drops);
     c.flow_solver = read_finite_elements(c.settings);
     require_weak_form(c);
     c.volume_mesh = read_volume_mesh(c.settings, c.flow_solver.elements);
   }
   c.evolution = read_evolution(c.settings, c.method, c.flow_solver.elements);
+  if (!c.scalars.empty() && c.evolution.follows_drops)
+    c.settings.reject("domain.frame",
+                      "must be \"fixed\" with a [[scalar]]: what is carried would not follow");
   c.output = read_output(c.settings, c.method);
   // An override may choose another solver or boundary. Keys of the file for the old one are then no
   // mistake.

@@ -23,6 +23,9 @@ void require_apart(const Settings& settings, const PatchPlace& patch, const Patc
 /// Reads every [[scalar]], whose drops are those of the case.
 [[nodiscard]] std::vector<ScalarCase> read_scalars(Settings& settings, const DomainCase& domain,
                                                    std::size_t num_drops);
+/// Gives surfactants the species that they are in the liquids.
+void read_adsorption(Settings& settings, const std::vector<ScalarCase>& scalars,
+                     std::vector<DropCase>& drops);
 /// Throws InvalidInput when there is a [[scalar]], of which boundary integrals know nothing.
 void require_no_scalars(const Settings& settings);
 [[nodiscard]] EvolutionOptions read_evolution(Settings& settings, FlowMethod method,

@@ -172,6 +172,27 @@ std::vector<ScalarCase> read_scalars(Settings& settings, const DomainCase& domai
   return scalars;
 }
 
+void read_adsorption(Settings& settings, const std::vector<ScalarCase>& scalars,
+                     std::vector<DropCase>& drops) {
+  for (std::size_t i = 0; i < drops.size(); ++i) {
+    if (!drops[i].surfactant) continue;
+    const std::string table = fmt::format("drop[{}].surfactant", i),
+                      name = settings.text(table + ".species");
+    if (name.empty()) continue;
+    const auto found = std::ranges::find_if(
+        scalars, [&](const ScalarCase& each) { return each.scalar.name == name; });
+    if (found == scalars.end() || !found->scalar.is_species)
+      settings.reject(table + ".species",
+                      "must be the name of a [[scalar]] with kind = \"species\"");
+    if (found->scalar.peclet == 0.0)
+      settings.reject(table + ".species", "must have a peclet above 0: at 0 nothing is dissolved");
+    drops[i].surfactant->adsorption = {.species = static_cast<int>(found - scalars.begin()),
+                                       .biot = settings.number(table + ".biot"),
+                                       .constant = settings.number(table + ".adsorption"),
+                                       .depth = settings.number(table + ".depth")};
+  }
+}
+
 void require_no_scalars(const Settings& settings) {
   if (settings.count("scalar") > 0)
     reject_input("{}: [[scalar]] needs method = \"finite-element\"", settings.source("scalar[0]"));

@@ -193,6 +193,28 @@ const std::vector<Key> kLiquidKeys{
      .value = std::numeric_limits<double>::infinity(),
      .sentence = "Pe_s = G R0²/D_s, in quiescent cases sigma R0/(mu_out D_s): convection along the "
                  "surface over diffusion; inf: no diffusion."},
+    {.path = "drop[].surfactant.species",
+     .type = text,
+     .value = ""s,
+     .applies = "with method = \"finite-element\"",
+     .sentence = "The [[scalar]] of kind \"species\" that the surfactant is in the liquid outside; "
+                 "empty: it is insoluble. Per area and time j = Bi [K c (1 - X Gamma) - Gamma] is "
+                 "added to Gamma, and delta j taken from the liquid."},
+    {.path = "drop[].surfactant.biot",
+     .range = kPositive,
+     .default_note = "required with species",
+     .applies = "with species",
+     .sentence = "Bi: rate of desorption over G."},
+    {.path = "drop[].surfactant.adsorption",
+     .range = kPositive,
+     .default_note = "required with species",
+     .applies = "with species",
+     .sentence = "K: Gamma over c in equilibrium where Gamma is small."},
+    {.path = "drop[].surfactant.depth",
+     .range = kPositive,
+     .default_note = "required with species",
+     .applies = "with species",
+     .sentence = "delta: the unit of Gamma over that of c and R0."},
 };
 
 }  // namespace

@@ -192,18 +192,34 @@ StageFlow Evolution::solve_stage(const Scene& start, const StageFlow& stage, dou
   });
   if (Report moved = move_mesh(start, stage.motion, stage.flow, duration); !moved.ok())
     return {std::move(moved)};
-  if (act_on_flow(state_.scene))
+  if (act_on_flow(state_.scene) || has_soluble_surfactant(state_.scene))
     if (Report moved = move_scalars(start, stage.flow, duration); !moved.ok())
       return {std::move(moved)};
   return flow_at(instant);
 }
 
+/// A fault where a step is too long for the scalars.
+Report Evolution::judge_scalars(const ScalarAdvance& moved) {
+  if (!moved.ok() || options_.control != StepControl::error) return moved;
+  attempt_.error = std::max(attempt_.error.value_or(0.0), moved.error);
+  if (moved.error <= options_.tolerance) return {};
+  attempt_.is_excessive = true;
+  return {
+      Fault{FaultKind::inaccurate,
+            fmt::format("the error of a scalar is estimated at {:.2g} of its spread, above {:g}",
+                        moved.error, options_.tolerance)}};
+}
+
 /// Takes the bulk scalars from where the step began to where the mesh stands.
-Report Evolution::move_scalars(const Scene& start, const FlowSolution& flow, double duration) {
+ScalarAdvance Evolution::move_scalars(const Scene& start, const FlowSolution& flow,
+                                      double duration) {
   if (start_scalars_.empty()) return {};
   state_.scalars = start_scalars_;
   const FlowDomain from{start, &state_.mesh->start(), state_.connectivity};
-  return scalar_solver_->advance({from, state_.domain(), duration, flow}, state_.scalars);
+  ScalarAdvance moved =
+      scalar_solver_->advance({from, state_.domain(), duration, flow}, state_.scalars);
+  if (moved.ok()) take_up(state_.scene, moved.uptake, duration, carriers_);
+  return moved;
 }
 
 StageFlow Evolution::flow_at(const Instant& instant) {
@@ -246,6 +262,11 @@ Report Evolution::finish_step(const Scene& start, const StageFlow& whole, double
   state_.events.clear();
   state_.shift_over_edge = 0.0;
   if (Report moved = move_whole_step(start, whole, dt); !moved.ok()) return moved;
+  std::optional<TetMesh> exchanged_at;
+  if (has_soluble_surfactant(state_.scene)) {
+    if (Report moved = exchange_with_liquids(start, whole.flow, dt); !moved.ok()) return moved;
+    exchanged_at = state_.mesh->tetrahedra();
+  }
   const Scene moved = time_phase(times_, "move interfaces", [&] { return state_.scene; });
   const bool is_due = is_remesh_due();
   bool are_remeshed = false;
@@ -262,13 +283,24 @@ Report Evolution::finish_step(const Scene& start, const StageFlow& whole, double
   if (!is_due && state_.events.empty()) {
     Report kept = keep_mesh(start, whole.flow, dt);
     attempt_.is_mesh_kept = kept.ok();
-    if (kept.ok()) return move_scalars(start, whole.flow, dt);
+    if (kept.ok() && exchanged_at)
+      scalar_solver_->ride({moved, &*exchanged_at, state_.connectivity}, state_.domain(),
+                           state_.scalars);
+    if (kept.ok()) return exchanged_at ? kept : judge_scalars(move_scalars(start, whole.flow, dt));
     if (!is_remeshed_as_needed()) return kept;
     log::debug("step {} makes its mesh anew: {}", state_.step + 1, kept.text());
   }
   if (Report carried = carry_fields_of_mesh(start, moved, whole.flow, dt); !carried.ok())
     return carried;
   return follow_interfaces(moved, liquid_sources(state_.events));
+}
+
+/// Takes bulk scalars and surfactants through the step where the interfaces have moved and are not
+/// yet remeshed: what one loses the other takes up at the same vertices.
+Report Evolution::exchange_with_liquids(const Scene& start, const FlowSolution& flow, double dt) {
+  if (Report moved = move_mesh(start, mean_motion(start, state_.scene, dt), flow, dt); !moved.ok())
+    return moved;
+  return judge_scalars(move_scalars(start, flow, dt));
 }
 
 bool Evolution::is_remesh_due() {
@@ -322,11 +354,11 @@ Report Evolution::carry_fields_of_mesh(const Scene& start, const Scene& moved,
   if (!state_.mesh || (state_.mesh->fields().empty() && state_.scalars.empty())) return {};
   const Report followed = move_mesh(start, mean_motion(start, moved, dt), flow, dt);
   if (!state_.scalars.empty()) {
-    if (!followed.ok()) return followed;
+    if (!followed.ok() || has_soluble_surfactant(moved)) return followed;
     const FlowDomain from{start, &state_.mesh->start(), state_.connectivity},
         to{moved, &state_.mesh->tetrahedra(), state_.connectivity};
     state_.scalars = start_scalars_;
-    return scalar_solver_->advance({from, to, dt, flow}, state_.scalars);
+    return judge_scalars(scalar_solver_->advance({from, to, dt, flow}, state_.scalars));
   }
   if (!followed.ok()) log::debug("fields are carried over a longer way: {}", followed.text());
   return {};

@@ -85,7 +85,9 @@ class Evolution {
   Report finish_step(const Scene& start, const StageFlow& whole, double dt);
   Report move_whole_step(const Scene& start, const StageFlow& whole, double dt);
   void move_surfactant(const Scene& start, const StageFlow& stage, double duration);
-  Report move_scalars(const Scene& start, const FlowSolution& flow, double duration);
+  ScalarAdvance move_scalars(const Scene& start, const FlowSolution& flow, double duration);
+  Report judge_scalars(const ScalarAdvance& moved);
+  Report exchange_with_liquids(const Scene& start, const FlowSolution& flow, double dt);
   Report judge_motion(const Scene& start, const StageFlow& whole, double dt);
   void report_refusal(double dt, const Fault& fault);
   void accept_step(const StepPlan& plan);

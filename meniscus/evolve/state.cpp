@@ -34,6 +34,9 @@ void save_surfactant(const Surfactant& surfactant, std::size_t i, Archive& archi
     values[2] = law->coverage;
   }
   archive.reals[interface_path(i, "surfactant")].assign(values.begin(), values.end());
+  if (const auto& law = surfactant.adsorption)
+    archive.reals[interface_path(i, "adsorption")] = {static_cast<double>(law->species), law->biot,
+                                                      law->constant, law->depth};
 }
 
 /// Throws InvalidInput where the concentration saved with it leaves no tension.
@@ -41,8 +44,12 @@ void load_surfactant(Interface& interface, std::size_t i, const Archive& archive
   const std::string path = interface_path(i, "surfactant");
   if (!archive.reals.contains(path)) return;
   const auto& values = entry_of_size(archive.reals, path, 4);
-  Surfactant surfactant{LinearState{values[1]}, values[3]};
+  Surfactant surfactant{LinearState{values[1]}, values[3], {}};
   if (values[0] == 1.0) surfactant.state = LangmuirState{values[1], values[2]};
+  if (const std::string law = interface_path(i, "adsorption"); archive.reals.contains(law)) {
+    const auto& row = entry_of_size(archive.reals, law, 4);
+    surfactant.adsorption = {static_cast<int>(row[0]), row[1], row[2], row[3]};
+  }
   const auto& fields = interface.fields.on_vertices;
   if (std::ranges::find(fields, kSurfactantField, &CarriedField<VertexId>::name) == fields.end())
     reject_input("checkpoint: drop {} has a surfactant and no concentration", interface.drop);

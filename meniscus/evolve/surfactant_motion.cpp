@@ -136,6 +136,19 @@ void keep_surfactant(Scene& scene, const Scene& before, Carriers& carriers) {
   }
 }
 
+void take_up(Scene& scene, std::span<const VertexField<double>> uptake, double duration,
+             Carriers& carriers) {
+  for (std::size_t i = 0; i < uptake.size(); ++i) {
+    if (uptake[i].empty()) continue;
+    Interface& interface = scene.interfaces[i];
+    const SurfaceMass& mass = carriers.of(interface.mesh)->mass;
+    VertexField<double>& concentration = *surfactant_concentration(interface);
+    VertexField<double> amounts = mass.amounts(concentration);
+    for (const VertexId v : amounts.ids()) amounts[v] += duration * uptake[i][v];
+    concentration = mass.concentration(amounts);
+  }
+}
+
 double surfactant_error(const SurfactantPath& path, const AmountRates& second,
                         const AmountRates& first) {
   double largest = 0.0;

@@ -82,6 +82,11 @@ void move_surfactant(Scene& scene, const SurfactantPath& path, const AmountRates
 /// conserved as amounts on flat faces, which differ.
 void keep_surfactant(Scene& scene, const Scene& before, Carriers& carriers);
 
+/// Adds to concentrations what the surfactants took up at their vertices in `duration`; by
+/// interface, empty where they took up nothing.
+void take_up(Scene& scene, std::span<const VertexField<double>> uptake, double duration,
+             Carriers& carriers);
+
 /// max_v dt |Δṁ_v|/(S_v ⟨Γ⟩) R/h over all vertices: how far rates of second and of first order take
 /// a concentration apart in a step, over the mean concentration, counted as `step_error` counts a
 /// displacement over the radius R of the drop's sphere. h is its mean edge.

@@ -34,6 +34,16 @@ struct ScalarMeasures {
   double reference = 0.0;  ///< mean over the patches with a given value, else over the matrix
 };
 
+/// A way that was gone, or why not.
+struct [[nodiscard]] ScalarAdvance : Report {
+  /// ∮φ_v j dS by interface: what its surfactant took up per time at each vertex, in the mean;
+  /// empty where nothing is exchanged [G R0²].
+  std::vector<VertexField<double>> uptake = {};
+  /// How far a step of first order would have led a scalar from there, the largest of all: the
+  /// masses' mean square of the difference over that of the change of a field across the domain.
+  double error = 0.0;
+};
+
 /// What evolution asks of whatever convects and diffuses the bulk scalars of a scene.
 class ScalarSolver {
  public:
@@ -43,7 +53,9 @@ class ScalarSolver {
   virtual BulkScalars initial(const FlowDomain& domain) = 0;
   /// Convects and diffuses the scalars along a path. Amounts change by what boundaries and sources
   /// give; a constant stays.
-  virtual Report advance(const ScalarPath& path, BulkScalars& scalars) = 0;
+  virtual ScalarAdvance advance(const ScalarPath& path, BulkScalars& scalars) = 0;
+  /// The mesh was moved a little without time passing: amounts stay.
+  virtual void ride(const FlowDomain& from, const FlowDomain& to, BulkScalars& scalars) = 0;
   /// The scalars on the mesh that took the place of another (`MeshChange`); the amount of each
   /// stays. `before` is the scene that the mesh before belonged to.
   virtual BulkScalars follow(const MeshChange& change, const Scene& before,

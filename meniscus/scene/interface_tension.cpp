@@ -49,6 +49,12 @@ bool has_surfactant(const Scene& scene) {
   });
 }
 
+bool has_soluble_surfactant(const Scene& scene) {
+  return std::ranges::any_of(scene.interfaces, [](const Interface& interface) {
+    return interface.surfactant && interface.surfactant->adsorption;
+  });
+}
+
 VertexField<double> vertex_tension(const Interface& interface) {
   VertexField<double> tension(interface.mesh.num_vertices(), interface.tension);
   if (const VertexField<double>* concentration = surfactant_concentration(interface))

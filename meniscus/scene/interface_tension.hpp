@@ -13,6 +13,8 @@ inline constexpr const char* kSurfactantField = "surfactant";
 [[nodiscard]] const VertexField<double>* surfactant_concentration(const Interface& interface);
 [[nodiscard]] VertexField<double>* surfactant_concentration(Interface& interface);
 [[nodiscard]] bool has_surfactant(const Scene& scene);
+/// Whether a surfactant is exchanged with a species.
+[[nodiscard]] bool has_soluble_surfactant(const Scene& scene);
 
 /// Whether the tension may differ from place to place.
 [[nodiscard]] inline bool has_varying_tension(const Interface& interface) {

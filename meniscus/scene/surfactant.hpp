@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <variant>
 
 namespace meniscus {
@@ -34,10 +35,21 @@ struct RelativeTension {
 /// The concentration at which no tension is left; infinite for a tension that does not vary.
 [[nodiscard]] double zero_tension_concentration(const EquationOfState& state);
 
-/// An insoluble surfactant on an interface.
+/// Exchange with a species dissolved in the liquid outside: per area and time
+/// j = Bi [K c (1 − XΓ) − Γ], X = 1/`packing_limit`, is added to Γ and δj taken from the liquid.
+struct Adsorption {
+  int species = 0;        ///< its number among the scalars of the scene
+  double biot = 0.0;      ///< Bi: rate of desorption [G]
+  double constant = 1.0;  ///< K: Γ over c in equilibrium on an empty surface
+  double depth = 1.0;     ///< δ: unit of Γ over unit of c and R0
+  friend bool operator==(const Adsorption&, const Adsorption&) = default;
+};
+
+/// A surfactant on an interface.
 struct Surfactant {
   EquationOfState state;
-  double diffusivity = 0.0;  ///< along the surface [G R0²]: 1/Pe_s
+  double diffusivity = 0.0;                   ///< along the surface [G R0²]: 1/Pe_s
+  std::optional<Adsorption> adsorption = {};  ///< none: insoluble
   friend bool operator==(const Surfactant&, const Surfactant&) = default;
 };
 

@@ -33,13 +33,22 @@ double amount(std::span<const double> rows, std::span<const double> values) {
   return std::inner_product(rows.begin(), rows.end(), values.begin(), 0.0);
 }
 
+/// Adds what interfaces took up of one species.
+void take_up(const std::vector<VertexField<double>>& part,
+             std::vector<VertexField<double>>& total) {
+  if (total.empty()) total.resize(part.size());
+  for (std::size_t i = 0; i < part.size(); ++i)
+    if (!part[i].empty()) total[i] = part[i];
+}
+
 class FiniteElementScalars final : public ScalarSolver {
  public:
   FiniteElementScalars(fem::Elements elements, linear::Processes processes)
       : elements_(elements), processes_(processes) {}
 
   BulkScalars initial(const FlowDomain& domain) override;
-  Report advance(const ScalarPath& path, BulkScalars& scalars) override;
+  ScalarAdvance advance(const ScalarPath& path, BulkScalars& scalars) override;
+  void ride(const FlowDomain& from, const FlowDomain& to, BulkScalars& scalars) override;
   BulkScalars follow(const MeshChange& change, const Scene& before, const FlowDomain& domain,
                      const BulkScalars& scalars) override;
   std::vector<ScalarMeasures> measures(const FlowDomain& domain,
@@ -125,12 +134,13 @@ BulkScalars FiniteElementScalars::initial(const FlowDomain& domain) {
   return scalars;
 }
 
-Report FiniteElementScalars::advance(const ScalarPath& path, BulkScalars& scalars) {
+ScalarAdvance FiniteElementScalars::advance(const ScalarPath& path, BulkScalars& scalars) {
   const PhaseTimer timer(times_, "scalars");
   const Placed from = placed(path.start), to = placed(path.end);
   MENISCUS_ASSERT(from.connectivity == to.connectivity, "a path between meshes {} and {}",
                   from.connectivity, to.connectivity);
   const Field<NodeId, Vec3> v = node_velocity(path.flow, *to.space);
+  ScalarAdvance result;
   for (std::size_t k = 0; k < scalars.size(); ++k) {
     const Scalar& scalar = path.end.scene.scalars[k];
     if (scalar.peclet > 0.0) {
@@ -144,7 +154,10 @@ Report FiniteElementScalars::advance(const ScalarPath& path, BulkScalars& scalar
                                 mass(to, path.end.scene, *path.end.mesh, k),
                                 v,
                                 path.duration};
-      if (Report moved = convect(motion, k, scalars[k]); !moved.ok()) return moved;
+      ScalarAdvance moved = convect(motion, k, scalars[k]);
+      if (!moved.ok()) return moved;
+      take_up(moved.uptake, result.uptake);
+      result.error = std::max(result.error, moved.error);
       continue;
     }
     std::vector<double> heat;
@@ -155,9 +168,20 @@ Report FiniteElementScalars::advance(const ScalarPath& path, BulkScalars& scalar
     if (Report solved =
             conduct(path.end.scene, *path.end.mesh, *to.space, *to.positions, k, heat, scalars[k]);
         !solved.ok())
-      return solved;
+      return {std::move(solved)};
   }
-  return {};
+  return result;
+}
+
+void FiniteElementScalars::ride(const FlowDomain& from, const FlowDomain& to,
+                                BulkScalars& scalars) {
+  const PhaseTimer timer(times_, "scalars");
+  const Placed before = placed(from), after = placed(to);
+  for (std::size_t k = 0; k < scalars.size(); ++k)
+    keep_range({}, amount(mass(before, from.scene, *from.mesh, k).rows, scalars[k].values),
+               mass(after, to.scene, *to.mesh, k).rows, *after.space,
+               given_values(to.scene, k, *after.space, *after.positions).is_given,
+               scalars[k].values);
 }
 
 BulkScalars FiniteElementScalars::follow(const MeshChange& change, const Scene& before,

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/face_elements.hpp"
 #include "meniscus/linear/transport_solver.hpp"
+#include "meniscus/transport/bulk/adsorption.hpp"
 #include "meniscus/transport/bulk/cell_kernel.hpp"
 #include "meniscus/transport/bulk/keep_range.hpp"
 
@@ -19,7 +21,7 @@ namespace {
 /// The share of a step that each of the two stages is implicit in (alexander1977): 1 − 1/√2.
 constexpr double kStage = 1.0 - 0.5 * std::numbers::sqrt2;
 /// Of the linear systems; what an amount loses by it is put back where no value is given.
-constexpr double kTolerance = 1e-7;
+constexpr double kTolerance = 1e-7, kExchangeTolerance = 1e-11;
 constexpr int kMostIterations = 500;
 
 double sum(std::span<const double> values) {
@@ -104,37 +106,91 @@ class ScalarStep {
         middle_(halfway(motion.at_start, motion.at_end)),
         velocity_(relative_velocity(motion.start.scalars[k].is_convected)),
         matrices_(transport_matrices(motion.mesh, space_, middle_, velocity_, coefficients_, dt_)),
-        given_(given_values(motion.end, k, space_, motion.at_end)) {
+        given_(given_values(motion.end, k, space_, motion.at_end)),
+        exchange_(motion.end, space_, middle_, k) {
     set_forcing(k);
   }
 
-  Report take(BulkScalar& scalar) {
+  ScalarAdvance take(BulkScalar& scalar) {
     const std::vector<double> start = start_amounts();
-    std::vector<double> first = before_, right = start;
-    for (std::size_t i = 0; i < right.size(); ++i) right[i] += kStage * dt_ * forcing_[i];
-    MatrixValues system = system_matrix(kStage);
-    fix_rows(space_, given_, system, right);
-    const linear::TransportSolver solver(view(system),
-                                         kind_of(space_, mass1_, matrices_, kStage * dt_));
-    if (Report solved = solve(solver, right, first); !solved.ok()) return solved;
+    const double stage = kStage * dt_, ratio = (1.0 - kStage) / kStage;
+    Stage first{.share = kStage, .right = start, .begin = exchange_.start(), .T = before_};
+    for (std::size_t i = 0; i < start.size(); ++i) first.right[i] += stage * forcing_[i];
+    if (Report solved = solve(first); !solved.ok()) return {std::move(solved)};
 
     // The first stage says what its rates are: (A first − start)/(kStage Δt).
-    const std::vector<double> reached = mass_times(first, kStage);
-    const double ratio = (1.0 - kStage) / kStage;
-    for (std::size_t i = 0; i < right.size(); ++i)
-      right[i] = start[i] + ratio * (reached[i] - start[i]) + kStage * dt_ * forcing_[i];
-    std::ranges::copy(system_matrix(1.0), system.begin());  // in place: the solver refers to it
-    fix_rows(space_, given_, system, right);
-    // Stages lie on a line to first order.
-    std::vector<double> second = first;
-    for (std::size_t i = 0; i < second.size(); ++i)
-      second[i] = before_[i] + (first[i] - before_[i]) / kStage;
-    if (Report solved = solve(solver, right, second); !solved.ok()) return solved;
-    settle(first, second, scalar);
-    return {};
+    Stage second{.share = 1.0,
+                 .right = mass_times(first.T, kStage),
+                 .begin = exchange_.start(),
+                 .T = before_};
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      second.right[i] = start[i] + ratio * (second.right[i] - start[i]) + stage * forcing_[i];
+      // Stages lie on a line to first order.
+      second.T[i] += (first.T[i] - before_[i]) / kStage;
+    }
+    add(second.begin, (1.0 - kStage) * dt_, first.rates);
+    if (Report solved = solve(second); !solved.ok()) return {std::move(solved)};
+    ByInterface mean = first.rates;
+    for (VertexField<double>& field : mean)
+      for (double& each : field) each *= 1.0 - kStage;
+    add(mean, kStage, second.rates);
+    settle(first.T, second.T, exchange_.loss(mean), scalar);
+    ScalarAdvance result;
+    result.error = error_of(first.T, scalar);
+    if (!exchange_.empty()) result.uptake = exchange_.uptake(mean);
+    return result;
   }
 
  private:
+  /// An implicit stage: its equations at a share of the step, and what solves them.
+  struct Stage {
+    double share;
+    std::vector<double> right;
+    ByInterface begin;  ///< Γ
+    std::vector<double> T;
+    ByInterface rates = {};  ///< j
+  };
+
+  static void add(ByInterface& sum, double factor, const ByInterface& term) {
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      for (const VertexId v : sum[i].ids()) sum[i][v] += factor * term[i][v];
+  }
+
+  /// Solves a stage, once where nothing in it is a product of unknowns.
+  Report solve(Stage& stage) {
+    constexpr int kMostProducts = 20;
+    constexpr double kProductTolerance = 1e-12;  // of concentrations, which are about 1
+    const double length = kStage * dt_;
+    const MatrixValues values = system_matrix(stage.share);
+    ByInterface guess = stage.begin;
+    for (int pass = 0; pass < kMostProducts; ++pass) {
+      std::vector<double> right = stage.right;
+      if (system_.empty())
+        system_ = values;
+      else
+        std::ranges::copy(values, system_.begin());  // in place: the solver refers to it
+      exchange_.add_to(system_, right, length, stage.begin, guess);
+      fix_rows(space_, given_, system_, right);
+      if (!solver_) solver_.emplace(view(system_), kind_of(space_, mass1_, matrices_, length));
+      const linear::LinearReport report = solver_->solve(
+          right, stage.T, exchange_.empty() ? kTolerance : kExchangeTolerance, kMostIterations);
+      if (!report.converged)
+        return {Fault{FaultKind::not_converged,
+                      fmt::format("a scalar's equations were not solved: {}", report.reason)}};
+      stage.rates = exchange_.rates(stage.T, length, stage.begin, guess);
+      if (exchange_.is_linear()) return {};
+      ByInterface reached = stage.begin;
+      add(reached, length, stage.rates);
+      double change = 0.0;
+      for (std::size_t i = 0; i < guess.size(); ++i)
+        for (const VertexId v : guess[i].ids())
+          change = std::max(change, std::abs(reached[i][v] - guess[i][v]));
+      guess = std::move(reached);
+      if (change < kProductTolerance) return {};
+    }
+    return {Fault{FaultKind::not_converged, "the adsorption of a surfactant was not found"}};
+  }
+
   TransportVelocity relative_velocity(bool is_convected) {
     Field<NodeId, Vec3> u(space_.num_nodes(), Vec3::Zero());
     const Field<NodeId, Vec3> none = u;
@@ -185,33 +241,35 @@ class ScalarStep {
             values};
   }
 
-  /// (M_s + S) x, M_s the mass matrix after a share s of the step.
-  [[nodiscard]] std::vector<double> mass_times(std::span<const double> x, double share) const {
-    return product(space_, mass_at(share), x);
+  /// An entry of M_s + S, M_s the mass matrix after a share s of the step.
+  [[nodiscard]] double mass_at(std::size_t entry, double share) const {
+    return matrices_.streamline[entry] + mass0_.values[entry] +
+           share * (mass1_.values[entry] - mass0_.values[entry]);
   }
-  [[nodiscard]] MatrixValues mass_at(double share) const {
-    MatrixValues values = matrices_.streamline;
-    for (std::size_t e = 0; e < values.size(); ++e)
-      values[e] += mass0_.values[e] + share * (mass1_.values[e] - mass0_.values[e]);
-    return values;
+  /// (M_s + S) x.
+  [[nodiscard]] std::vector<double> mass_times(std::span<const double> x, double share) const {
+    const fem::NodeGraph& graph = space_.graph;
+    std::vector<double> result(x.size());
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      double total = 0.0;
+      for (auto e = static_cast<std::size_t>(graph.row_start[i]);
+           e < static_cast<std::size_t>(graph.row_start[i + 1]); ++e)
+        total += mass_at(e, share) * x[static_cast<std::size_t>(graph.columns[e])];
+      result[i] = total;
+    }
+    return result;
   }
   [[nodiscard]] MatrixValues system_matrix(double share) const {
-    MatrixValues values = mass_at(share);
-    for (std::size_t e = 0; e < values.size(); ++e) values[e] -= kStage * dt_ * matrices_.rates[e];
+    MatrixValues values(matrices_.rates.size());
+    for (std::size_t e = 0; e < values.size(); ++e)
+      values[e] = mass_at(e, share) - kStage * dt_ * matrices_.rates[e];
     return values;
   }
   [[nodiscard]] std::vector<double> start_amounts() const { return mass_times(before_, 0.0); }
 
-  static Report solve(const linear::TransportSolver& solver, std::span<const double> right,
-                      std::span<double> solution) {
-    const linear::LinearReport report = solver.solve(right, solution, kTolerance, kMostIterations);
-    if (report.converged) return {};
-    return {Fault{FaultKind::not_converged,
-                  fmt::format("a scalar's equations were not solved: {}", report.reason)}};
-  }
-
   /// Records the rates, and puts back what the linear solver's residual took of the amount.
-  void settle(std::span<const double> first, std::vector<double>& second, BulkScalar& scalar) {
+  void settle(std::span<const double> first, std::vector<double>& second, double loss,
+              BulkScalar& scalar) {
     const double before = dot(mass0_.rows, before_);
     double boundary = flux_rate_;
     if (!matrices_.boundary.empty())
@@ -221,12 +279,30 @@ class ScalarStep {
     if (given_.any) {
       boundary += reaction(first, second);
     } else {
-      amount = before + dt_ * (boundary + source_rate_);
+      amount = before + dt_ * (boundary + source_rate_ - loss);
     }
     keep_range(bounds(scalar), amount, mass1_.rows, space_, given_.is_given, second);
     scalar.boundary_rate = boundary;
     scalar.source_rate = source_rate_;
     scalar.values = std::move(second);
+  }
+
+  /// The root of the mean square of what lies between the step's end and the line through its first
+  /// stage, over that of the values before about their mean; 0 where they hardly vary.
+  [[nodiscard]] double error_of(std::span<const double> first, const BulkScalar& scalar) const {
+    const double mean = dot(mass0_.rows, before_) / sum(mass0_.rows);
+    double difference = 0.0, spread = 0.0, whole = 0.0;
+    for (std::size_t i = 0; i < before_.size(); ++i) {
+      const double weight = std::abs(mass1_.rows[i]);
+      const double line = before_[i] + (first[i] - before_[i]) / kStage;
+      difference += weight * (scalar.values[i] - line) * (scalar.values[i] - line);
+      spread += weight * (before_[i] - mean) * (before_[i] - mean);
+      whole += weight;
+    }
+    constexpr double kHardly = 1e-3;  // of the values that the scalar may have
+    const double size = kHardly * std::max({scalar.largest - scalar.least, std::abs(scalar.largest),
+                                            std::abs(scalar.least)});
+    return spread > size * size * whole ? std::sqrt(difference / spread) : 0.0;
   }
 
   /// The range that the scalar may have, with the values given; open where sources or fluxes lead
@@ -238,8 +314,8 @@ class ScalarStep {
       scalar.largest = std::max(scalar.largest, given_.value[i]);
     }
     ValueBounds result = around(scalar.least, scalar.largest);
-    if (is_driven_down_) result.least = ValueBounds{}.least;
-    if (is_driven_up_) result.largest = ValueBounds{}.largest;
+    if (is_driven_down_ || !exchange_.empty()) result.least = ValueBounds{}.least;
+    if (is_driven_up_ || !exchange_.empty()) result.largest = ValueBounds{}.largest;
     return result;
   }
 
@@ -267,6 +343,9 @@ class ScalarStep {
   TransportVelocity velocity_;
   TransportMatrices matrices_;
   GivenValues given_;
+  InterfaceExchange exchange_;
+  MatrixValues system_;
+  std::optional<linear::TransportSolver> solver_;  // refers to the system
   std::vector<double> forcing_;
   double flux_rate_ = 0.0, source_rate_ = 0.0;
   bool is_driven_up_ = false, is_driven_down_ = false;
@@ -302,14 +381,14 @@ std::vector<double> inner_amounts(const Scene& scene, const TetMesh& mesh, const
   return amounts;
 }
 
-Report convect(const ScalarMotion& motion, std::size_t k, BulkScalar& scalar) {
+ScalarAdvance convect(const ScalarMotion& motion, std::size_t k, BulkScalar& scalar) {
   MENISCUS_ASSERT(static_cast<std::int32_t>(scalar.values.size()) == motion.space.num_nodes(),
                   "{} values at {} nodes", scalar.values.size(), motion.space.num_nodes());
   const auto held = [&](const Scene& scene, const NodePositions& positions) {
     return inner_amounts(scene, motion.mesh, motion.space, positions, k, scalar.values);
   };
   const std::vector<double> before = held(motion.start, motion.at_start);
-  Report report = ScalarStep(motion, k, scalar).take(scalar);
+  ScalarAdvance report = ScalarStep(motion, k, scalar).take(scalar);
   if (!report.ok()) return report;
   const std::vector<double> after = held(motion.end, motion.at_end);
   scalar.region_loss.resize(after.size());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meniscus/core/fault.hpp"
+#include "meniscus/flow/scalar_solver.hpp"
 #include "meniscus/transport/bulk/transport_matrices.hpp"
 
 namespace meniscus::bulk {
@@ -21,9 +22,9 @@ struct ScalarMotion {
 
 /// Takes scalar number `k` of the scene through one step, L-stable and of second order
 /// (alexander1977, two stages), by finite elements upstream weighted as a whole (SUPG). The mass
-/// matrix is taken to change linearly. Amounts change by boundaries and sources alone; a constant
-/// stays.
-Report convect(const ScalarMotion& motion, std::size_t k, BulkScalar& scalar);
+/// matrix is taken to change linearly. Amounts change by boundaries, sources and interfaces alone;
+/// a constant stays.
+ScalarAdvance convect(const ScalarMotion& motion, std::size_t k, BulkScalar& scalar);
 /// Solves ∇·(k∇T) = 0 for scalar k, at Pe = 0; `heat` is Pe q + Br 2μ D:D, by node ∫φ_i.
 Report conduct(const Scene& scene, const TetMesh& mesh, const ScalarSpace& space,
                const NodePositions& positions, std::size_t k, std::span<const double> heat,

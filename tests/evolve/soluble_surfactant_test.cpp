@@ -1,0 +1,150 @@
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "meniscus/case/case.hpp"
+#include "meniscus/evolve/evolution.hpp"
+#include "meniscus/scene/interface_tension.hpp"
+
+namespace meniscus {
+namespace {
+
+/// Γ(t) of a sphere that begins with Γ = 1 in a liquid with c = c0 up to a closed sphere of radius
+/// b, with linear kinetics: the transform inverted by Talbot's rule (abate2004), to some 1e-9.
+class UniformAdsorption {
+ public:
+  double peclet, biot, constant, depth, c0, b;
+
+  [[nodiscard]] double at(double t) const {
+    constexpr int kTerms = 24;
+    const double rate = 2.0 * kTerms / (5.0 * t);
+    double total = 0.5 * std::exp(rate * t) * transform(rate).real();
+    for (int j = 1; j < kTerms; ++j) {
+      const double theta = j * std::numbers::pi / kTerms, cot = 1.0 / std::tan(theta);
+      const std::complex<double> s = rate * theta * std::complex<double>(cot, 1.0),
+                                 slope(1.0, theta + (theta * cot - 1.0) * cot);
+      total += (std::exp(t * s) * transform(s) * slope).real();
+    }
+    return rate / kTerms * total;
+  }
+
+ private:
+  [[nodiscard]] std::complex<double> transform(std::complex<double> s) const {
+    const std::complex<double> q = std::sqrt(s * peclet), e = std::exp(-2.0 * q * (b - 1.0)),
+                               sinh = 0.5 * (1.0 - e), cosh = 0.5 * (1.0 + e);
+    // c − c0 ∝ [q b cosh q(b − r) − sinh q(b − r)]/r has no flux at b.
+    const std::complex<double> g = (q * q * b * sinh - q * cosh) / (q * b * cosh - sinh) + 1.0;
+    const std::complex<double> j = biot * (constant * c0 - 1.0) / (s + biot) /
+                                   (1.0 + s * biot * constant * peclet * depth / (g * (s + biot)));
+    return (1.0 + j) / s;
+  }
+};
+
+std::string resting_drop(int nodes, double step, const std::string& state) {
+  return fmt::format(R"(
+[flow]
+kind = "quiescent"
+[[drop]]
+radius = 1.0
+nodes = {0}
+[drop.surfactant]
+{2}
+species = "soap"
+biot = 2.0
+adsorption = 0.8
+depth = 0.5
+[domain]
+shape = "sphere"
+radius = 5.0
+nodes = {0}
+[[scalar]]
+name = "soap"
+kind = "species"
+peclet = 4.0
+initial = 2.0
+[[scalar.drop]]
+partition = 1e-3
+diffusivity-ratio = 1e-3
+[time]
+end = 2.0
+max-step = {1}
+tolerance = 1.0
+)",
+                     nodes, step, state);
+}
+
+Evolution evolution_of(const std::string& text) {
+  const Case c = parse_case(text, "test");
+  Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c), make_moving_mesh(c),
+                      make_scalar_solver(c));
+  const Report prepared = evolution.prepare();
+  EXPECT_TRUE(prepared.ok()) << prepared.text();
+  return evolution;
+}
+
+void run(Evolution& evolution) {
+  while (!evolution.is_finished()) {
+    const Report solved = evolution.solve();
+    ASSERT_TRUE(solved.ok()) << solved.text();
+    const Report moved = evolution.advance();
+    ASSERT_TRUE(moved.ok()) << moved.text();
+  }
+  const Report solved = evolution.solve();
+  ASSERT_TRUE(solved.ok()) << solved.text();
+}
+
+/// ∫c dV + δ∮Γ dS.
+double total(const Evolution& evolution, double depth) {
+  const Evolution::Rows rows = evolution.rows();
+  return rows.history.scalars[0].amount + depth * rows.drops[0].surfactant->amount;
+}
+
+double mean_concentration(const Evolution& evolution) {
+  double sum = 0.0;
+  const VertexField<double>& concentration =
+      *surfactant_concentration(evolution.scene().interfaces[0]);
+  for (const double each : concentration) sum += each / concentration.size();
+  return sum;
+}
+
+TEST(SolubleSurfactant, UniformAdsorptionIsThatOfTheRadialProblem) {
+  const UniformAdsorption exact{
+      .peclet = 4.0, .biot = 2.0, .constant = 0.8, .depth = 0.5, .c0 = 2.0, .b = 5.0};
+  std::vector<double> errors;
+  for (const double step : {0.4, 0.2, 0.1}) {
+    Evolution evolution = evolution_of(resting_drop(110, step, "elasticity = 0.1"));
+    (void)evolution.solve();
+    const double before = total(evolution, 0.5);
+    run(evolution);
+    EXPECT_NEAR(total(evolution, 0.5), before, 1e-10 * before);
+    errors.push_back(mean_concentration(evolution) - exact.at(evolution.t()));
+  }
+  // Measured: 5.2e-4, 1.4e-4, 3.2e-5.
+  EXPECT_LT(std::abs(errors[2]), 1e-4);
+  EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2.0, 0.3);
+  EXPECT_NEAR(std::log2(errors[1] / errors[2]), 2.0, 0.3);
+}
+
+TEST(SolubleSurfactant, TheEndIsTheIsotherm) {
+  const std::string law = "equation-of-state = \"langmuir\"\nelasticity = 0.1\ncoverage = 0.3";
+  const Case c = parse_case(resting_drop(60, 10.0, law), "test", {},
+                            std::vector<std::string>{"time.end=100", "flow.capillary-number=inf",
+                                                     "scalar[0].drop[0].diffusivity-ratio=1000"});
+  Evolution longer(build_scene(c), c.evolution, make_flow_solver(c), make_moving_mesh(c),
+                   make_scalar_solver(c));
+  ASSERT_TRUE(longer.prepare().ok());
+  run(longer);
+  double c_end = 0.0;
+  const EmbeddedSurface& drop = longer.state().mesh->tetrahedra().interfaces[0];
+  for (std::int32_t v = 0; v < drop.num_vertices; ++v)
+    c_end +=
+        longer.state().scalars[0].values[static_cast<std::size_t>(drop.first_vertex.value + v)] /
+        drop.num_vertices;
+  EXPECT_NEAR(mean_concentration(longer), 0.8 * c_end / (1.0 + 0.8 * 0.3 * c_end), 1e-6);
+}
+
+}  // namespace
+}  // namespace meniscus
