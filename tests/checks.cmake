@@ -105,6 +105,10 @@ add_test(NAME event_ranks COMMAND Python3::Interpreter
 set_tests_properties(event_ranks PROPERTIES TIMEOUT 900 LABELS mpi PROCESSORS 3
   ENVIRONMENT "${MENISCUS_RANKS_ENVIRONMENT}")
 
+add_test(NAME scalars COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/scalars.py
+  $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scalars)
+set_tests_properties(scalars PROPERTIES TIMEOUT 600 LABELS end_to_end)
+
 # A program of one's own that puts fields on a run.
 meniscus_program_of_tests(passive_scalar ${PROJECT_SOURCE_DIR}/examples/programs/passive_scalar.cpp app)
 meniscus_program_of_tests(field_difference end_to_end/field_difference.cpp io)

@@ -148,10 +148,10 @@ void copy_reference(const fs::path& case_folder, const fs::path& run_folder) {
 /// Refuses overrides of drops, domain and units: the checkpoint holds their evolved state.
 void require_changeable(std::span<const std::string> overrides) {
   for (const std::string& override : overrides)
-    for (const char* of_the_start : {"drop", "domain", "scale"})
+    for (const char* of_the_start : {"drop", "domain", "scale", "scalar"})
       if (override.starts_with(of_the_start))
         reject_input(
-            "--set {}: drops, domain and scale are those of the checkpoint; what may be "
+            "--set {}: drops, domain, scale and scalars are those of the checkpoint; what may be "
             "changed is in [flow], [interface], [time], [solver], [topology] and [output]",
             override);
 }

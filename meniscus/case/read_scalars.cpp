@@ -69,6 +69,10 @@ ScalarProfile read_initial(Settings& settings, const std::string& table) {
   return profile;
 }
 
+[[noreturn]] void reject_concentration(const Settings& settings, const std::string& path) {
+  settings.reject(path, "must be at least 0: it is a concentration");
+}
+
 /// Reads what the table of a scalar or of one of its drops says about a liquid of capacity and
 /// conductivity 1.
 ScalarLiquid read_liquid(Settings& settings, const std::string& table, const Scalar& scalar) {
@@ -78,6 +82,8 @@ ScalarLiquid read_liquid(Settings& settings, const std::string& table, const Sca
     liquid.initial = read_initial(settings, table);
   else if (liquid.source != 0.0)
     settings.reject(table + ".source", "must be 0 with peclet = 0, where a source has no effect");
+  if (scalar.is_species && liquid.initial.value < 0.0)
+    reject_concentration(settings, table + ".initial");
   return liquid;
 }
 
@@ -130,7 +136,7 @@ void require_known_tag(const Settings& settings, const DomainCase& domain,
 }
 
 std::vector<ScalarPatchCase> read_patches(Settings& settings, const DomainCase& domain,
-                                          const std::string& scalar) {
+                                          const std::string& scalar, bool is_species) {
   std::vector<ScalarPatchCase> patches;
   for (int i = 0; i < settings.count(scalar + ".patch"); ++i) {
     const std::string table = fmt::format("{}.patch[{}]", scalar, i);
@@ -138,6 +144,7 @@ std::vector<ScalarPatchCase> read_patches(Settings& settings, const DomainCase& 
     if (domain.shape == DomainCase::Shape::file) require_known_tag(settings, domain, patch);
     for (const ScalarPatchCase& earlier : patches) require_apart(settings, patch, earlier);
     patch.condition = read_condition(settings, table);
+    if (is_species && patch.condition.value < 0.0) reject_concentration(settings, table + ".value");
     patches.push_back(std::move(patch));
   }
   return patches;
@@ -165,7 +172,7 @@ std::vector<ScalarCase> read_scalars(Settings& settings, const DomainCase& domai
     c.scalar = read_scalar(settings, c.path);
     c.scalar.name = name;
     c.liquids = read_liquids(settings, c, num_drops);
-    c.patches = read_patches(settings, domain, c.path);
+    c.patches = read_patches(settings, domain, c.path, c.scalar.is_species);
     require_level(settings, c);
     scalars.push_back(std::move(c));
   }

@@ -81,8 +81,8 @@ Report Evolution::prepare() {
   remesh_interfaces();
   keep_surfactant(state_.scene, before, carriers_);
   if (Report made = follow_interfaces(before); !made.ok()) return made;
-  if (!state_.scene.scalars.empty()) state_.scalars = scalar_solver_->initial(state_.domain());
-  return {};
+  if (state_.scene.scalars.empty()) return {};
+  return scalar_solver_->initial(state_.domain(), state_.scalars);
 }
 
 Report Evolution::solve() {
@@ -500,6 +500,10 @@ void Evolution::save(Archive& archive) const {
 void Evolution::load(const Archive& archive) {
   meniscus::load(state_, archive);
   state_.connectivity = ++last_connectivity_;
+  for (const BulkScalar& scalar : state_.scalars)
+    if (scalar.values.size() != scalar_solver_->num_values(state_.domain()))
+      reject_input("checkpoint: evolution/scalar: {} values do not fit the volume mesh's {} nodes",
+                   scalar.values.size(), scalar_solver_->num_values(state_.domain()));
   solver_->load(archive, state_.domain());
 }
 

@@ -151,11 +151,15 @@ void save_scalars(const State& state, Archive& archive) {
   }
 }
 
-/// The nodes of quadratic elements are vertices and middles of edges, so that their number says
-/// little; the solver asserts it.
+/// Whether the values fit the mesh is for the solver to say.
 void load_scalars(State& state, const Archive& archive) {
   const auto num_regions = static_cast<std::size_t>(state.scene.liquids.size());
   state.scalars.clear();
+  for (const Interface& interface : state.scene.interfaces)
+    if (interface.surfactant && interface.surfactant->adsorption &&
+        static_cast<std::size_t>(interface.surfactant->adsorption->species) >=
+            state.scene.scalars.size())
+      reject_input("checkpoint: drop {} has a surfactant of an unknown species", interface.drop);
   for (std::size_t k = 0; k < state.scene.scalars.size(); ++k) {
     const std::string path = fmt::format("evolution/scalar{}", k);
     const auto& liquids = entry_of_size(archive.reals, path + "/liquids", 3 * num_regions);

@@ -50,7 +50,9 @@ class ScalarSolver {
   virtual ~ScalarSolver() = default;
 
   /// The scalars as the liquids' initial profiles say. Where liquids meet the amount decides.
-  virtual BulkScalars initial(const FlowDomain& domain) = 0;
+  virtual Report initial(const FlowDomain& domain, BulkScalars& scalars) = 0;
+  /// How many values a scalar has on a domain.
+  virtual std::size_t num_values(const FlowDomain& domain) = 0;
   /// Convects and diffuses the scalars along a path. Amounts change by what boundaries and sources
   /// give; a constant stays.
   virtual ScalarAdvance advance(const ScalarPath& path, BulkScalars& scalars) = 0;

@@ -51,6 +51,23 @@ const std::vector<BadScalar> kScalars{
      "case.toml:7: scalar.peclet = -1.0 must be at least 0 or inf"},
     {"an unknown kind", heat("kind = \"salt\"\n"),
      "case.toml:8: scalar.kind = \"salt\" must be one of \"heat\", \"species\""},
+    {"a negative concentration", heat("kind = \"species\"\ninitial = -1\n"),
+     "case.toml:9: scalar.initial = -1.0 must be at least 0: it is a concentration"},
+    {"a negative concentration on a patch",
+     heat("kind = \"species\"\n[[scalar.patch]]\nname = \"x-\"\ncondition = \"value\"\nvalue = "
+          "-1\n"),
+     "case.toml:12: scalar.patch.value = -1.0 must be at least 0: it is a concentration"},
+    {"a surfactant dissolved in heat",
+     heat("[drop.surfactant]\nelasticity = 0.1\nspecies = \"heat\"\n"),
+     "case.toml:10: drop.surfactant.species = \"heat\" must be the name of a [[scalar]] with kind "
+     "= "
+     "\"species\""},
+    {"a soluble surfactant without kinetics",
+     heat("kind = \"species\"\n[drop.surfactant]\nelasticity = 0.1\nspecies = \"heat\"\n"),
+     "case.toml:9: drop.surfactant.biot is missing"},
+    {"a frame that moves with the drops", heat("[domain]\nframe = \"drops\"\n"),
+     "case.toml:9: domain.frame = \"drops\" must be \"fixed\" with a [[scalar]]: what is carried "
+     "would not follow"},
     {"negative heating", heat("brinkman = -1\n"),
      "case.toml:8: scalar.brinkman = -1.0 must be at least 0"},
     {"heating of a species", heat("kind = \"species\"\nbrinkman = 1\n"),

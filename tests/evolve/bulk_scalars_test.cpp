@@ -279,6 +279,61 @@ TEST(BulkScalars, ThermocapillarySpeedsAreTheExactOnes) {
     }
 }
 
+TEST(BulkScalars, ASourceGoesBeyondTheFirstValuesThroughRemeshing) {
+  // Nothing leaves within this time: the total is the source's, and the drop holds more than its
+  // first value, which was 0, and no one shift of all values.
+  Evolution evolution = evolution_of(R"(
+[flow]
+kind = "simple-shear"
+capillary-number = 0.2
+[[drop]]
+radius = 1.0
+nodes = 60
+[domain]
+half-width = 4.0
+nodes = 120
+[interface]
+remesh-every = 1
+[[scalar]]
+name = "dye"
+kind = "species"
+peclet = 30
+[[scalar.drop]]
+source = 1.0
+[[scalar.patch]]
+name = "x-"
+condition = "value"
+[[scalar.patch]]
+name = "x+"
+condition = "value"
+[time]
+end = 1.0
+)");
+  run(evolution);
+  const Evolution::Rows rows = evolution.rows();
+  const double given = 4.0 / 3.0 * std::numbers::pi * evolution.t();
+  EXPECT_NEAR(rows.history.scalars[0].amount, given, 1e-3 * given);
+  EXPECT_GT(rows.drops[0].scalars[0].amount, 0.7 * given);
+  EXPECT_GT(rows.history.scalars[0].largest, 0.7 * evolution.t());
+}
+
+TEST(BulkScalars, SteadyConductionGoesThroughRemeshing) {
+  Evolution evolution = evolution_of(thermocapillary(60, 3.0, 1.0, 0.5) +
+                                     "max-step = 0.5\n[interface]\nremesh-every = 1\n");
+  run(evolution);
+  // The field in the drop is linear, its slope 3/(2 + k)/[1 + (1 − k)/((2 + k)b³)].
+  const double slope = 3.0 / 2.5 / (1.0 + 0.5 / (2.5 * 27.0));
+  const TetMesh& mesh = evolution.state().mesh->tetrahedra();
+  const EmbeddedSurface& drop = mesh.interfaces[0];
+  double error = 0.0;
+  for (std::int32_t v = 0; v < drop.num_vertices; ++v) {
+    const TetVertexId vertex{drop.first_vertex.value + v};
+    const double T = evolution.state().scalars[0].values[static_cast<std::size_t>(vertex.value)];
+    error = std::max(error, std::abs(T - slope * mesh.x[vertex].z()));
+  }
+  EXPECT_LT(error, 0.1 * slope);
+}
+
 TEST(BulkScalars, SherwoodNumberOfAUniformSourceIsThatOfASphere) {
   // In a sphere of radius b whose wall keeps c = 0: 2b/(b − 1).
   Evolution evolution = evolution_of(R"(

@@ -275,8 +275,9 @@ FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const Instant
   result.power = {power.reaction + traction + power.body_force, power.dissipation};
   GeneralisedLiquids liquids = generalised_liquids(problem.stokes, state);
   result.excess_stress = std::move(liquids.excess_stress);
-  result.least_viscosity = has_varying_viscosity(domain.scene) ? least_viscosities(problem.stokes)
-                                                               : std::move(liquids.least_viscosity);
+  result.least_viscosity = std::move(liquids.least_viscosity);
+  if (result.least_viscosity.empty() && has_varying_viscosity(domain.scene))
+    result.least_viscosity = least_viscosities(problem.stokes);
   BulkFlow bulk{at_vertices(state.v, mesh.num_vertices()), {}, {}};
   const auto at_edges = state.v.span().subspan(static_cast<std::size_t>(mesh.num_vertices()));
   bulk.v_at_edges.assign(at_edges.begin(), at_edges.end());

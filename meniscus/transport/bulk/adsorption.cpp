@@ -23,9 +23,10 @@ std::size_t place_of(const fem::NodeGraph& graph, NodeId row, NodeId column) {
 
 }  // namespace
 
-InterfaceExchange::InterfaceExchange(const Scene& scene, const ScalarSpace& space,
-                                     const NodePositions& positions, std::size_t k)
-    : sides_(scene.interfaces.size()), start_(scene.interfaces.size()) {
+InterfaceExchange::InterfaceExchange(const Scene& start, const Scene& scene,
+                                     const ScalarSpace& space, const NodePositions& positions,
+                                     std::size_t k)
+    : sides_(scene.interfaces.size()), start_(sides_.size()), end_(sides_.size()) {
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     const Interface& interface = scene.interfaces[i];
     if (!interface.surfactant || !interface.surfactant->adsorption ||
@@ -39,7 +40,8 @@ InterfaceExchange::InterfaceExchange(const Scene& scene, const ScalarSpace& spac
     side.packing = 1.0 / packing_limit(interface.surfactant->state);
     is_empty_ = false;
     is_linear_ = is_linear_ && side.packing == 0.0;
-    start_[i] = *surfactant_concentration(interface);
+    start_[i] = *surfactant_concentration(start.interfaces[i]);
+    end_[i] = *surfactant_concentration(interface);
     const fem::FaceNodeTable& faces = space.interfaces[i];
     side.node.resize(at(interface.mesh.num_vertices()));
     for (const FaceId f : faces.faces()) {
@@ -66,6 +68,13 @@ InterfaceExchange::InterfaceExchange(const Scene& scene, const ScalarSpace& spac
       side.masses.push_back(mass);
     }
   }
+}
+
+ByInterface InterfaceExchange::carried(double share) const {
+  ByInterface result = start_;
+  for (std::size_t i = 0; i < result.size(); ++i)
+    for (const VertexId v : result[i].ids()) result[i][v] += share * (end_[i][v] - start_[i][v]);
+  return result;
 }
 
 /// ∂j/∂T in a stage.

@@ -16,16 +16,17 @@ using ByInterface = std::vector<VertexField<double>>;
 /// that begins with the concentration B, Γ = B + τj.
 class InterfaceExchange {
  public:
-  /// Of scalar k, on interfaces as they are at `positions`.
-  InterfaceExchange(const Scene& scene, const ScalarSpace& space, const NodePositions& positions,
-                    std::size_t k);
+  /// Of scalar k on the way from one scene to another, which holds what the surfactants were
+  /// carried to; on interfaces as they are at `positions`.
+  InterfaceExchange(const Scene& start, const Scene& scene, const ScalarSpace& space,
+                    const NodePositions& positions, std::size_t k);
 
   [[nodiscard]] bool empty() const { return is_empty_; }
   /// Whether j has a product of c and Γ.
   [[nodiscard]] bool is_linear() const { return is_linear_; }
 
-  /// Γ at the beginning.
-  [[nodiscard]] const ByInterface& start() const { return start_; }
+  /// Γ after a share of the way, as far as it was carried alone.
+  [[nodiscard]] ByInterface carried(double share) const;
   /// Adds what the liquid loses to the equations of a stage, the product taken at the guess of Γ.
   void add_to(MatrixValues& system, std::vector<double>& right, double stage,
               const ByInterface& begin, const ByInterface& guess) const;
@@ -56,7 +57,7 @@ class InterfaceExchange {
   [[nodiscard]] double slope(const Side& side, double stage, double guess) const;
 
   std::vector<Side> sides_;
-  ByInterface start_;
+  ByInterface start_, end_;
   bool is_empty_ = true, is_linear_ = true;
 };
 

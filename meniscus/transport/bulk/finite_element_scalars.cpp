@@ -4,9 +4,10 @@
 #include <deque>
 #include <numeric>
 #include <optional>
-#include <tuple>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/log.hpp"
+#include "meniscus/transport/bulk/cell_kernel.hpp"
 #include "meniscus/transport/bulk/keep_range.hpp"
 #include "meniscus/transport/bulk/scalar_measures.hpp"
 #include "meniscus/transport/bulk/scalar_step.hpp"
@@ -46,7 +47,8 @@ class FiniteElementScalars final : public ScalarSolver {
   FiniteElementScalars(fem::Elements elements, linear::Processes processes)
       : elements_(elements), processes_(processes) {}
 
-  BulkScalars initial(const FlowDomain& domain) override;
+  Report initial(const FlowDomain& domain, BulkScalars& scalars) override;
+  std::size_t num_values(const FlowDomain& domain) override;
   ScalarAdvance advance(const ScalarPath& path, BulkScalars& scalars) override;
   void ride(const FlowDomain& from, const FlowDomain& to, BulkScalars& scalars) override;
   BulkScalars follow(const MeshChange& change, const Scene& before, const FlowDomain& domain,
@@ -66,6 +68,8 @@ class FiniteElementScalars final : public ScalarSolver {
     std::shared_ptr<std::vector<std::unique_ptr<const MassMatrix>>> masses;
   };
   const Placed& placed(const FlowDomain& domain);
+  static std::vector<double> initial_values(const Scene& scene, const TetMesh& mesh,
+                                            const Placed& here, std::size_t k);
   static const MassMatrix& mass(const Placed& at, const Scene& scene, const TetMesh& mesh,
                                 std::size_t k);
 
@@ -103,35 +107,51 @@ const MassMatrix& FiniteElementScalars::mass(const Placed& at, const Scene& scen
   return *known;
 }
 
-BulkScalars FiniteElementScalars::initial(const FlowDomain& domain) {
+/// The liquids' profiles at the nodes; where liquids meet, their mean by what the node holds of
+/// each.
+std::vector<double> FiniteElementScalars::initial_values(const Scene& scene, const TetMesh& mesh,
+                                                         const Placed& here, std::size_t k) {
+  const std::vector<double> filling = volume_shares(scene, mesh, *here.space, *here.positions);
+  std::vector<double> held(at(here.space->num_nodes()), 0.0), room = held;
+  with_kernel(*here.space, *here.positions, [&](auto& cell) {
+    for (const CellId c : mesh.cells.ids()) {
+      cell.go_to(c);
+      const ScalarLiquid& liquid = scene.liquids[mesh.region[c]].scalars[k];
+      const double unit = scene.scalars[k].is_species ? liquid.capacity : 1.0;
+      const auto shares = cell.integral(cell.values());
+      for (std::size_t i = 0; i < shares.size(); ++i) {
+        const std::int32_t node = cell.nodes()[i];
+        const double weight = filling[at(mesh.region[c].value)] * liquid.capacity * shares[i];
+        held[at(node)] += weight * liquid.initial.at(here.positions->x[NodeId{node}]) / unit;
+        room[at(node)] += weight;
+      }
+    }
+  });
+  for (std::size_t i = 0; i < held.size(); ++i) held[i] /= room[i];
+  return held;
+}
+
+Report FiniteElementScalars::initial(const FlowDomain& domain, BulkScalars& scalars) {
   const PhaseTimer timer(times_, "scalars");
   const Scene& scene = domain.scene;
   const TetMesh& mesh = *domain.mesh;
   const Placed here = placed(domain);
-  BulkScalars scalars(scene.scalars.size());
+  scalars.assign(scene.scalars.size(), {});
   for (std::size_t k = 0; k < scalars.size(); ++k) {
-    std::vector<double> held(at(here.space->num_nodes()), 0.0), room = held;
-    for (const RegionId region : scene.liquids.ids()) {
-      const ScalarLiquid& liquid = scene.liquids[region].scalars[k];
-      std::vector<double> alone(at(scene.liquids.size()), 0.0);
-      alone[at(region.value)] = liquid.capacity;
-      const std::vector<double> rows =
-          mass_matrix(scene, mesh, *here.space, *here.positions, alone).rows;
-      const double unit = scene.scalars[k].is_species ? liquid.capacity : 1.0;
-      for (const NodeId i : here.positions->x.ids()) {
-        const double T = liquid.initial.at(here.positions->x[i]) / unit;
-        held[at(i.value)] += rows[at(i.value)] * T;
-        room[at(i.value)] += rows[at(i.value)];
-      }
-    }
-    for (std::size_t i = 0; i < held.size(); ++i) held[i] /= room[i];
-    scalars[k].values = std::move(held);
-    std::tie(scalars[k].least, scalars[k].largest) = std::pair(
-        *std::ranges::min_element(scalars[k].values), *std::ranges::max_element(scalars[k].values));
-    if (scene.scalars[k].peclet == 0.0)
-      (void)conduct(scene, mesh, *here.space, *here.positions, k, {}, scalars[k]);
+    scalars[k].values = initial_values(scene, mesh, here, k);
+    const auto [least, largest] = std::ranges::minmax(scalars[k].values);
+    scalars[k].least = least;
+    scalars[k].largest = largest;
+    if (scene.scalars[k].peclet > 0.0) continue;
+    if (Report solved = conduct(scene, mesh, *here.space, *here.positions, k, {}, scalars[k]);
+        !solved.ok())
+      return solved;
   }
-  return scalars;
+  return {};
+}
+
+std::size_t FiniteElementScalars::num_values(const FlowDomain& domain) {
+  return at(placed(domain).space->num_nodes());
 }
 
 ScalarAdvance FiniteElementScalars::advance(const ScalarPath& path, BulkScalars& scalars) {
@@ -141,6 +161,11 @@ ScalarAdvance FiniteElementScalars::advance(const ScalarPath& path, BulkScalars&
                   from.connectivity, to.connectivity);
   const Field<NodeId, Vec3> v = node_velocity(path.flow, *to.space);
   ScalarAdvance result;
+  const DissipatedHeat heat =
+      std::ranges::any_of(path.end.scene.scalars,
+                          [](const Scalar& each) { return each.brinkman > 0.0; })
+          ? dissipated_heat(path.end.scene, *path.end.mesh, *to.space, *to.positions, v, scalars)
+          : DissipatedHeat{};
   for (std::size_t k = 0; k < scalars.size(); ++k) {
     const Scalar& scalar = path.end.scene.scalars[k];
     if (scalar.peclet > 0.0) {
@@ -153,6 +178,7 @@ ScalarAdvance FiniteElementScalars::advance(const ScalarPath& path, BulkScalars&
                                 mass(from, path.start.scene, *path.start.mesh, k),
                                 mass(to, path.end.scene, *path.end.mesh, k),
                                 v,
+                                heat,
                                 path.duration};
       ScalarAdvance moved = convect(motion, k, scalars[k]);
       if (!moved.ok()) return moved;
@@ -160,13 +186,11 @@ ScalarAdvance FiniteElementScalars::advance(const ScalarPath& path, BulkScalars&
       result.error = std::max(result.error, moved.error);
       continue;
     }
-    std::vector<double> heat;
-    if (scalar.brinkman > 0.0) {
-      heat = dissipation(path.end.scene, *path.end.mesh, *to.space, *to.positions, v);
-      for (double& each : heat) each *= scalar.brinkman;
-    }
-    if (Report solved =
-            conduct(path.end.scene, *path.end.mesh, *to.space, *to.positions, k, heat, scalars[k]);
+    std::vector<double> sources;
+    if (scalar.brinkman > 0.0)
+      for (const double each : heat.by_node) sources.push_back(scalar.brinkman * each);
+    if (Report solved = conduct(path.end.scene, *path.end.mesh, *to.space, *to.positions, k,
+                                sources, scalars[k]);
         !solved.ok())
       return {std::move(solved)};
   }
@@ -195,14 +219,23 @@ BulkScalars FiniteElementScalars::follow(const MeshChange& change, const Scene& 
   BulkScalars result(scalars.size());
   for (std::size_t k = 0; k < scalars.size(); ++k) {
     result[k] = scalars[k];
-    if (before.liquids.size() != domain.scene.liquids.size()) result[k].region_loss.clear();
+    if (!change.sources.empty()) result[k].region_loss.clear();
     result[k].values =
         interpolated_values(scalars[k].values, {change.before, *old.space, *old.positions},
                             {*domain.mesh, *now.space, *now.positions}, change.sources);
     const GivenValues given = given_values(domain.scene, k, *now.space, *now.positions);
     for (std::size_t i = 0; i < given.value.size(); ++i)
       if (given.is_given[i] != 0) result[k].values[i] = given.value[i];
-    keep_range(around(scalars[k].least, scalars[k].largest),
+    const Scalar& scalar = domain.scene.scalars[k];
+    if (scalar.peclet == 0.0) {  // has no amount to keep
+      if (scalar.brinkman == 0.0 &&
+          !conduct(domain.scene, *domain.mesh, *now.space, *now.positions, k, {}, result[k]).ok())
+        log::debug("{} stays as interpolated", scalar.name);
+      continue;
+    }
+    const auto [low, high] = std::ranges::minmax(scalars[k].values);
+    const ValueBounds range = around(scalars[k].least, scalars[k].largest);
+    keep_range({std::min(range.least, low), std::max(range.largest, high)},
                amount(mass(old, before, change.before, k).rows, scalars[k].values),
                mass(now, domain.scene, *domain.mesh, k).rows, *now.space, given.is_given,
                result[k].values);

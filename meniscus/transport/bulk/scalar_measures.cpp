@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/face_elements.hpp"
@@ -15,8 +14,7 @@ std::vector<ScalarContent> contents(const Scene& scene, const TetMesh& mesh,
                                     const ScalarSpace& space, const NodePositions& positions,
                                     std::size_t k, std::span<const double> values) {
   const std::vector<double> filled = element_volumes(mesh, space, positions);
-  const std::vector<double> nominal =
-      nominal_volumes(scene, std::accumulate(filled.begin(), filled.end(), 0.0));
+  const std::vector<double> shares = volume_shares(scene, mesh, space, positions);
   std::vector<ScalarContent> result(filled.size());
   with_kernel(space, positions, [&](auto& cell) {
     for (const CellId c : mesh.cells.ids()) {
@@ -28,10 +26,9 @@ std::vector<ScalarContent> contents(const Scene& scene, const TetMesh& mesh,
     }
   });
   for (std::size_t r = 0; r < result.size(); ++r) {
-    const double share = nominal[r] > 0.0 && filled[r] > 0.0 ? nominal[r] / filled[r] : 1.0;
-    result[r].volume = share * filled[r];
+    result[r].volume = shares[r] * filled[r];
     result[r].amount *=
-        share * scene.liquids[RegionId{static_cast<std::int32_t>(r)}].scalars[k].capacity;
+        shares[r] * scene.liquids[RegionId{static_cast<std::int32_t>(r)}].scalars[k].capacity;
   }
   return result;
 }
@@ -72,7 +69,8 @@ ScalarExchange exchange(const Scene& scene, const TetMesh& mesh, const ScalarSpa
       const double area = points[q].area.norm();
       result.outflow -= flux.dot(points[q].area);
       result.area += area;
-      result.mean_outside += area * liquid(outside).capacity * beyond.value;
+      result.mean_outside +=
+          area * (scene.scalars[k].is_species ? liquid(outside).capacity : 1.0) * beyond.value;
     }
   }
   result.mean_outside /= result.area;

@@ -1,5 +1,7 @@
 #include "meniscus/transport/bulk/scalar_space.hpp"
 
+#include <numeric>
+
 #include "meniscus/flow/fem/elements.hpp"
 
 namespace meniscus::bulk {
@@ -50,6 +52,16 @@ std::vector<double> nominal_volumes(const Scene& scene, double total) {
     volumes[static_cast<std::size_t>(interface.outside.value)] -= interface.volume;
   }
   return volumes;
+}
+
+std::vector<double> volume_shares(const Scene& scene, const TetMesh& mesh, const ScalarSpace& space,
+                                  const NodePositions& positions) {
+  const std::vector<double> filled = element_volumes(mesh, space, positions);
+  std::vector<double> shares =
+      nominal_volumes(scene, std::accumulate(filled.begin(), filled.end(), 0.0));
+  for (std::size_t r = 0; r < shares.size(); ++r)
+    shares[r] = shares[r] > 0.0 && filled[r] > 0.0 ? shares[r] / filled[r] : 1.0;
+  return shares;
 }
 
 GivenValues given_values(const Scene& scene, std::size_t scalar, const ScalarSpace& space,

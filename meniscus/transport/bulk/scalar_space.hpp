@@ -31,6 +31,11 @@ struct ScalarSpace {
 /// The volumes that the scene's regions are to have; that of the matrix is what is left of `total`.
 [[nodiscard]] std::vector<double> nominal_volumes(const Scene& scene, double total);
 
+/// The volume that each region is to have over that of its elements, near 1.
+[[nodiscard]] std::vector<double> volume_shares(const Scene& scene, const TetMesh& mesh,
+                                                const ScalarSpace& space,
+                                                const NodePositions& positions);
+
 /// The nodes at which a scalar is given, with its value.
 struct GivenValues {
   std::vector<char> is_given;  ///< by node

@@ -10,6 +10,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/face_elements.hpp"
+#include "meniscus/flow/fem/scalar_coupling.hpp"
 #include "meniscus/linear/transport_solver.hpp"
 #include "meniscus/transport/bulk/adsorption.hpp"
 #include "meniscus/transport/bulk/cell_kernel.hpp"
@@ -107,21 +108,21 @@ class ScalarStep {
         velocity_(relative_velocity(motion.start.scalars[k].is_convected)),
         matrices_(transport_matrices(motion.mesh, space_, middle_, velocity_, coefficients_, dt_)),
         given_(given_values(motion.end, k, space_, motion.at_end)),
-        exchange_(motion.end, space_, middle_, k) {
+        exchange_(motion.start, motion.end, space_, middle_, k) {
     set_forcing(k);
   }
 
   ScalarAdvance take(BulkScalar& scalar) {
     const std::vector<double> start = start_amounts();
     const double stage = kStage * dt_, ratio = (1.0 - kStage) / kStage;
-    Stage first{.share = kStage, .right = start, .begin = exchange_.start(), .T = before_};
+    Stage first{.share = kStage, .right = start, .begin = exchange_.carried(kStage), .T = before_};
     for (std::size_t i = 0; i < start.size(); ++i) first.right[i] += stage * forcing_[i];
     if (Report solved = solve(first); !solved.ok()) return {std::move(solved)};
 
     // The first stage says what its rates are: (A first − start)/(kStage Δt).
     Stage second{.share = 1.0,
                  .right = mass_times(first.T, kStage),
-                 .begin = exchange_.start(),
+                 .begin = exchange_.carried(1.0),
                  .T = before_};
     for (std::size_t i = 0; i < start.size(); ++i) {
       second.right[i] = start[i] + ratio * (second.right[i] - start[i]) + stage * forcing_[i];
@@ -212,10 +213,8 @@ class ScalarStep {
     flux_rate_ = sum(forcing_);
     std::vector<double> sources = std::move(matrices_.sources);
     if (scalar.brinkman > 0.0) {
-      const std::vector<double> heat =
-          dissipation(motion_.start, motion_.mesh, space_, middle_, motion_.v);
       for (std::size_t i = 0; i < sources.size(); ++i)
-        sources[i] += scalar.brinkman * over_peclet(scalar) * heat[i];
+        sources[i] += scalar.brinkman * over_peclet(scalar) * motion_.heat.by_node[i];
     }
     source_rate_ = sum(sources);
     note_drives(k);
@@ -362,9 +361,8 @@ std::vector<double> capacities(const Scene& scene, std::size_t k) {
 std::vector<double> inner_amounts(const Scene& scene, const TetMesh& mesh, const ScalarSpace& space,
                                   const NodePositions& positions, std::size_t k,
                                   std::span<const double> values) {
-  const std::vector<double> filled = element_volumes(mesh, space, positions);
-  const std::vector<double> nominal = nominal_volumes(scene, sum(filled));
-  std::vector<double> amounts(filled.size(), 0.0);
+  const std::vector<double> shares = volume_shares(scene, mesh, space, positions);
+  std::vector<double> amounts(shares.size(), 0.0);
   with_kernel(space, positions, [&](auto& cell) {
     for (const CellId c : mesh.cells.ids()) {
       const auto region = static_cast<std::size_t>(mesh.region[c].value);
@@ -375,9 +373,7 @@ std::vector<double> inner_amounts(const Scene& scene, const TetMesh& mesh, const
     }
   });
   const std::vector<double> capacity = capacities(scene, k);
-  for (std::size_t r = 1; r < amounts.size(); ++r)
-    amounts[r] *=
-        capacity[r] * (nominal[r] > 0.0 && filled[r] > 0.0 ? nominal[r] / filled[r] : 1.0);
+  for (std::size_t r = 1; r < amounts.size(); ++r) amounts[r] *= capacity[r] * shares[r];
   return amounts;
 }
 
@@ -392,14 +388,22 @@ ScalarAdvance convect(const ScalarMotion& motion, std::size_t k, BulkScalar& sca
   if (!report.ok()) return report;
   const std::vector<double> after = held(motion.end, motion.at_end);
   scalar.region_loss.resize(after.size());
+  const Scalar& kind = motion.end.scalars[k];
+  std::vector<double> heating(after.size(), 0.0);
+  if (kind.brinkman > 0.0)
+    for (std::size_t r = 0; r < heating.size(); ++r)
+      heating[r] = kind.brinkman * over_peclet(kind) * motion.heat.by_region[r];
   for (std::size_t r = 0; r < after.size(); ++r)
-    scalar.region_loss[r] = (before[r] - after[r]) / motion.duration;
+    scalar.region_loss[r] = (before[r] - after[r]) / motion.duration + heating[r];
   return report;
 }
 
-std::vector<double> dissipation(const Scene& scene, const TetMesh& mesh, const ScalarSpace& space,
-                                const NodePositions& positions, const Field<NodeId, Vec3>& v) {
-  std::vector<double> result(static_cast<std::size_t>(space.num_nodes()), 0.0);
+DissipatedHeat dissipated_heat(const Scene& scene, const TetMesh& mesh, const ScalarSpace& space,
+                               const NodePositions& positions, const Field<NodeId, Vec3>& v,
+                               const BulkScalars& scalars) {
+  const CellField<double> factors = fem::viscosity_factors(scene, mesh, space.elements, scalars);
+  DissipatedHeat result{std::vector<double>(static_cast<std::size_t>(space.num_nodes()), 0.0),
+                        std::vector<double>(static_cast<std::size_t>(scene.liquids.size()), 0.0)};
   with_kernel(space, positions, [&](auto& cell) {
     for (const CellId c : mesh.cells.ids()) {
       cell.go_to(c);
@@ -407,12 +411,13 @@ std::vector<double> dissipation(const Scene& scene, const TetMesh& mesh, const S
       const auto gradients = cell.gradients_of(v);
       for (std::size_t q = 0; q < gradients.size(); ++q) {
         const double squared = (0.5 * (gradients[q] + gradients[q].transpose())).squaredNorm();
-        const double heat = 2.0 * liquid.viscosity *
-                            relative_viscosity(liquid.law, std::sqrt(2.0 * squared)).value *
-                            squared;
+        const double viscosity = factors[c] * liquid.viscosity *
+                                 relative_viscosity(liquid.law, std::sqrt(2.0 * squared)).value;
+        const double heat = cell.weights()[q] * 2.0 * viscosity * squared;
+        result.by_region[static_cast<std::size_t>(mesh.region[c].value)] += heat;
         for (std::size_t i = 0; i < cell.nodes().size(); ++i)
-          result[static_cast<std::size_t>(cell.nodes()[i])] +=
-              cell.weights()[q] * heat * cell.values()[q * cell.kWidth + i];
+          result.by_node[static_cast<std::size_t>(cell.nodes()[i])] +=
+              heat * cell.values()[q * cell.kWidth + i];
       }
     }
   });

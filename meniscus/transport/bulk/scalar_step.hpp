@@ -6,6 +6,18 @@
 
 namespace meniscus::bulk {
 
+/// The heat of viscous dissipation, 2μ D:D [μ_out G² R0³].
+struct DissipatedHeat {
+  std::vector<double> by_node;    ///< ∫2μ D:D φ_i
+  std::vector<double> by_region;  ///< ∫2μ D:D
+};
+/// The viscosity is that at the values of the scalars.
+[[nodiscard]] DissipatedHeat dissipated_heat(const Scene& scene, const TetMesh& mesh,
+                                             const ScalarSpace& space,
+                                             const NodePositions& positions,
+                                             const Field<NodeId, Vec3>& v,
+                                             const BulkScalars& scalars);
+
 /// What moves a scalar through one step.
 struct ScalarMotion {
   const Scene& start;
@@ -17,6 +29,7 @@ struct ScalarMotion {
   const MassMatrix& mass_at_start;  ///< of the scalar
   const MassMatrix& mass_at_end;
   const Field<NodeId, Vec3>& v;  ///< of the liquid, at the nodes [G R0]
+  const DissipatedHeat& heat;    ///< empty where no scalar takes it
   double duration;
 };
 
@@ -29,12 +42,6 @@ ScalarAdvance convect(const ScalarMotion& motion, std::size_t k, BulkScalar& sca
 Report conduct(const Scene& scene, const TetMesh& mesh, const ScalarSpace& space,
                const NodePositions& positions, std::size_t k, std::span<const double> heat,
                BulkScalar& scalar);
-/// ∫2μ D:D φ_i by node: the heat of viscous dissipation [μ_out G² R0³].
-[[nodiscard]] std::vector<double> dissipation(const Scene& scene, const TetMesh& mesh,
-                                              const ScalarSpace& space,
-                                              const NodePositions& positions,
-                                              const Field<NodeId, Vec3>& v);
-
 /// ∫γT dV of every region [R0³]; the matrix's is not asked for, and 0.
 [[nodiscard]] std::vector<double> inner_amounts(const Scene& scene, const TetMesh& mesh,
                                                 const ScalarSpace& space,

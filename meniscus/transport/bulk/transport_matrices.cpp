@@ -146,11 +146,8 @@ std::vector<double> product(const ScalarSpace& space, const MatrixValues& values
 
 MassMatrix mass_matrix(const Scene& scene, const TetMesh& mesh, const ScalarSpace& space,
                        const NodePositions& positions, std::span<const double> capacity) {
-  const std::vector<double> filled = element_volumes(mesh, space, positions);
-  const std::vector<double> nominal = nominal_volumes(scene, sum(filled));
-  std::vector<double> density(filled.size());
-  for (std::size_t r = 0; r < density.size(); ++r)
-    density[r] = capacity[r] * (nominal[r] > 0.0 && filled[r] > 0.0 ? nominal[r] / filled[r] : 1.0);
+  std::vector<double> density = volume_shares(scene, mesh, space, positions);
+  for (std::size_t r = 0; r < density.size(); ++r) density[r] *= capacity[r];
   MassMatrix mass{MatrixValues(space.graph.num_entries(), 0.0),
                   std::vector<double>(at(space.num_nodes()), 0.0)};
   with_kernel(space, positions, [&](auto& cell) {
