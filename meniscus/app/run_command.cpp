@@ -206,7 +206,7 @@ int run(const RunArguments& arguments) {
   // Nothing is written before the run can begin.
   std::optional<RunDirectory> directory;
   on_first_rank([&] {
-    directory = RunDirectory::create(folder, arguments.is_overwrite, evolution.scene().scalars);
+    directory = RunDirectory::create(folder, arguments.is_overwrite, physics_of(evolution.scene()));
     try {
       copy_reference(file.parent_path(), folder);
     } catch (const std::exception&) {
@@ -246,8 +246,8 @@ int resume(const ResumeArguments& arguments) {
   std::optional<RunDirectory> directory;
   on_first_rank([&] {
     record.go_on_from(folder / io::RunFiles::record);
-    directory =
-        RunDirectory::take_up(folder, evolution.step(), evolution.t(), evolution.scene().scalars);
+    directory = RunDirectory::take_up(folder, evolution.step(), evolution.t(),
+                                      physics_of(evolution.scene()));
   });
   Progress progress(evolution.t(), c.evolution.end, arguments.is_quiet);
   Simulation simulation(std::move(evolution), std::move(directory), c.output,

@@ -46,20 +46,20 @@ io::TableWriter table(const fs::path& path, const std::vector<std::string>& colu
 
 }  // namespace
 
-RunDirectory::RunDirectory(FolderLock lock, fs::path path, std::vector<Scalar> scalars,
+RunDirectory::RunDirectory(FolderLock lock, fs::path path, RunPhysics physics,
                            std::optional<std::int64_t> first_step)
     : lock_(std::move(lock)),
       path_(std::move(path)),
-      scalars_(std::move(scalars)),
+      physics_(std::move(physics)),
       kept_steps_(first_step ? steps_around_events(path_ / RunFiles::events)
                              : std::set<std::int64_t>{}),
-      history_(table(path_ / RunFiles::history, history_names(scalars_), first_step)),
-      drops_(table(path_ / RunFiles::drops, drop_names(scalars_), first_step)),
+      history_(table(path_ / RunFiles::history, history_names(physics_), first_step)),
+      drops_(table(path_ / RunFiles::drops, drop_names(physics_), first_step)),
       events_(table(path_ / RunFiles::events, names_of(event_columns()), first_step)),
-      timing_(table(path_ / RunFiles::timing, timing_columns(!scalars_.empty()), first_step)) {}
+      timing_(
+          table(path_ / RunFiles::timing, timing_columns(!physics_.scalars.empty()), first_step)) {}
 
-RunDirectory RunDirectory::create(const fs::path& path, bool overwrite,
-                                  std::vector<Scalar> scalars) {
+RunDirectory RunDirectory::create(const fs::path& path, bool overwrite, RunPhysics physics) {
   require_usable(path, overwrite);
   std::error_code error;
   fs::create_directories(path, error);
@@ -67,7 +67,7 @@ RunDirectory RunDirectory::create(const fs::path& path, bool overwrite,
   FolderLock lock(path);
   if (holds_run(path)) remove_run(path);
   try {
-    return RunDirectory(std::move(lock), path, std::move(scalars), std::nullopt);
+    return RunDirectory(std::move(lock), path, std::move(physics), std::nullopt);
   } catch (const std::exception&) {
     remove_unbegun_run(path);
     throw;
@@ -75,8 +75,8 @@ RunDirectory RunDirectory::create(const fs::path& path, bool overwrite,
 }
 
 RunDirectory RunDirectory::take_up(const fs::path& path, std::int64_t first_step, double t,
-                                   std::vector<Scalar> scalars) {
-  RunDirectory directory(FolderLock(path), path, std::move(scalars), first_step);
+                                   RunPhysics physics) {
+  RunDirectory directory(FolderLock(path), path, std::move(physics), first_step);
   directory.surface_frames_ = frames_before(path / RunFiles::surface_frames, t);
   directory.volume_frames_ = frames_before(path / RunFiles::volume_frames, t);
   return directory;
@@ -85,8 +85,8 @@ RunDirectory RunDirectory::take_up(const fs::path& path, std::int64_t first_step
 void RunDirectory::add_rows(const HistoryRow& history, const std::vector<DropRow>& drops) {
   MENISCUS_ASSERT(history.drops == static_cast<int>(drops.size()), "{} rows of {} drops",
                   drops.size(), history.drops);
-  for (const DropRow& row : drops) drops_.add(drop_cells({history.step, history.t, row}, scalars_));
-  history_.add(history_cells(history, scalars_));
+  for (const DropRow& row : drops) drops_.add(drop_cells({history.step, history.t, row}, physics_));
+  history_.add(history_cells(history, physics_));
 }
 
 void RunDirectory::add_events(std::int64_t step, double t,
@@ -97,7 +97,7 @@ void RunDirectory::add_events(std::int64_t step, double t,
 }
 
 void RunDirectory::add_timing(std::int64_t step, double t, const PhaseSeconds& seconds) {
-  timing_.add(timing_row(step, t, seconds, !scalars_.empty()));
+  timing_.add(timing_row(step, t, seconds, !physics_.scalars.empty()));
 }
 
 void RunDirectory::add_surface_frame(const Evolution& evolution) {

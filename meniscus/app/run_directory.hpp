@@ -20,14 +20,14 @@ class RunDirectory {
   /// Makes a folder for a new run. Throws InvalidInput when the path cannot be a folder, holds a
   /// run already, or is locked by another program. With `overwrite` the files of that run are
   /// removed first. The folder stays locked as long as this object lives. The tables have columns
-  /// of the given bulk scalars.
+  /// of the given physics.
   static RunDirectory create(const std::filesystem::path& path, bool overwrite,
-                             std::vector<Scalar> scalars = {});
+                             RunPhysics physics = {});
   /// Resumes a run from the state at `first_step`, time t. Rows and frames from there on are
   /// removed, to be written again. Throws InvalidInput when another program has locked the folder,
   /// or its tables have other columns.
   static RunDirectory take_up(const std::filesystem::path& path, std::int64_t first_step, double t,
-                              std::vector<Scalar> scalars = {});
+                              RunPhysics physics = {});
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// The frames that surface.pvd and volume.pvd name.
@@ -45,12 +45,12 @@ class RunDirectory {
   void write_text(const std::string& name, const std::string& text) const;
 
  private:
-  RunDirectory(FolderLock lock, std::filesystem::path path, std::vector<Scalar> scalars,
+  RunDirectory(FolderLock lock, std::filesystem::path path, RunPhysics physics,
                std::optional<std::int64_t> first_step);
 
   FolderLock lock_;
   std::filesystem::path path_;
-  std::vector<Scalar> scalars_;
+  RunPhysics physics_;
   std::set<std::int64_t> kept_steps_;  // steps whose checkpoints are kept because of events
   io::TableWriter history_, drops_, events_, timing_;
   std::vector<io::PvdEntry> surface_frames_, volume_frames_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -34,9 +35,9 @@ Cell difference(const HistoryRow& h) {
 }
 
 /// The words of StepBound, in its order.
-constexpr std::array kBounds{"step-factor",  "error",    "stability", "slip",
-                             "displacement", "neck",     "growth",    "beginning",
-                             "jump",         "max-step", "min-step",  "refusal"};
+constexpr std::array kBounds{"step-factor", "error",   "stability", "slip", "displacement",
+                             "neck",        "growth",  "beginning", "jump", "max-step",
+                             "min-step",    "refusal", "convection"};
 std::string word_for(StepBound bound) { return kBounds.at(static_cast<std::size_t>(bound)); }
 
 constexpr const char *kPower = "μ_out G² R0³", *kStress = "μ_out G", *kEnergy = "μ_out G R0³";
@@ -129,6 +130,34 @@ constexpr std::array<Column<Event>, 16> kEvents{{
     {"gap", "R0", [](const Event& e) { return cell(e.row.gap); }},
 }};
 
+template <double KineticTotals::*Member>
+Cell kinetic(const HistoryRow& h) {
+  return h.kinetic ? Cell((*h.kinetic).*Member) : Cell();
+}
+constexpr std::array<Column<HistoryRow>, 4> kHistoryOfInertia{{
+    {"kinetic_energy", kEnergy, kinetic<&KineticTotals::energy>},
+    {"kinetic_rate", kPower, kinetic<&KineticTotals::rate>},
+    {"transfer_momentum_lost", "", kinetic<&KineticTotals::momentum_lost>},
+    {"transfer_energy_lost", kEnergy, kinetic<&KineticTotals::energy_lost>},
+}};
+
+template <int I>
+Cell velocity(const Drop& d) {
+  return d.row.motion ? Cell(d.row.motion->velocity[I]) : Cell();
+}
+template <double DropMotion::*Member>
+Cell motion(const Drop& d) {
+  return d.row.motion ? Cell((*d.row.motion).*Member) : Cell();
+}
+constexpr std::array<Column<Drop>, 6> kDropsOfInertia{{
+    {"velocity_x", "G R0", velocity<0>},
+    {"velocity_y", "G R0", velocity<1>},
+    {"velocity_z", "G R0", velocity<2>},
+    {"reynolds", "", motion<&DropMotion::reynolds>},
+    {"kinetic_energy", kEnergy, motion<&DropMotion::kinetic_energy>},
+    {"sphericity", "", motion<&DropMotion::sphericity>},
+}};
+
 using OfAll = ScalarColumn<ScalarTotals>::Of;
 constexpr std::array<ScalarColumn<ScalarTotals>, 5> kHistoryOfScalars{{
     {OfAll::every, "_total", "R0³", [](const ScalarTotals& s) { return Cell(s.amount); }},
@@ -177,30 +206,42 @@ constexpr std::array kPhases{"remesh surface", "tetrahedralize", "assemble", "so
 std::span<const Column<HistoryRow>> history_columns() { return kHistory; }
 std::span<const Column<Drop>> drop_columns() { return kDrops; }
 std::span<const Column<Event>> event_columns() { return kEvents; }
+std::span<const Column<HistoryRow>> history_inertia_columns() { return kHistoryOfInertia; }
+std::span<const Column<Drop>> drop_inertia_columns() { return kDropsOfInertia; }
 std::span<const ScalarColumn<ScalarTotals>> history_scalar_columns() { return kHistoryOfScalars; }
 std::span<const ScalarColumn<ScalarOnDrop>> drop_scalar_columns() { return kDropsOfScalars; }
 
-std::vector<std::string> history_names(std::span<const Scalar> scalars) {
+RunPhysics physics_of(const Scene& scene) { return {scene.scalars, has_inertia(scene)}; }
+
+std::vector<std::string> history_names(const RunPhysics& physics) {
   std::vector<std::string> names = names_of(history_columns());
-  append_names(names, history_scalar_columns(), scalars);
+  if (physics.has_inertia)
+    std::ranges::move(names_of(history_inertia_columns()), std::back_inserter(names));
+  append_names(names, history_scalar_columns(), physics.scalars);
   return names;
 }
 
-std::vector<std::string> drop_names(std::span<const Scalar> scalars) {
+std::vector<std::string> drop_names(const RunPhysics& physics) {
   std::vector<std::string> names = names_of(drop_columns());
-  append_names(names, drop_scalar_columns(), scalars);
+  if (physics.has_inertia)
+    std::ranges::move(names_of(drop_inertia_columns()), std::back_inserter(names));
+  append_names(names, drop_scalar_columns(), physics.scalars);
   return names;
 }
 
-std::vector<Cell> history_cells(const HistoryRow& row, std::span<const Scalar> scalars) {
+std::vector<Cell> history_cells(const HistoryRow& row, const RunPhysics& physics) {
   std::vector<Cell> cells = cells_of(history_columns(), row);
-  append_cells(cells, history_scalar_columns(), scalars, row.scalars);
+  if (physics.has_inertia)
+    std::ranges::move(cells_of(history_inertia_columns(), row), std::back_inserter(cells));
+  append_cells(cells, history_scalar_columns(), physics.scalars, row.scalars);
   return cells;
 }
 
-std::vector<Cell> drop_cells(const RowAtStep<DropRow>& row, std::span<const Scalar> scalars) {
+std::vector<Cell> drop_cells(const RowAtStep<DropRow>& row, const RunPhysics& physics) {
   std::vector<Cell> cells = cells_of(drop_columns(), row);
-  append_cells(cells, drop_scalar_columns(), scalars, row.row.scalars);
+  if (physics.has_inertia)
+    std::ranges::move(cells_of(drop_inertia_columns(), row), std::back_inserter(cells));
+  append_cells(cells, drop_scalar_columns(), physics.scalars, row.row.scalars);
   return cells;
 }
 

@@ -7,7 +7,7 @@
 
 #include "meniscus/evolve/record.hpp"
 #include "meniscus/io/table.hpp"
-#include "meniscus/scene/scalar.hpp"
+#include "meniscus/scene/scene.hpp"
 #include "meniscus/topology/events.hpp"
 
 namespace meniscus {
@@ -40,23 +40,32 @@ struct ScalarColumn {
   }
 };
 
-/// The columns of history.csv, drops.csv and events.csv, in their order; those of bulk scalars
-/// follow.
+/// The columns of history.csv, drops.csv and events.csv, in their order; those of inertia and
+/// of bulk scalars follow.
 [[nodiscard]] std::span<const Column<HistoryRow>> history_columns();
 [[nodiscard]] std::span<const Column<RowAtStep<DropRow>>> drop_columns();
 [[nodiscard]] std::span<const Column<RowAtStep<TopologyEvent>>> event_columns();
 
+/// What the liquids of a run have beyond viscosity, which its tables have columns for.
+struct RunPhysics {
+  std::vector<Scalar> scalars;
+  bool has_inertia = false;
+};
+[[nodiscard]] RunPhysics physics_of(const Scene& scene);
+
+/// Those of liquids with inertia, behind the columns above.
+[[nodiscard]] std::span<const Column<HistoryRow>> history_inertia_columns();
+[[nodiscard]] std::span<const Column<RowAtStep<DropRow>>> drop_inertia_columns();
 [[nodiscard]] std::span<const ScalarColumn<ScalarTotals>> history_scalar_columns();
 [[nodiscard]] std::span<const ScalarColumn<ScalarOnDrop>> drop_scalar_columns();
 
-/// The columns of history.csv and drops.csv in a run with the given bulk scalars: the fixed ones,
-/// then all of the first scalar, of the second, ….
-[[nodiscard]] std::vector<std::string> history_names(std::span<const Scalar> scalars);
-[[nodiscard]] std::vector<std::string> drop_names(std::span<const Scalar> scalars);
-[[nodiscard]] std::vector<io::Cell> history_cells(const HistoryRow& row,
-                                                  std::span<const Scalar> scalars);
+/// The columns of history.csv and drops.csv in a run: the fixed ones, those of inertia where there
+/// is any, then all of the first scalar, of the second, ….
+[[nodiscard]] std::vector<std::string> history_names(const RunPhysics& physics);
+[[nodiscard]] std::vector<std::string> drop_names(const RunPhysics& physics);
+[[nodiscard]] std::vector<io::Cell> history_cells(const HistoryRow& row, const RunPhysics& physics);
 [[nodiscard]] std::vector<io::Cell> drop_cells(const RowAtStep<DropRow>& row,
-                                               std::span<const Scalar> scalars);
+                                               const RunPhysics& physics);
 
 /// The phases of timing.csv and run.json, in their order; one more in runs with bulk scalars.
 [[nodiscard]] std::span<const char* const> timed_phases(bool has_scalars);

@@ -186,6 +186,12 @@ double squared_distance(const SurfaceMesh& mesh, const Vec3& position) {
   return least;
 }
 
+/// Of the drop's liquid less the matrix's, per volume [μ_out G/R0].
+Vec3 weight(const Case& c, const DropCase& drop) {
+  if (c.gravity.isZero(0.0)) return Vec3::Zero();
+  return (drop.density_ratio - 1.0) / c.Ca * c.gravity;
+}
+
 }  // namespace
 
 Scene build_surroundings(const Case& c) {
@@ -196,12 +202,14 @@ Scene build_surroundings(const Case& c) {
   if (!scene.is_unbounded) scene.boundary = build_boundary(c);
   for (const ScalarCase& each : c.scalars) scene.scalars.push_back(each.scalar);
   scene.liquids.add({.viscosity = 1.0,
+                     .density = c.reynolds,
                      .body_force = c.matrix_body_force,
                      .law = c.matrix_law,
                      .scalars = scalars_in(c, 0)});
   for (std::size_t i = 0; i < c.drops.size(); ++i)
     scene.liquids.add({.viscosity = c.drops[i].viscosity_ratio,
-                       .body_force = c.drops[i].body_force,
+                       .density = c.reynolds * c.drops[i].density_ratio,
+                       .body_force = c.drops[i].body_force + weight(c, c.drops[i]),
                        .law = c.drops[i].law,
                        .scalars = scalars_in(c, i + 1)});
   return scene;

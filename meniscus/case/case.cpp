@@ -30,7 +30,8 @@ double read_scale(Settings& settings) {
   if (!settings.has_table("scale")) return settings.number("flow.capillary-number");
   Scale scale{.length = settings.number("scale.length"),
               .viscosity = settings.number("scale.viscosity"),
-              .surface_tension = settings.number("scale.surface-tension")};
+              .surface_tension = settings.number("scale.surface-tension"),
+              .density = settings.number("scale.density")};
   const bool is_quiescent =
       settings.is_given("flow.kind") && settings.text("flow.kind") == "quiescent";
   scale.rate = is_quiescent && scale.surface_tension > 0.0
@@ -118,7 +119,9 @@ Case parse_case(std::string_view text, const std::string& name, const std::files
     require_weak_form(c);
     c.volume_mesh = read_volume_mesh(c.settings, c.flow_solver.elements);
   }
-  c.evolution = read_evolution(c.settings, c.method, c.flow_solver.elements);
+  read_inertia(c);
+  c.evolution = read_evolution(c.settings, c.method, c.flow_solver.elements, c.reynolds > 0.0);
+  require_inertia_fits(c);
   if (!c.scalars.empty() && c.evolution.follows_drops)
     c.settings.reject("domain.frame",
                       "must be \"fixed\" with a [[scalar]]: what is carried would not follow");

@@ -37,6 +37,7 @@ struct DropCase {
   DropShapeCase shape;
   Vec3 center = Vec3::Zero();
   double viscosity_ratio = 1.0;
+  double density_ratio = 1.0;  ///< over the matrix's
   ViscosityLaw law = {};
   double tension_ratio = 1.0;
   int nodes = 110;  ///< N0
@@ -100,6 +101,8 @@ struct Case {
   Settings settings;  ///< every key with its value and source
   std::string title;
   double Ca = 1.0;
+  double reynolds = 0.0;        ///< Re = ρ_out G R0²/μ_out; 0: Stokes flow
+  Vec3 gravity = Vec3::Zero();  ///< Bond number ρ_out g R0²/σ
   ImposedFlow flow;
   Vec3 matrix_body_force = Vec3::Zero();
   ViscosityLaw matrix_law = {};

@@ -28,8 +28,13 @@ void read_adsorption(Settings& settings, const std::vector<ScalarCase>& scalars,
                      std::vector<DropCase>& drops);
 /// Throws InvalidInput when there is a [[scalar]], of which boundary integrals know nothing.
 void require_no_scalars(const Settings& settings);
+/// Reads the Reynolds number, gravity and densities.
+void read_inertia(Case& c);
+/// Throws InvalidInput where another part of the case does not go with inertia or its absence.
+void require_inertia_fits(const Case& c);
+/// The default of a scheme depends on whether liquids have inertia.
 [[nodiscard]] EvolutionOptions read_evolution(Settings& settings, FlowMethod method,
-                                              fem::Elements elements);
+                                              fem::Elements elements, bool has_inertia);
 /// Throws InvalidInput when a liquid is not Newtonian, as boundary integrals require.
 void require_newtonian(const Case& c);
 [[nodiscard]] FlowMethod read_method(Settings& settings, const DomainCase& domain);

@@ -56,9 +56,10 @@ StepControl read_control(Settings& settings) {
   return settings.choice("time.control", words::step_controls);
 }
 
-TimeScheme read_scheme(Settings& settings, StepControl control) {
-  const TimeScheme suited =
+TimeScheme read_scheme(Settings& settings, StepControl control, bool has_inertia) {
+  const TimeScheme of_stokes =
       control == StepControl::error ? TimeScheme::semi_implicit : TimeScheme::rk2;
+  const TimeScheme suited = has_inertia ? TimeScheme::implicit : of_stokes;
   settings.prefer("time.scheme", std::string(words::word_for(words::time_schemes, suited)));
   const auto scheme = settings.choice("time.scheme", words::time_schemes);
   if (scheme == TimeScheme::euler && control == StepControl::error)
@@ -68,9 +69,9 @@ TimeScheme read_scheme(Settings& settings, StepControl control) {
 }
 
 /// How steps are made, and how long they are.
-void read_steps(Settings& settings, EvolutionOptions& options) {
+void read_steps(Settings& settings, bool has_inertia, EvolutionOptions& options) {
   options.control = read_control(settings);
-  options.scheme = read_scheme(settings, options.control);
+  options.scheme = read_scheme(settings, options.control, has_inertia);
   if (options.control == StepControl::paper) {
     options.step_factor = settings.number("time.step-factor");
     options.step_edges = settings.choice("time.step-edges", words::step_edges);
@@ -99,12 +100,13 @@ void read_motion_normal(Settings& settings, EvolutionOptions& options) {
 
 }  // namespace
 
-EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elements elements) {
+EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elements elements,
+                                bool has_inertia) {
   EvolutionOptions options;
   options.surface = surface_shape(method, elements);
   read_motion_normal(settings, options);
   options.end = settings.number("time.end");
-  read_steps(settings, options);
+  read_steps(settings, has_inertia, options);
   options.follows_drops = settings.choice("domain.frame", words::domain_frames);
   settings.prefer("interface.remesh-every",
                   std::int64_t{options.control == StepControl::paper ? 1 : 0});

@@ -63,6 +63,8 @@ std::string_view unit(Dimension dimension) {
       return "mu_out G";
     case Dimension::force_density:
       return "mu_out G/R0";
+    case Dimension::gravity:
+      return "sigma/(rho_out R0²)";
   }
   return "";
 }
@@ -83,6 +85,8 @@ std::string_view si_unit(Dimension dimension) {
       return "Pa";
     case Dimension::force_density:
       return "N/m³";
+    case Dimension::gravity:
+      return "m/s²";
   }
   return "";
 }

@@ -12,7 +12,7 @@
 namespace meniscus::schema {
 
 /// The dimension of a key; with [scale] its value is in SI units and converted by this.
-enum class Dimension { none, length, time, rate, velocity, stress, force_density };
+enum class Dimension { none, length, time, rate, velocity, stress, force_density, gravity };
 
 /// Allowed numbers (each component of a vector), dimensionless. NaN is never allowed.
 struct Range {

@@ -36,6 +36,24 @@ const std::vector<Key> kFlowKeys{
          "Ca = mu_out G R0/sigma; inf: no surface tension. 1 or inf where neither the flow nor "
          "a patch sets a rate: then times are in mu_out R0/sigma."},
 
+    {.path = "flow.reynolds-number",
+     .range = kNotNegative,
+     .value = 0.0,
+     .applies = "without [scale]",
+     .sentence = "Re = rho_out G R0²/mu_out, the matrix's inertia over its viscosity; where times "
+                 "are in mu_out R0/sigma it is the Laplace number rho_out sigma R0/mu_out². 0: "
+                 "Stokes flow."},
+    {.path = "flow.gravity",
+     .type = vector,
+     .dimension = Dimension::gravity,
+     .range = kFinite,
+     .value = Vec3(Vec3::Zero()),
+     .applies = "with drop.density-ratio",
+     .sentence =
+         "The Bond number rho_out g R0²/sigma by components. Pressures are those beyond the "
+         "matrix's hydrostatic one, so that it acts on differences of density alone. With [scale] "
+         "it needs scale.density."},
+
     {.path = "flow.schedule[].time",
      .dimension = Dimension::time,
      .range = kNotNegative,

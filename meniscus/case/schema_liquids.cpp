@@ -120,6 +120,11 @@ const std::vector<Key> kLiquidKeys{
      .value = 1.0,
      .sentence = "lambda: the drop's viscosity over the matrix's; where one depends on the rate of "
                  "shear, that at rest (carreau-yasuda) or at the rate G (power-law)."},
+    {.path = "drop[].density-ratio",
+     .range = kPositive,
+     .value = 1.0,
+     .applies = "with inertia (reynolds-number, scale.density) or gravity",
+     .sentence = "The drop's density over the matrix's."},
     {.path = "drop[].viscosity-law",
      .type = word,
      .words = words::list(words::viscosity_laws),

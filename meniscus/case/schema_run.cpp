@@ -139,11 +139,14 @@ const std::vector<Key> kRunKeys{
     {.path = "time.scheme",
      .type = word,
      .words = words::list(words::time_schemes),
-     .default_note = "\"semi-implicit\"; \"rk2\" with control = \"paper\"",
-     .sentence = "Midpoint Runge-Kutta (the paper's eq. 22), explicit Euler (eq. 21); the midpoint "
-                 "rule with surface tension damped so that long steps are stable; or "
-                 "Runge-Kutta-Chebyshev: of second order too, with as many solves of "
-                 "the flow, 3 to 24, as make the step stable."},
+     .default_note = "\"semi-implicit\"; \"rk2\" with control = \"paper\"; \"implicit\" with "
+                     "inertia",
+     .sentence =
+         "Midpoint Runge-Kutta (the paper's eq. 22), explicit Euler (eq. 21); the midpoint "
+         "rule with surface tension damped so that long steps are stable; or "
+         "Runge-Kutta-Chebyshev: of second order too, with as many solves of "
+         "the flow, 3 to 24, as make the step stable. Liquids with inertia have a scheme of "
+         "their own."},
     {.path = "time.end",
      .dimension = Dimension::time,
      .range = kNotNegative,
@@ -220,6 +223,10 @@ const std::vector<Key> kRunKeys{
      .range = kNotNegative,
      .default_note = "required with [scale]",
      .sentence = "sigma in newtons per metre; 0: none."},
+    {.path = "scale.density",
+     .range = kNotNegative,
+     .value = 0.0,
+     .sentence = "rho_out in kilograms per cubic metre; 0: no inertia."},
     {.path = "scale.rate",
      .range = kPositive,
      .default_note = "required with [scale]; surface-tension/(viscosity · length) in a quiescent "

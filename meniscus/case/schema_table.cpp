@@ -61,8 +61,9 @@ const std::vector<Table> kTables{
     {"scale", false,
      "With this table every key that has a unit is given in SI units, coordinates in surface files "
      "included, and is converted once, when the case is read: lengths by `length` (R0), times by "
-     "1/`rate` (1/G), and the capillary number is viscosity · rate · length / surface-tension. All "
-     "results stay dimensionless. The run of a from-run is dimensionless already."},
+     "1/`rate` (1/G), the capillary number is viscosity · rate · length / surface-tension, the "
+     "Reynolds number density · rate · length² / viscosity. All results stay dimensionless. The "
+     "run of a from-run is dimensionless already."},
 };
 
 std::vector<Key> all_keys() {

@@ -26,6 +26,8 @@ double Scale::unit(Dimension dimension) const {
       return viscosity * rate;
     case Dimension::force_density:
       return viscosity * rate / length;
+    case Dimension::gravity:
+      return surface_tension / (density * length * length);
   }
   return 1.0;
 }

@@ -18,6 +18,7 @@ struct Scale {
   double viscosity = 1.0;        ///< μ_out [Pa s]
   double surface_tension = 1.0;  ///< σ [N/m]
   double rate = 1.0;             ///< G [1/s]
+  double density = 0.0;          ///< ρ_out [kg/m³]; 0: not known
 
   /// The dimensionless unit of a dimension, in SI units.
   [[nodiscard]] double unit(schema::Dimension dimension) const;

@@ -86,7 +86,7 @@ inline constexpr std::array linear_solvers{
 inline constexpr std::array time_schemes{
     Word<TimeScheme>{"rk2", TimeScheme::rk2}, Word<TimeScheme>{"euler", TimeScheme::euler},
     Word<TimeScheme>{"semi-implicit", TimeScheme::semi_implicit},
-    Word<TimeScheme>{"rkc", TimeScheme::rkc}};
+    Word<TimeScheme>{"rkc", TimeScheme::rkc}, Word<TimeScheme>{"implicit", TimeScheme::implicit}};
 inline constexpr std::array step_controls{Word<StepControl>{"paper", StepControl::paper},
                                           Word<StepControl>{"error", StepControl::error}};
 inline constexpr std::array step_edges{Word<StepEdges>{"interface", StepEdges::interface},

@@ -64,6 +64,9 @@ inline constexpr double kAimedNeckLoss = 0.1;
 inline constexpr double kMostError = 0.1;
 /// A step is refused where it exceeds what it aimed at by more than this factor.
 inline constexpr double kMostExcess = 2.0;
+/// [shortest edge of the tetrahedra] The way of liquids with inertia past the mesh that a step aims
+/// at. Stages are implicit, so that it bounds errors alone.
+inline constexpr double kAimedCourant = 2.0;
 /// The largest number of stages of a Runge–Kutta–Chebyshev step.
 inline constexpr int kMostStages = 24;
 /// A run begins, and goes on after an event or a jump of the flow, with this fraction of the
@@ -91,6 +94,7 @@ inline constexpr std::array kEvolveConstants{
     NamedConstant{"least-slip", kLeastSlip},
     NamedConstant{"most-slip", kMostSlip},
     NamedConstant{"aimed-neck-loss", kAimedNeckLoss},
+    NamedConstant{"aimed-courant", kAimedCourant},
     NamedConstant{"most-error", kMostError},
     NamedConstant{"most-excess", kMostExcess},
     NamedConstant{"most-stages", kMostStages},

@@ -80,13 +80,14 @@ Report Evolution::prepare() {
   const Scene before = state_.scene;
   remesh_interfaces();
   keep_surfactant(state_.scene, before, carriers_);
-  if (Report made = follow_interfaces(before); !made.ok()) return made;
+  if (Report made = follow_interfaces(before, state_.t); !made.ok()) return made;
   if (state_.scene.scalars.empty()) return {};
   return scalar_solver_->initial(state_.domain(), state_.scalars);
 }
 
 Report Evolution::solve() {
   first_ = flow_at({.t = state_.t});
+  if (first_.ok() && !state_.flow) state_.flow = first_.flow.nodal;
   return first_;
 }
 
@@ -167,6 +168,17 @@ StageFlow Evolution::time_scheme_step(const Scene& start, double dt) {
       return midpoint_step(first_, step, solve);
     case TimeScheme::semi_implicit:
       return semi_implicit_step(first_, step, solve, damp);
+    case TimeScheme::implicit:
+      return implicit_step(
+          first_, step,
+          [&](const StageFlow& stage, double way, const Instant& instant,
+              const ImplicitStage& implicit) {
+            return solve_stage(start, stage, way, instant, &implicit);
+          },
+          [&](StageFlow& stage, const NormalSpeeds& about) {
+            const PhaseTimer timer(times_, "move interfaces");
+            slow_down(stage, state_.scene, about, kImplicitShare * dt);
+          });
     case TimeScheme::rkc:
       return chebyshev_step(first_, step, num_stable_stages(start, dt), solve);
   }
@@ -177,6 +189,9 @@ StageFlow Evolution::time_scheme_step(const Scene& start, double dt) {
 Report Evolution::judge_motion(const Scene& start, const StageFlow& whole, double dt) {
   if (options_.scheme != TimeScheme::euler) attempt_.error = whole.error;
   attempt_.travel = vertex_travel(start, whole.motion, whole.flow.velocity, dt);
+  if (whole.flow.nodal)
+    attempt_.courant =
+        courant_number(state_.mesh->tetrahedra(), whole.flow.bulk->v, state_.mesh->velocity(), dt);
   std::optional<Fault> excess = find_excess(attempt_, options_);
   attempt_.is_excessive = excess && options_.control == StepControl::error;
   return {std::move(excess)};
@@ -184,7 +199,7 @@ Report Evolution::judge_motion(const Scene& start, const StageFlow& whole, doubl
 
 /// The flow after the interfaces moved for `duration` from where they were at `start`.
 StageFlow Evolution::solve_stage(const Scene& start, const StageFlow& stage, double duration,
-                                 const Instant& instant) {
+                                 const Instant& instant, const ImplicitStage* implicit) {
   time_phase(times_, "move interfaces", [&] {
     state_.scene = start;
     move_interfaces(state_.scene, stage.motion, duration);
@@ -195,7 +210,7 @@ StageFlow Evolution::solve_stage(const Scene& start, const StageFlow& stage, dou
   if (act_on_flow(state_.scene) || has_soluble_surfactant(state_.scene))
     if (Report moved = move_scalars(start, stage.flow, duration); !moved.ok())
       return {std::move(moved)};
-  return flow_at(instant);
+  return flow_at(instant, implicit);
 }
 
 /// A fault where a step is too long for the scalars.
@@ -222,13 +237,13 @@ ScalarAdvance Evolution::move_scalars(const Scene& start, const FlowSolution& fl
   return moved;
 }
 
-StageFlow Evolution::flow_at(const Instant& instant) {
+StageFlow Evolution::flow_at(const Instant& instant, const ImplicitStage* implicit) {
   StageFlow stage;
   stage.fault = find_surfactant_fault(state_.scene);
   if (stage.ok() && state_.mesh)
     stage.fault = set_tension_factors(state_.scene, state_.mesh->tetrahedra(), state_.scalars);
   if (!stage.ok()) return stage;
-  stage.flow = solve_flow(instant);
+  stage.flow = solve_flow(instant, implicit);
   stage.fault = stage.flow.fault;
   if (!stage.ok()) return stage;
   MENISCUS_ASSERT(stage.flow.velocity.size() == state_.scene.interfaces.size(),
@@ -241,7 +256,7 @@ StageFlow Evolution::flow_at(const Instant& instant) {
       follow_faces(state_.scene.interfaces[i].mesh, stage.normals[i], stage.flow.middles[i],
                    stage.flow.velocity[i]);
   stage.normal_speed = normal_speeds(stage.normals, stage.flow.velocity);
-  if (options_.scheme == TimeScheme::semi_implicit) {
+  if (options_.scheme == TimeScheme::semi_implicit || options_.scheme == TimeScheme::implicit) {
     stage.shape = shape_motion(state_.scene, stage.normals, stage.flow.velocity);
     stage.motion = velocity_of(stage.shape, state_.scene);
   } else {
@@ -261,6 +276,8 @@ Report Evolution::finish_step(const Scene& start, const StageFlow& whole, double
                   whole.motion.size(), start.interfaces.size());
   state_.events.clear();
   state_.shift_over_edge = 0.0;
+  state_.flow = whole.flow.nodal;
+  state_.momentum_lost = state_.energy_lost = 0.0;
   if (Report moved = move_whole_step(start, whole, dt); !moved.ok()) return moved;
   std::optional<TetMesh> exchanged_at;
   if (has_soluble_surfactant(state_.scene)) {
@@ -292,7 +309,7 @@ Report Evolution::finish_step(const Scene& start, const StageFlow& whole, double
   }
   if (Report carried = carry_fields_of_mesh(start, moved, whole.flow, dt); !carried.ok())
     return carried;
-  return follow_interfaces(moved, liquid_sources(state_.events));
+  return follow_interfaces(moved, state_.t + dt, liquid_sources(state_.events));
 }
 
 /// Takes bulk scalars and surfactants through the step where the interfaces have moved and are not
@@ -348,10 +365,11 @@ void Evolution::move_surfactant(const Scene& start, const StageFlow& stage, doub
 
 /// Moves fields in the bulk with the mesh to where the step moved the interfaces, before a new mesh
 /// replaces it. Where cells would invert on the way, fields are transferred from the mesh as it
-/// stands; with bulk scalars the step is refused.
+/// stands; with bulk scalars or inertia the step is refused.
 Report Evolution::carry_fields_of_mesh(const Scene& start, const Scene& moved,
                                        const FlowSolution& flow, double dt) {
-  if (!state_.mesh || (state_.mesh->fields().empty() && state_.scalars.empty())) return {};
+  if (!state_.mesh || (state_.mesh->fields().empty() && state_.scalars.empty() && !state_.flow))
+    return {};
   const Report followed = move_mesh(start, mean_motion(start, moved, dt), flow, dt);
   if (!state_.scalars.empty()) {
     if (!followed.ok() || has_soluble_surfactant(moved)) return followed;
@@ -360,18 +378,28 @@ Report Evolution::carry_fields_of_mesh(const Scene& start, const Scene& moved,
     state_.scalars = start_scalars_;
     return judge_scalars(scalar_solver_->advance({from, to, dt, flow}, state_.scalars));
   }
+  if (state_.flow) return followed;
   if (!followed.ok()) log::debug("fields are carried over a longer way: {}", followed.text());
   return {};
 }
 
 /// Makes the mesh follow the interfaces after they were remeshed or changed topology since they
 /// were those of `before`.
-Report Evolution::follow_interfaces(const Scene& before, const RegionSources& sources) {
+Report Evolution::follow_interfaces(const Scene& before, double t, const RegionSources& sources) {
   state_.connectivity = ++last_connectivity_;
   if (!state_.mesh) return {};
   const MeshChange change = state_.mesh->follow(state_.scene, sources);
   if (!change.ok()) return change;
-  solver_->follow(change, state_.domain());
+  if (state_.flow) {
+    TransferredFlow arrived =
+        solver_->transferred(change, before, state_.domain(), t, *state_.flow);
+    if (!arrived.ok()) return arrived;
+    state_.flow = std::move(arrived.flow);
+    state_.momentum_lost = arrived.momentum_lost;
+    state_.energy_lost = arrived.energy_lost;
+  } else {
+    solver_->follow(change, state_.domain());
+  }
   if (!state_.scalars.empty())
     state_.scalars = scalar_solver_->follow(change, before, state_.domain(), state_.scalars);
   return change;
@@ -434,9 +462,12 @@ Report Evolution::judge_volume_shift(double dt) {
   return {};
 }
 
-FlowSolution Evolution::solve_flow(const Instant& instant) {
+FlowSolution Evolution::solve_flow(const Instant& instant, const ImplicitStage* implicit) {
   if (state_.mesh) state_.mesh->place_interfaces(state_.scene);
-  FlowSolution solution = solver_->solve(state_.domain(), instant);
+  FlowDomain domain = state_.domain();
+  domain.stage = implicit;
+  if (implicit != nullptr) domain.known = nullptr;
+  FlowSolution solution = solver_->solve(domain, instant);
   state_.iterations += solution.iterations;
   for (const std::string& warning : solution.warnings)
     give_notice({.t = instant.t, .what = FailedSolver{warning}});
@@ -454,6 +485,8 @@ Evolution::Rows Evolution::rows() const {
   const auto faces = reconstructed_interfaces(state_.scene, options_.surface);
   Rows rows{history_row(state_, first_.flow, first_.motion, faces), drop_rows(faces, scalars)};
   rows.history.scalars = scalar_totals(scalars, state_.scalars);
+  for (std::size_t i = 0; i < rows.drops.size(); ++i)
+    rows.drops[i].motion = drop_motion(state_.scene, state_.t, i, rows.drops[i].shape, first_.flow);
   return rows;
 }
 

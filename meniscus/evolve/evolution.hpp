@@ -80,8 +80,8 @@ class Evolution {
   Report try_step(const Scene& start, double dt);
   StageFlow time_scheme_step(const Scene& start, double dt);
   StageFlow solve_stage(const Scene& start, const StageFlow& stage, double duration,
-                        const Instant& instant);
-  StageFlow flow_at(const Instant& instant);
+                        const Instant& instant, const ImplicitStage* implicit = nullptr);
+  StageFlow flow_at(const Instant& instant, const ImplicitStage* implicit = nullptr);
   Report finish_step(const Scene& start, const StageFlow& whole, double dt);
   Report move_whole_step(const Scene& start, const StageFlow& whole, double dt);
   void move_surfactant(const Scene& start, const StageFlow& stage, double duration);
@@ -93,7 +93,7 @@ class Evolution {
   void accept_step(const StepPlan& plan);
   Report carry_fields_of_mesh(const Scene& start, const Scene& moved, const FlowSolution& flow,
                               double dt);
-  Report follow_interfaces(const Scene& before, const RegionSources& sources = {});
+  Report follow_interfaces(const Scene& before, double t, const RegionSources& sources = {});
   [[nodiscard]] Report move_mesh(const Scene& start, const InterfaceMotion& motion,
                                  const FlowSolution& flow, double dt);
   [[nodiscard]] bool is_remesh_due();
@@ -105,7 +105,7 @@ class Evolution {
   Report change_topology(const Scene& moved, const InterfaceMotion& motion);
   void restore_volumes();
   Report judge_volume_shift(double dt);
-  FlowSolution solve_flow(const Instant& instant);
+  FlowSolution solve_flow(const Instant& instant, const ImplicitStage* implicit = nullptr);
   [[nodiscard]] std::vector<ScalarMeasures> scalar_measures() const;
   [[nodiscard]] std::vector<DropRow> drop_rows(std::span<const ReconstructedSurface> faces,
                                                std::span<const ScalarMeasures> scalars) const;

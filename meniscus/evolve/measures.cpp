@@ -102,6 +102,12 @@ HistoryRow history_row(const State& state, const FlowSolution& flow, const Inter
       scene.scalars, [](const Scalar& each) { return each.viscosity_exponent != 0.0; });
   if (is_newtonian(scene.liquids[RegionId{0}].law) && !varies)
     row.stress = drop_stress(scene, flow.velocity, faces, flow.excess_stress);
+  if (has_inertia(scene)) {
+    row.kinetic = KineticTotals{.rate = flow.power ? flow.power->kinetic_rate : 0.0,
+                                .momentum_lost = state.momentum_lost,
+                                .energy_lost = state.energy_lost};
+    for (const RegionMotion& each : flow.motions) row.kinetic->energy += each.kinetic_energy;
+  }
   return row;
 }
 
@@ -124,6 +130,19 @@ std::vector<DropRow> drop_rows(const State& state, std::span<const Reconstructed
     if (breakup_radius > 0.0) row.neck_radius = thinnest_neck(interface, faces[i]);
   }
   return rows;
+}
+
+std::optional<DropMotion> drop_motion(const Scene& scene, double t, std::size_t i,
+                                      const DropShape& shape, const FlowSolution& flow) {
+  const Interface& interface = scene.interfaces[i];
+  const auto region = static_cast<std::size_t>(interface.inside.value);
+  if (region >= flow.motions.size()) return {};
+  const RegionMotion& inside = flow.motions[region];
+  const double radius = sphere_radius(shape.volume);
+  const Vec3 relative = inside.mean_velocity - scene.flow.velocity(shape.centroid, t);
+  return DropMotion{inside.mean_velocity,
+                    2.0 * radius * scene.liquids[RegionId{0}].density * relative.norm(),
+                    inside.kinetic_energy, 4.0 * std::numbers::pi * radius * radius / shape.area};
 }
 
 }  // namespace meniscus

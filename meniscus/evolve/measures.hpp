@@ -26,4 +26,9 @@ namespace meniscus {
                                              std::span<const ReconstructedSurface> faces,
                                              double breakup_radius, Carriers& carriers);
 
+/// How drop i moves at time t; none where the flow of the regions is not known.
+[[nodiscard]] std::optional<DropMotion> drop_motion(const Scene& scene, double t, std::size_t i,
+                                                    const DropShape& shape,
+                                                    const FlowSolution& flow);
+
 }  // namespace meniscus

@@ -11,7 +11,8 @@ enum class TimeScheme {
   rk2,            ///< midpoint rule (eq. 22 of hooper2001)
   euler,          ///< explicit (eq. 21)
   semi_implicit,  ///< the midpoint rule with damped stages: stable at long steps
-  rkc             ///< Runge–Kutta–Chebyshev of second order (sommeijer1998)
+  rkc,            ///< Runge–Kutta–Chebyshev of second order (sommeijer1998)
+  implicit        ///< diagonally implicit, of second order: liquids with inertia
 };
 /// Normal with which an interface vertex moves, ẋ = n n·v (eq. 23): of the area vector A_i (keeps
 /// the faceted volume's rate of change at round-off), of the paraboloid fit (the paper's), or of

@@ -20,6 +20,15 @@ struct ScalarTotals {
   double least = 0.0, largest = 0.0;  ///< of T at the nodes
 };
 
+/// The motion of liquids with inertia as a whole.
+struct KineticTotals {
+  double energy = 0.0;  ///< ½Σ∫ρv² dV [μ_out G R0³]
+  double rate = 0.0;    ///< ∫ρv·Dv/Dt, what the flow gives it per time [μ_out G² R0³]
+  /// What the transfer to a new mesh took in the step that led here.
+  double momentum_lost = 0.0;  ///< |Σ∫ρv dV| over Σ∫ρ|v| dV
+  double energy_lost = 0.0;    ///< [μ_out G R0³]
+};
+
 /// A row of history.csv: the state at t_step (docs/notation.md).
 struct HistoryRow {
   std::int64_t step = 0;
@@ -34,12 +43,13 @@ struct HistoryRow {
   std::optional<Mat3> stress;        ///< empty where the matrix is not Newtonian
   std::optional<double> step_error;  ///< estimate, of the step that led here [shortest edge]
   std::optional<StepBound> step_bound;
-  std::optional<bool> is_mesh_kept;   ///< by the step that led here
-  std::vector<ScalarTotals> scalars;  ///< by scalar of the scene
+  std::optional<bool> is_mesh_kept;      ///< by the step that led here
+  std::vector<ScalarTotals> scalars;     ///< by scalar of the scene
+  std::optional<KineticTotals> kinetic;  ///< of liquids with inertia
 
   [[nodiscard]] std::optional<double> power_residual() const {
     if (!power_in || !dissipation) return std::nullopt;
-    return *power_in - *dissipation - surface_rate;
+    return *power_in - *dissipation - surface_rate - (kinetic ? kinetic->rate : 0.0);
   }
 };
 
@@ -58,6 +68,16 @@ struct ScalarOnDrop {
   std::optional<double> transfer_number;
 };
 
+/// How a drop of liquids with inertia moves.
+struct DropMotion {
+  Vec3 velocity = Vec3::Zero();  ///< the mean over its volume [G R0]
+  /// 2R ρ_out |velocity − v_imposed|/μ_out, R the radius of the sphere of its volume and v_imposed
+  /// the imposed flow at its centroid.
+  double reynolds = 0.0;
+  double kinetic_energy = 0.0;  ///< ½∫ρv² dV [μ_out G R0³]
+  double sphericity = 0.0;      ///< area of the sphere of its volume over its own
+};
+
 struct DropRow {
   int drop = 0;
   int parent = -1;
@@ -69,6 +89,7 @@ struct DropRow {
   std::optional<double> neck_radius;
   std::optional<SurfactantSpread> surfactant;  ///< empty where there is none
   std::vector<ScalarOnDrop> scalars;           ///< by scalar of the scene
+  std::optional<DropMotion> motion;            ///< of liquids with inertia
 };
 
 }  // namespace meniscus

@@ -17,6 +17,7 @@ double stability_interval(TimeScheme scheme) {
     case TimeScheme::rkc:
       return ChebyshevScheme::stability_interval(kMostStages);
     case TimeScheme::semi_implicit:
+    case TimeScheme::implicit:
       return std::numeric_limits<double>::infinity();
     case TimeScheme::euler:
     case TimeScheme::rk2:

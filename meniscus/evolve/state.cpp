@@ -179,6 +179,45 @@ void load_scalars(State& state, const Archive& archive) {
   }
 }
 
+// Densities, and the flow that a step begins with. Liquids without inertia write nothing.
+void save_flow(const State& state, Archive& archive) {
+  if (!has_inertia(state.scene)) return;
+  std::vector<double>& densities = archive.reals["evolution/densities"];
+  for (const Liquid& liquid : state.scene.liquids) densities.push_back(liquid.density);
+  if (!state.flow) return;
+  const NodalFlow& flow = *state.flow;
+  archive.reals["evolution/flow/x"] = flat(Field<VertexId, Vec3>(flow.x));
+  archive.reals["evolution/flow/v"] = flat(Field<VertexId, Vec3>(flow.v));
+  archive.reals["evolution/flow/p"] = flow.p;
+  archive.reals["evolution/flow/sums"] = {flow.power.in,           flow.power.dissipation,
+                                          flow.power.kinetic_rate, state.momentum_lost,
+                                          state.energy_lost,       state.record.courant};
+}
+
+/// Whether the values fit the mesh is for the solver to say.
+void load_flow(State& state, const Archive& archive) {
+  state.flow.reset();
+  const auto densities = archive.reals.find("evolution/densities");
+  if (densities == archive.reals.end()) return;
+  if (densities->second.size() != static_cast<std::size_t>(state.scene.liquids.size()))
+    reject_input("checkpoint: evolution/densities does not fit the liquids");
+  for (const RegionId region : state.scene.liquids.ids())
+    state.scene.liquids[region].density = densities->second[static_cast<std::size_t>(region.value)];
+  if (!archive.reals.contains("evolution/flow/v")) return;
+  const auto rows = [&](const std::string& name) {
+    const Field<VertexId, Vec3> all = vectors<VertexId>(entry_of_rows(archive.reals, name, 3));
+    return std::vector<Vec3>(all.begin(), all.end());
+  };
+  const auto& sums = entry_of_size(archive.reals, "evolution/flow/sums", 6);
+  state.flow = {rows("evolution/flow/x"),
+                rows("evolution/flow/v"),
+                entry_of_rows(archive.reals, "evolution/flow/p", 1),
+                {sums[0], sums[1], sums[2]}};
+  state.momentum_lost = sums[3];
+  state.energy_lost = sums[4];
+  state.record.courant = sums[5];
+}
+
 Field<RegionId, Liquid> load_liquids(const Archive& archive, std::size_t num_interfaces) {
   const auto& values = entry_of_size(archive.reals, "evolution/liquids", 4 * (num_interfaces + 1));
   Field<RegionId, Liquid> liquids;
@@ -203,7 +242,7 @@ StepRecord load_record(const Archive& archive) {
   if (!archive.reals.contains("evolution/step-record")) return record;
   const auto& values = entry_of_size(archive.reals, "evolution/step-record", 4);
   const std::int64_t bound = entry_of_size(archive.integers, "evolution/step-bound", 1)[0];
-  if (bound < 0 || bound > static_cast<std::int64_t>(StepBound::refusal))
+  if (bound < 0 || bound > static_cast<std::int64_t>(StepBound::convection))
     reject_input("checkpoint entry \"evolution/step-bound\" = {} is no bound of a step", bound);
   record.bound = static_cast<StepBound>(bound);
   if (values[0] >= 0.0) record.error = values[0];
@@ -252,6 +291,7 @@ void save(const State& state, Archive& archive) {
   save_liquids(state.scene, archive);
   save_laws(state.scene, archive);
   save_scalars(state, archive);
+  save_flow(state, archive);
   save_events(state.events, archive);
   if (state.mesh) state.mesh->save(archive);
 }
@@ -273,6 +313,7 @@ void load(State& state, const Archive& archive) {
     reject_input("checkpoint: {}", fault->text);
   state.scene.liquids = load_liquids(archive, count);
   load_scalars(state, archive);
+  load_flow(state, archive);
   state.events = load_events(archive);
   state.volume_shift = entry_of_size(archive.reals, "evolution/corrections", count);
   state.tolerates_shift = entry_of_size(archive.integers, "evolution/tolerates-shift", 1)[0] != 0;

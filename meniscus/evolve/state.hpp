@@ -19,6 +19,7 @@ struct State {
   StepRecord record;      ///< of the step that led to t
   Scene scene;
   BulkScalars scalars;             ///< of the scene, on the mesh
+  std::optional<NodalFlow> flow;   ///< of liquids with inertia, on the mesh; none before the first
   std::optional<MovingMesh> mesh;  ///< none where the flow solver needs none
   /// A number that changes whenever the connectivity of an interface or of the mesh changes.
   std::int64_t connectivity = 0;
@@ -32,11 +33,13 @@ struct State {
   std::vector<TopologyEvent> events;  ///< of the step that led to t
   /// Largest excess of carried fields over their range in any step so far.
   FieldExcess field_excess;
+  /// What the transfer to a new mesh took from the flow in the step that led to t.
+  double momentum_lost = 0.0, energy_lost = 0.0;
   int iterations = 0;  ///< linear iterations since the last solve at the start of a step
 
   [[nodiscard]] FlowDomain domain() const {
     return {scene, mesh ? &mesh->tetrahedra() : nullptr, connectivity,
-            scalars.empty() ? nullptr : &scalars};
+            scalars.empty() ? nullptr : &scalars, flow ? &*flow : nullptr};
   }
 };
 

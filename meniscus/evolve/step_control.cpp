@@ -75,6 +75,8 @@ void follow_record(StepPlan& plan, const StepRecord& record, double dt, double t
   shorten(plan, dt / record.travel.slip, StepBound::slip);
   shorten(plan, dt * kAimedDisplacement / record.travel.displacement, StepBound::displacement);
   shorten(plan, dt * kAimedNeckLoss / record.travel.neck_loss, StepBound::neck);
+  if (record.courant > 0.0)
+    shorten(plan, dt * kAimedCourant / record.courant, StepBound::convection);
 }
 
 /// Lets a step that would pass `time` end there, or halfway.
@@ -131,7 +133,9 @@ std::optional<Fault> find_excess(const StepRecord& attempt, const EvolutionOptio
     return fault;
   if (auto fault = find_excess(travel.slip, 1.0, "its slip over the mesh, in stable ones,"))
     return fault;
-  return find_excess(travel.neck_loss, kAimedNeckLoss, "the loss of a neck in radii");
+  if (auto fault = find_excess(travel.neck_loss, kAimedNeckLoss, "the loss of a neck in radii"))
+    return fault;
+  return find_excess(attempt.courant, kAimedCourant, "the liquid's way past the mesh in edges");
 }
 
 StepPlan shorter_plan(const StepPlan& refused, const StepRecord& attempt,

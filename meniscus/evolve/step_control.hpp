@@ -22,7 +22,8 @@ enum class StepBound {
   jump,          ///< the step ends where the imposed flow jumps, or at an end of a ramp
   max_step,      ///< time.max-step
   min_step,      ///< time.min-step
-  refusal        ///< a longer attempt was refused
+  refusal,       ///< a longer attempt was refused
+  convection     ///< liquids with inertia cross the mesh
 };
 
 /// The length of a step, and what decided it.
@@ -36,6 +37,8 @@ struct StepRecord {
   StepBound bound = StepBound::beginning;
   std::optional<double> error;  ///< `StageFlow::error`; none of a scheme without estimate
   VertexTravel travel;
+  /// Largest way of liquid with inertia past the mesh, in shortest edges at the vertex.
+  double courant = 0.0;
   bool is_excessive = false;  ///< refused by error control (`find_excess`)
   bool is_mesh_kept = false;  ///< interfaces and mesh keep their connectivity
 };

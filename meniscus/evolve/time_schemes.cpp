@@ -115,6 +115,37 @@ double stage_error(const Step& step, const StageFlow& second, const StageFlow& f
                   amount_error(step, second.amount_rates, first.amount_rates));
 }
 
+/// Gives a stage other normal speeds beyond its rigid motions.
+void set_rest(StageFlow& stage, const Scene& scene, const NormalSpeeds& rest,
+              const NormalSpeeds& damped) {
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    for (const VertexId v : rest[i].ids()) {
+      const double change = damped[i][v] - rest[i][v];
+      stage.normal_speed[i][v] += change;
+      stage.shape.rest[i][v] += change * stage.normals[i][v];
+      stage.flow.velocity[i][v] += change * stage.normals[i][v];
+    }
+  stage.surface_rate = surface_energy_rate(scene, velocity_of(stage.shape, scene));
+}
+
+/// a + factor (b − a), node by node.
+std::vector<Vec3> beyond(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double factor) {
+  std::vector<Vec3> result = a;
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] += factor * (b[i] - a[i]);
+  return result;
+}
+
+/// a − b.
+InterfaceMotion difference(InterfaceMotion a, const InterfaceMotion& b) {
+  add(a, -1.0, b);
+  return a;
+}
+
+NormalSpeeds zero_speeds(NormalSpeeds like) {
+  for (VertexField<double>& speeds : like) std::ranges::fill(speeds, 0.0);
+  return like;
+}
+
 }  // namespace
 
 StageFlow euler_step(const StageFlow& first, const Step& step) {
@@ -138,10 +169,8 @@ StageFlow midpoint_step(const StageFlow& first, const Step& step, const StageSol
 StageFlow semi_implicit_step(const StageFlow& first, const Step& step, const StageSolver& solve,
                              const StageDampers& damp) {
   const double half = 0.5 * step.dt;
-  NormalSpeeds none = first.normal_speed;
-  for (VertexField<double>& speeds : none) std::ranges::fill(speeds, 0.0);
   StageFlow start = first;
-  damp.speeds(start, none);
+  damp.speeds(start, zero_speeds(first.normal_speed));
   start.motion = mean_motion(step.start, first.shape, start.shape, half);
   const ConcentrationRates at_start = set_damped_rates(start, step, half, {}, damp);
   StageFlow middle =
@@ -156,17 +185,14 @@ StageFlow semi_implicit_step(const StageFlow& first, const Step& step, const Sta
 }
 
 void damp(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, double duration) {
-  const NormalSpeeds rest = normal_speeds(stage.normals, stage.shape.rest),
-                     damped = damped_speeds(scene, least_viscosities(stage.flow, scene), rest,
-                                            about, duration);
-  for (std::size_t i = 0; i < rest.size(); ++i)
-    for (const VertexId v : rest[i].ids()) {
-      const double change = damped[i][v] - rest[i][v];
-      stage.normal_speed[i][v] += change;
-      stage.shape.rest[i][v] += change * stage.normals[i][v];
-      stage.flow.velocity[i][v] += change * stage.normals[i][v];
-    }
-  stage.surface_rate = surface_energy_rate(scene, velocity_of(stage.shape, scene));
+  const NormalSpeeds rest = normal_speeds(stage.normals, stage.shape.rest);
+  set_rest(stage, scene, rest,
+           damped_speeds(scene, least_viscosities(stage.flow, scene), rest, about, duration));
+}
+
+void slow_down(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, double duration) {
+  const NormalSpeeds rest = normal_speeds(stage.normals, stage.shape.rest);
+  set_rest(stage, scene, rest, expected_speeds(scene, rest, about, duration));
 }
 
 SurfactantPath surfactant_path(const Step& step, const InterfaceMotion& motion, double duration) {
@@ -180,6 +206,54 @@ ConcentrationRates damped(const StageFlow& stage, const SurfactantPath& path,
                           double duration) {
   return damped_concentration_rates(path.start, least_viscosities(stage.flow, path.start), rates,
                                     about, path.at_end, duration);
+}
+
+StageFlow implicit_step(const StageFlow& first, const Step& step, const ImplicitSolver& solve,
+                        const StageDamper& expect) {
+  const double gamma = kImplicitShare, first_part = gamma * step.dt, weight = 1.0 - gamma;
+  const NodalFlow& at_start = *first.flow.nodal;
+  // First stage, to which interfaces are expected to go as they begin.
+  StageFlow start = first;
+  expect(start, zero_speeds(first.normal_speed));
+  start.motion = velocity_of(start.shape, step.start);
+  StageFlow middle =
+      solve(start, first_part, {.t = step.t + first_part, .dt = step.dt, .stage = Stage::middle},
+            {first_part, at_start.x, at_start.v, at_start.v,
+             difference(start.shape.rest, first.shape.rest)});
+  if (!middle.ok()) return middle;
+  const NodalFlow& at_middle = *middle.flow.nodal;
+  // Second stage: what remains of the way is expected at a speed that goes on to change.
+  const double ahead = weight / gamma;
+  StageFlow expected = middle;
+  for (std::size_t i = 0; i < expected.motion.size(); ++i)
+    for (const VertexId v : expected.motion[i].ids()) {
+      const double change =
+          ahead * middle.normals[i][v].dot(middle.shape.rest[i][v] - first.shape.rest[i][v]);
+      expected.shape.rest[i][v] += change * middle.normals[i][v];
+      expected.motion[i][v] += ahead * (middle.motion[i][v] - first.motion[i][v]);
+    }
+  const InterfaceMotion undamped = expected.shape.rest;
+  expect(expected, normal_speeds(middle.normals, start.shape.rest));
+  const InterfaceMotion slowing = difference(expected.shape.rest, undamped);
+  add(expected.motion, 1.0, slowing);
+  StageFlow to_end = middle;
+  to_end.motion = scaled(weight, middle.motion);
+  add(to_end.motion, gamma, expected.motion);
+  StageFlow end = solve(
+      to_end, step.dt, {.t = step.t + step.dt, .dt = step.dt, .stage = Stage::end},
+      {first_part, beyond(at_start.x, at_middle.x, ahead), beyond(at_start.v, at_middle.v, ahead),
+       beyond(at_middle.v, at_start.v, -ahead), slowing});
+  if (!end.ok()) return end;
+  // The whole: what the stages give together.
+  InterfaceMotion whole = scaled(weight, middle.motion);
+  add(whole, gamma, end.motion);
+  end.motion = std::move(whole);
+  end.surface_rate = weight * middle.surface_rate + gamma * end.surface_rate;
+  const InterfaceNormals normals = interface_normals(step.start, MotionNormal::area_vector);
+  end.error =
+      step_error(step, normal_speeds(normals, end.motion), normal_speeds(normals, start.motion));
+  end.damps_waves = true;
+  return end;
 }
 
 StageFlow chebyshev_step(const StageFlow& first, const Step& step, int num_stages,

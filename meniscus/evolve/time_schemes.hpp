@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <numbers>
 
 #include "meniscus/evolve/interface_motion.hpp"
 #include "meniscus/evolve/shape_motion.hpp"
@@ -44,12 +45,19 @@ struct Step {
 using StageSolver =
     std::function<StageFlow(const StageFlow& stage, double duration, const Instant& instant)>;
 
+/// The same for an implicit stage of liquids with inertia.
+using ImplicitSolver =
+    std::function<StageFlow(const StageFlow& stage, double duration, const Instant& instant,
+                            const ImplicitStage& implicit)>;
+
 /// Damps the normal speeds that the shapes of a stage have beyond their rigid motions about others,
 /// where the stage's interfaces are.
 using StageDamper = std::function<void(StageFlow& stage, const NormalSpeeds& about)>;
 /// What tension would change in `duration` (`damped_speeds`). A rigid motion meets no resistance
 /// of it.
 void damp(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, double duration);
+/// What tension changes in an implicit stage (`expected_speeds`).
+void slow_down(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, double duration);
 
 /// Damps rates of concentrations along a path about others, by the viscosities of a stage.
 using ConcentrationDamper = std::function<ConcentrationRates(
@@ -78,6 +86,15 @@ struct StageDampers {
 /// (docs/time-stepping.md).
 [[nodiscard]] StageFlow semi_implicit_step(const StageFlow& first, const Step& step,
                                            const StageSolver& solve, const StageDampers& damp);
+/// Liquids with inertia: diagonally implicit, of second order, with γ = 1 − 1/√2 at both of its
+/// stages, γΔt and Δt after t (alexander1977). It damps what is fast. The velocity at the end is
+/// that of the second stage, at the mesh that the motion expected of it leads to; the interfaces go
+/// on to where its own leads. `expect` slows expected speeds by what tension will do in a stage.
+[[nodiscard]] StageFlow implicit_step(const StageFlow& first, const Step& step,
+                                      const ImplicitSolver& solve, const StageDamper& expect);
+/// γ.
+inline constexpr double kImplicitShare = 1.0 - 0.5 * std::numbers::sqrt2;
+
 /// Runge–Kutta–Chebyshev with `num_stages` ≥ 3 (chebyshev.hpp). The motion of first order that the
 /// estimate takes is the line through the stage j next to the middle, at c_j of the step: its
 /// difference over 1 − c_j. Short waves, which the stages damp, enter it at no more than a few

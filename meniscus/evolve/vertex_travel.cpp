@@ -68,4 +68,20 @@ VertexTravel vertex_travel(const Scene& start, const InterfaceMotion& motion,
   return travel;
 }
 
+double courant_number(const TetMesh& mesh, const Field<TetVertexId, Vec3>& v,
+                      const Field<TetVertexId, Vec3>& w, double dt) {
+  Field<TetVertexId, double> shortest(mesh.num_vertices(), std::numeric_limits<double>::infinity());
+  for (const CellVertices& cell : mesh.cells)
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j) {
+        const double edge = (mesh.x[cell[i]] - mesh.x[cell[j]]).norm();
+        for (const TetVertexId end : {cell[i], cell[j]})
+          shortest[end] = std::min(shortest[end], edge);
+      }
+  double largest = 0.0;
+  for (const TetVertexId i : v.ids())
+    largest = std::max(largest, dt * (v[i] - w[i]).norm() / shortest[i]);
+  return largest;
+}
+
 }  // namespace meniscus

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meniscus/evolve/interface_motion.hpp"
+#include "meniscus/mesh/tet_mesh.hpp"
 
 namespace meniscus {
 
@@ -22,5 +23,10 @@ struct VertexTravel {
 /// vertices.
 [[nodiscard]] VertexTravel vertex_travel(const Scene& start, const InterfaceMotion& motion,
                                          std::span<const VertexField<Vec3>> velocity, double dt);
+
+/// max_v dt |v − w|/l_v over the vertices of a volume mesh that move with w, l_v the shortest edge
+/// of the tetrahedra at the vertex.
+[[nodiscard]] double courant_number(const TetMesh& mesh, const Field<TetVertexId, Vec3>& v,
+                                    const Field<TetVertexId, Vec3>& w, double dt);
 
 }  // namespace meniscus

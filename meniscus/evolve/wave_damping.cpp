@@ -1,11 +1,16 @@
 #include "meniscus/evolve/wave_damping.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <numbers>
+#include <utility>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/evolve/constants.hpp"
@@ -82,6 +87,50 @@ Eigen::VectorXd damped(const SparseMatrix& K, const Eigen::VectorXd& mass, doubl
   return result;
 }
 
+/// q = cΛ^(3/2)/(a + bΛ).
+struct WaveOfStage {
+  double a = 0.0, b = 0.0, c = 0.0;
+};
+
+/// The roots of x³ + p x² + q x + r.
+std::array<std::complex<double>, 3> cubic_roots(double p, double q, double r) {
+  Mat3 companion = Mat3::Zero();
+  companion(0, 2) = -r;
+  companion(1, 0) = companion(2, 1) = 1.0;
+  companion(1, 2) = -q;
+  companion(2, 2) = -p;
+  const Eigen::EigenSolver<Mat3> solver(companion, false);
+  const auto& roots = solver.eigenvalues();
+  return {roots[0], roots[1], roots[2]};
+}
+
+/// What 1/(1 + q²) makes of s, Λ = M⁻¹K + k: with P(Λ) = (a + bΛ)² + c²Λ³ it is
+/// Σ_z (a + bz)²/P′(z)/(Λ − z) over the roots z of P.
+Eigen::VectorXd slowed(const SparseMatrix& K, const Eigen::VectorXd& mass, double k,
+                       const WaveOfStage& wave, const Eigen::VectorXd& s) {
+  using Complex = std::complex<double>;
+  using ComplexMatrix = Eigen::SparseMatrix<Complex>;
+  const auto& [a, b, c] = wave;
+  const double cc = c * c;
+  const SparseMatrix whole = K.selfadjointView<Eigen::Lower>();
+  const Eigen::VectorXd moment = mass.cwiseProduct(s);
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(s.size());
+  Eigen::SparseLU<ComplexMatrix> factors;
+  bool is_analyzed = false;
+  for (const Complex z : cubic_roots(b * b / cc, 2.0 * a * b / cc, a * a / cc)) {
+    if (z.imag() < 0.0) continue;  // its conjugate has the conjugate solution
+    const Complex slope = 2.0 * b * (a + b * z) + 3.0 * cc * z * z;
+    const Complex weight = (a + b * z) * (a + b * z) / slope;
+    ComplexMatrix shifted = whole.cast<Complex>();
+    shifted.diagonal() += (Complex(k) - z) * mass.cast<Complex>();
+    if (!std::exchange(is_analyzed, true)) factors.analyzePattern(shifted);
+    factors.factorize(shifted);
+    const Eigen::VectorXcd part = factors.solve(moment.cast<Complex>().eval());
+    result += (z.imag() > 0.0 ? 2.0 : 1.0) * (weight * part).real();
+  }
+  return result;
+}
+
 /// What A would change in `duration` on one interface, of tension or elasticity `modulus`, about
 /// zero; `mesh` is where its vertices are.
 Eigen::VectorXd damped_on(const Scene& scene, std::size_t i, const SurfaceMesh& mesh,
@@ -114,6 +163,31 @@ NormalSpeeds damped_speeds(const Scene& scene, std::span<const double> viscosity
     }
     s = damped_on(scene, i, interface.mesh, viscosity, largest_tension(interface), mass, s,
                   duration);
+    for (const VertexId v : area.ids()) result[i][v] = about[i][v] + s[v.value];
+  }
+  return result;
+}
+
+NormalSpeeds expected_speeds(const Scene& scene, const NormalSpeeds& speeds,
+                             const NormalSpeeds& about, double duration) {
+  NormalSpeeds result = speeds;
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    const Interface& interface = scene.interfaces[i];
+    if (interface.tension == 0.0) continue;
+    const Liquid &inside = scene.liquids[interface.inside],
+                 &outside = scene.liquids[interface.outside];
+    const VertexField<Vec3> area = vertex_area_vectors(interface.mesh);
+    Eigen::VectorXd mass(area.size()), s(area.size());
+    for (const VertexId v : area.ids()) {
+      mass[v.value] = area[v].norm();
+      s[v.value] = speeds[i][v] - about[i][v];
+    }
+    const double radius = sphere_radius(interface.volume);
+    s = slowed(stiffness(interface.mesh), mass, kSphereStiffness / (radius * radius),
+               WaveOfStage{inside.density + outside.density,
+                           2.0 * duration * (inside.viscosity + outside.viscosity),
+                           largest_tension(interface) * duration * duration},
+               s);
     for (const VertexId v : area.ids()) result[i][v] = about[i][v] + s[v.value];
   }
   return result;

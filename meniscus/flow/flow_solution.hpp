@@ -11,12 +11,14 @@
 
 namespace meniscus {
 
-/// The energy balance of one solution, all in [μ_out G² R0³]; in − dissipation is what the energy
-/// of the interfaces gains per time when nothing is lost.
+/// The energy balance of one solution, all in [μ_out G² R0³]; in − dissipation − kinetic_rate is
+/// what the energy of the interfaces gains per time when nothing is lost.
 struct Power {
   /// Reaction of the outer boundary times its velocity, plus body force times velocity.
   double in = 0.0;
-  double dissipation = 0.0;  ///< ∫2μ D:D plus the stabilisation's share
+  double dissipation = 0.0;   ///< ∫2μ D:D plus the stabilisation's share
+  double kinetic_rate = 0.0;  ///< ∫ρv·Dv/Dt, what the liquids' kinetic energy gains per time
+  friend bool operator==(const Power&, const Power&) = default;
 };
 
 /// The nodes at the middles of the edges of a surface's curved faces: by face, edge k leaving its
@@ -34,6 +36,23 @@ struct BulkFlow {
   std::vector<double> corner_pressure;
 };
 
+/// The flow of liquids with inertia on the nodes of the solver's space: the vertices, then the
+/// middles of edges. Its velocity is what a step begins with.
+struct NodalFlow {
+  std::vector<Vec3> x;    ///< [R0]
+  std::vector<Vec3> v;    ///< [G R0]
+  std::vector<double> p;  ///< at the nodes of the pressure [μ_out G]
+  Power power = {};       ///< when it was found
+  friend bool operator==(const NodalFlow&, const NodalFlow&) = default;
+};
+
+/// What the liquid of one region has by its motion.
+struct RegionMotion {
+  Vec3 momentum = Vec3::Zero();       ///< ∫ρv dV [μ_out R0²]
+  double kinetic_energy = 0.0;        ///< ½∫ρv² dV [μ_out G R0³]
+  Vec3 mean_velocity = Vec3::Zero();  ///< [G R0]
+};
+
 /// The flow at one instant, or why there is none. Failure is an outcome that evolution answers.
 struct [[nodiscard]] FlowSolution : Report {
   int iterations = 0;                      ///< linear iterations, all Newton steps together
@@ -49,7 +68,9 @@ struct [[nodiscard]] FlowSolution : Report {
   std::vector<Mat3> excess_stress = {};
   /// The smallest viscosity in each region [μ_out]. Empty where all liquids are Newtonian.
   std::vector<double> least_viscosity = {};
-  std::optional<BulkFlow> bulk = {};  ///< where there is a volume mesh
+  std::optional<BulkFlow> bulk = {};       ///< where there is a volume mesh
+  std::optional<NodalFlow> nodal = {};     ///< of liquids with inertia
+  std::vector<RegionMotion> motions = {};  ///< theirs, by region
 };
 
 /// A solution that was not found.

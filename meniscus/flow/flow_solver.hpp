@@ -13,7 +13,7 @@
 namespace meniscus {
 
 /// Where in a step a solve stands.
-enum class Stage { start, middle };
+enum class Stage { start, middle, end };
 
 /// When a flow is solved: at time t, in a step of length dt (0 where no step is known).
 struct Instant {
@@ -38,6 +38,17 @@ struct BulkScalar {
 /// By scalar of the scene; the rates are those of the last step.
 using BulkScalars = std::vector<BulkScalar>;
 
+/// An implicit stage in a step of liquids with inertia: at nodes that come from x̄ within the
+/// duration, v = v̄ + duration ∂v/∂t, the rate being that at the stage's instant.
+struct ImplicitStage {
+  double duration = 0.0;         ///< [1/G]
+  std::vector<Vec3> x, v;        ///< x̄ [R0] and v̄ [G R0], by node
+  std::vector<Vec3> expected_v;  ///< at the stage's instant; a guess [G R0]
+  /// By how much the interfaces' vertices came another way to where the stage has them than that
+  /// velocity would have taken them [G R0].
+  std::vector<VertexField<Vec3>> slowing;
+};
+
 /// What a flow solver is lent for a solve.
 struct FlowDomain {
   const Scene& scene;
@@ -45,6 +56,17 @@ struct FlowDomain {
   /// Names the connectivity of interfaces and mesh: as long as it is the same, so are they.
   std::int64_t connectivity = 0;
   const BulkScalars* scalars = nullptr;  ///< at this instant; null where there are none
+  /// Of liquids with inertia: the flow at this instant, where it is known, or the stage that is to
+  /// find it.
+  const NodalFlow* known = nullptr;
+  const ImplicitStage* stage = nullptr;
+};
+
+/// A flow that was taken to a new mesh, or why it did not arrive.
+struct [[nodiscard]] TransferredFlow : Report {
+  NodalFlow flow = {};
+  double momentum_lost = 0.0;  ///< |Σ∫ρv dV| lost over Σ∫ρ|v| dV
+  double energy_lost = 0.0;  ///< kinetic energy, the old mesh's less the new one's [μ_out G R0³]
 };
 
 /// What evolution asks of a flow solver, be it finite elements on a volume mesh or boundary
@@ -60,6 +82,14 @@ class FlowSolver {
   /// The mesh was made anew for this domain: what is kept of the last solution goes along. Only
   /// solvers that keep something on the mesh override it.
   virtual void follow(const MeshChange& /*change*/, const FlowDomain& /*domain*/) {}
+
+  /// A flow with inertia on the mesh that took the place of another; `before` is the scene that the
+  /// mesh before belonged to. Its velocity is without divergence there.
+  virtual TransferredFlow transferred(const MeshChange& /*change*/, const Scene& /*before*/,
+                                      const FlowDomain& /*domain*/, double /*t*/,
+                                      const NodalFlow& flow) {
+    return {{}, flow};
+  }
 
   /// All that is needed to go on in this domain bit for bit.
   virtual void save(Archive& archive, const FlowDomain& domain) const = 0;

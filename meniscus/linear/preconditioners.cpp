@@ -11,6 +11,20 @@
 
 namespace meniscus::linear {
 
+namespace {
+
+void remove_mean(Communicator communicator, Vec vector) {
+  PetscInt size = 0;
+  petsc_check(VecGetLocalSize(vector, &size), "VecGetLocalSize");
+  with_array(vector, [&](double* values) {
+    const double total = sum(communicator, std::accumulate(values, values + size, 0.0));
+    const double mean = total / double(sum(communicator, std::int64_t{size}));
+    for (PetscInt i = 0; i < size; ++i) values[i] -= mean;
+  });
+}
+
+}  // namespace
+
 PressureMass::PressureMass(Communicator communicator, const SaddleSystem& system)
     : communicator_(communicator), system_(system) {
   if (system.consistent_mass.num_rows == 0) return;
@@ -41,21 +55,53 @@ void PressureMass::apply(std::span<const double> r, double s, Vec z) const {
       p[i] = s * r[i] / system_.pressure_mass[i];
     for (std::size_t i = 0; !constant.empty() && i < r.size(); ++i)
       p[i] += constant[static_cast<std::size_t>(system_.group_of_pressure[i])];
-    if (!system_.constant_pressure_is_null) return;
-    const double total = sum(communicator_, std::accumulate(p, p + r.size(), 0.0));
-    const double mean = total / double(sum(communicator_, std::int64_t{system_.num_pressures()}));
-    for (std::size_t i = 0; i < r.size(); ++i) p[i] -= mean;
   });
+  if (system_.constant_pressure_is_null) remove_mean(communicator_, z);
+}
+
+PressureLaplacian::PressureLaplacian(Communicator communicator, const SaddleSystem& system)
+    : communicator_(communicator), size_(system.num_pressures()) {
+  // Of the diagonal: a singular matrix has a coarse level that cannot be factorised.
+  constexpr double kShift = 1e-8;
+  MPI_Comm comm = mpi_communicator(communicator);
+  const Matrix B = copied_matrix(comm, system.divergence);
+  std::vector<double> inverse(system.mass_diagonal.begin(), system.mass_diagonal.end());
+  for (double& entry : inverse) entry = 1.0 / entry;
+  Matrix scaled;
+  petsc_check(MatTranspose(B.get(), MAT_INITIAL_MATRIX, scaled.out()), "MatTranspose");
+  petsc_check(MatDiagonalScale(scaled.get(), borrowed_vector(comm, inverse).get(), nullptr),
+              "MatDiagonalScale");
+  petsc_check(MatMatMult(B.get(), scaled.get(), MAT_INITIAL_MATRIX, PETSC_DEFAULT, matrix_.out()),
+              "MatMatMult");
+  Vector diagonal;
+  petsc_check(MatCreateVecs(matrix_.get(), diagonal.out(), nullptr), "MatCreateVecs");
+  petsc_check(MatGetDiagonal(matrix_.get(), diagonal.get()), "MatGetDiagonal");
+  petsc_check(VecScale(diagonal.get(), 1.0 + kShift), "VecScale");
+  petsc_check(MatDiagonalSet(matrix_.get(), diagonal.get(), INSERT_VALUES), "MatDiagonalSet");
+  petsc_check(KSPCreate(comm, cycle_.out()), "KSPCreate");
+  petsc_check(KSPSetOptionsPrefix(cycle_.get(), "l_"), "KSPSetOptionsPrefix");
+  petsc_check(KSPSetOperators(cycle_.get(), matrix_.get(), matrix_.get()), "KSPSetOperators");
+  petsc_check(KSPSetFromOptions(cycle_.get()), "KSPSetFromOptions");
+  petsc_check(KSPSetUp(cycle_.get()), "KSPSetUp");
+  result_ = zero_vector(comm, size_);
+}
+
+void PressureLaplacian::add(std::span<const double> r, double s, Vec z) const {
+  const Vector right = borrowed_vector(mpi_communicator(communicator_), r);
+  petsc_check(KSPSolve(cycle_.get(), right.get(), result_.get()), "KSPSolve");
+  petsc_check(VecAXPY(z, s, result_.get()), "VecAXPY");
 }
 
 BlockPreconditioner::BlockPreconditioner(Communicator communicator, Shape shape,
                                          const SaddleSystem& system,
-                                         const VelocityPreconditioner& multigrid, Mat B)
+                                         const VelocityPreconditioner& multigrid, Mat B,
+                                         const PressureLaplacian* pressure_laplacian)
     : communicator_(communicator),
       shape_(shape),
       system_(system),
       multigrid_(multigrid),
       B_(B),
+      pressure_laplacian_(pressure_laplacian),
       mass_(communicator, system),
       velocity_(zero_vector(mpi_communicator(communicator), system.num_velocities())),
       pressure_(zero_vector(mpi_communicator(communicator), system.num_pressures())) {}
@@ -76,8 +122,13 @@ void BlockPreconditioner::apply(Vec r, Vec z) const {
   const auto num_pressures = static_cast<std::size_t>(system_.num_pressures());
   const PetscScalar* residual = nullptr;
   petsc_check(VecGetArrayRead(r, &residual), "VecGetArrayRead");
-  mass_.apply({residual + num_velocities, num_pressures}, shape_ == Shape::diagonal ? 1.0 : -1.0,
-              pressure_.get());
+  const std::span<const double> continuity(residual + num_velocities, num_pressures);
+  const double sign = shape_ == Shape::diagonal ? 1.0 : -1.0;
+  mass_.apply(continuity, sign, pressure_.get());
+  if (pressure_laplacian_ != nullptr) {
+    pressure_laplacian_->add(continuity, sign, pressure_.get());
+    if (system_.constant_pressure_is_null) remove_mean(communicator_, pressure_.get());
+  }
   petsc_check(VecRestoreArrayRead(r, &residual), "VecRestoreArrayRead");
   if (shape_ == Shape::upper_triangular) multiply_gradient();
   with_arrays(r, velocity_.get(), [&](const double* from, double* v) {

@@ -25,14 +25,33 @@ class PressureMass {
   KrylovSolver solver_;  ///< empty for the lumped matrix
 };
 
-/// z_p = s (M_p/μ)⁻¹ r_p, z_v = M_A⁻¹ (r_v − Bᵀ z_p) (upper triangular, s = −1) or M_A⁻¹ r_v
+/// An algebraic multigrid cycle on B diag(M)⁻¹ Bᵀ, of which it keeps a copy.
+class PressureLaplacian {
+ public:
+  PressureLaplacian(Communicator communicator, const SaddleSystem& system);
+  /// Adds s (B diag(M)⁻¹ Bᵀ)⁻¹ r to z.
+  void add(std::span<const double> r, double s, Vec z) const;
+  [[nodiscard]] std::int32_t size() const { return size_; }
+
+ private:
+  Communicator communicator_;
+  std::int32_t size_;
+  Matrix matrix_;
+  KrylovSolver cycle_;
+  Vector result_;
+};
+
+/// With a pressure Laplacian L, S⁻¹ = (M_p/μ)⁻¹ + L⁻¹, else S⁻¹ = (M_p/μ)⁻¹:
+/// z_p = s S⁻¹ r_p, z_v = M_A⁻¹ (r_v − Bᵀ z_p) (upper triangular, s = −1) or M_A⁻¹ r_v
 /// (diagonal, s = +1, positive definite as MINRES needs it).
 class BlockPreconditioner {
  public:
   enum class Shape { upper_triangular, diagonal };
-  /// The system, its multigrid and its B must outlive this; B is null where there are products.
+  /// All that is given must outlive this; B is null where there are products, the pressure
+  /// Laplacian where there are no masses.
   BlockPreconditioner(Communicator communicator, Shape shape, const SaddleSystem& system,
-                      const VelocityPreconditioner& multigrid, Mat B);
+                      const VelocityPreconditioner& multigrid, Mat B,
+                      const PressureLaplacian* pressure_laplacian);
   void apply(Vec r, Vec z) const;
 
  private:
@@ -44,6 +63,7 @@ class BlockPreconditioner {
   const SaddleSystem& system_;
   const VelocityPreconditioner& multigrid_;
   Mat B_;
+  const PressureLaplacian* pressure_laplacian_;
   PressureMass mass_;
   Vector velocity_, pressure_;
 };

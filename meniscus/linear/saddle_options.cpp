@@ -48,13 +48,15 @@ std::string default_options(SaddleMethod method, bool is_by_degree, bool is_hypr
     multigrid +=
         " -v_mg_levels_ksp_type chebyshev -v_mg_levels_ksp_max_it 1 -v_mg_levels_pc_type jacobi"
         " -v_mg_coarse_ksp_type preonly";
+  const std::string pressure_laplacian = " -l_ksp_type preonly" + multigrid_options("l_", is_hypre);
   switch (method) {
     case SaddleMethod::block:
       return "-ksp_type fgmres -ksp_gmres_restart 60"
              " -ksp_gmres_cgs_refinement_type refine_ifneeded" +
-             multigrid + (is_hypre ? aggressive_coarsening(algebraic) : "") + kPressureMass;
+             multigrid + (is_hypre ? aggressive_coarsening(algebraic) : "") + kPressureMass +
+             pressure_laplacian;
     case SaddleMethod::minres:
-      return "-ksp_type minres" + multigrid + kPressureMass;
+      return "-ksp_type minres" + multigrid + kPressureMass + pressure_laplacian;
     case SaddleMethod::paper_gmres:
       return "-ksp_type gmres -ksp_gmres_restart 100 -ksp_pc_side right";
     case SaddleMethod::mumps:

@@ -162,6 +162,7 @@ class SaddleSolver::Implementation {
 
   void drop_preconditioner() {
     multigrid_.reset();
+    pressure_laplacian_.reset();
     factorization_.reset();
     nested_ = {};
   }
@@ -195,11 +196,15 @@ class SaddleSolver::Implementation {
     } else if (!is_paper) {
       if (!multigrid_ || 3 * multigrid_->num_nodes() != system.num_velocities())
         multigrid_ = make_multigrid(system);
+      if (system.mass_diagonal.empty())
+        pressure_laplacian_.reset();
+      else if (!pressure_laplacian_ || pressure_laplacian_->size() != system.num_pressures())
+        pressure_laplacian_ = std::make_unique<PressureLaplacian>(communicator_, system);
       using Shape = BlockPreconditioner::Shape;
       block_.emplace(
           communicator_,
           options_.method == SaddleMethod::minres ? Shape::diagonal : Shape::upper_triangular,
-          system, *multigrid_, nested_.B.get());
+          system, *multigrid_, nested_.B.get(), pressure_laplacian_.get());
       apply_ = [this](Vec r, Vec z) { block_->apply(r, z); };
     }
   }
@@ -297,6 +302,7 @@ class SaddleSolver::Implementation {
   std::optional<BlockPreconditioner> block_;
   std::optional<DiagonalScaling> scaling_;
   std::unique_ptr<VelocityPreconditioner> multigrid_;
+  std::unique_ptr<PressureLaplacian> pressure_laplacian_;
   std::unique_ptr<Factorization> factorization_;
 };
 

@@ -26,7 +26,8 @@ struct SaddleOptions {
   /// Options as on PETSc's command line, which override the defaults of the method. Prefixes: none
   /// for the outer solver; v_ for the velocity block's multigrid; with multigrid by degree
   /// v_mg_coarse_ for the algebraic part and, where the system has matrices, v_mg_levels_ for the
-  /// smoother; p_ for the consistent pressure mass matrix; f_ for the factorisation of the direct
+  /// smoother; p_ for the consistent pressure mass matrix;
+  /// l_ for the pressure Laplacian; f_ for the factorisation of the direct
   /// method.
   std::string petsc_options;
 };

@@ -71,6 +71,11 @@ struct SaddleSystem {
   SaddleProducts products = {};
   std::span<const double> laplacian_diagonals = {};  ///< 3n, of `products.laplacians`
 
+  /// Where velocities have masses M that outweigh the Laplacians: B, and the diagonal of M, 3n. To
+  /// the inverse of the Schur complement that of B diag(M)⁻¹ Bᵀ is added. Empty: they do not.
+  CsrView divergence = {};
+  std::span<const double> mass_diagonal = {};
+
   [[nodiscard]] bool has_products() const { return products.whole != nullptr; }
   [[nodiscard]] std::int32_t num_velocities() const { return A.num_rows; }
   [[nodiscard]] std::int32_t num_pressures() const { return B.num_rows; }

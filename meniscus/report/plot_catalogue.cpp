@@ -92,6 +92,32 @@ std::vector<PlotSpec> scalar_plots() {
            .quantities = {{"*_sherwood", "Sh"}}}};
 }
 
+std::vector<PlotSpec> inertia_plots() {
+  const std::string group = "Inertia";
+  return {{.group = group,
+           .title = "Velocity of the drop, the mean over its volume",
+           .unit = "GR₀",
+           .table = "drops",
+           .quantities = {{"velocity_x", "v_x"}, {"velocity_y", "v_y"}, {"velocity_z", "v_z"}},
+           .includes_zero = true},
+          {.group = group,
+           .title = "Reynolds number of the drop's motion",
+           .unit = "",
+           .table = "drops",
+           .quantities = {{"reynolds", "Re"}}},
+          {.group = group,
+           .title = "Sphericity",
+           .unit = "",
+           .table = "drops",
+           .quantities = {{"sphericity", "area of the sphere over its own"}}},
+          {.group = group,
+           .title = "Kinetic energy of all liquids",
+           .unit = "μGR₀³",
+           .table = "history",
+           .quantities = {{"kinetic_energy", "energy"}},
+           .includes_zero = true}};
+}
+
 std::vector<PlotSpec> energy_plots() {
   const std::string group = "Energy and stress";
   return {{.group = group,
@@ -229,7 +255,8 @@ std::vector<PlotSpec> plots_of(std::span<const RunData> runs) {
 std::span<const PlotSpec> plot_catalogue() {
   static const std::vector<PlotSpec> all = [] {
     std::vector<PlotSpec> plots = shape_plots();
-    for (const auto& group : {surfactant_plots(), scalar_plots(), energy_plots(), mesh_plots()}) {
+    for (const auto& group :
+         {surfactant_plots(), inertia_plots(), scalar_plots(), energy_plots(), mesh_plots()}) {
       plots.insert(plots.end(), group.begin(), group.end());
     }
     return plots;

@@ -138,6 +138,11 @@ bool has_open_patch(const Scene& scene) {
   });
 }
 
+bool has_inertia(const Scene& scene) {
+  return std::ranges::any_of(scene.liquids,
+                             [](const Liquid& liquid) { return liquid.density > 0.0; });
+}
+
 void assign_regions(Scene& scene) {
   const std::vector<Bounds> bounds = bounds_of(scene);
   const std::vector<RegionId> surrounding = surrounding_regions(scene, bounds);

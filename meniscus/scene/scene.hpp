@@ -18,7 +18,8 @@ namespace meniscus {
 
 /// What fills one region. Region 0 is the matrix; region i + 1 is what interface i encloses.
 struct Liquid {
-  double viscosity = 1.0;                  ///< over the matrix's [μ_out]
+  double viscosity = 1.0;  ///< over the matrix's [μ_out]
+  double density = 0.0;    ///< Re times that over the matrix's [μ_out/(G R0²)]; 0: no inertia
   Vec3 body_force = Vec3::Zero();          ///< force per volume [μ_out G / R0]
   ViscosityLaw law = {};                   ///< multiplies the viscosity
   std::vector<ScalarLiquid> scalars = {};  ///< by scalar of the scene
@@ -81,6 +82,8 @@ struct Scene {
   Field<RegionId, Liquid> liquids;  ///< by region
   std::vector<Interface> interfaces;
   std::vector<Scalar> scalars = {};
+  /// What liquids with inertia begin with [G R0]; empty: the imposed flow.
+  std::function<Vec3(const Vec3& x)> initial_velocity = {};
   bool is_unbounded = false;  ///< no outer boundary: boundary integrals only
   OuterBoundary boundary;
 };
@@ -89,6 +92,8 @@ struct Scene {
 /// R0³].
 [[nodiscard]] double imposed_flux(const Scene& scene, double t);
 [[nodiscard]] bool has_open_patch(const Scene& scene);
+/// Whether a liquid has a density.
+[[nodiscard]] bool has_inertia(const Scene& scene);
 /// Numbers the regions afresh: that of interface i + 1 within interface i, and outside it that of
 /// the innermost interface around it, found by the place of its first vertex. Interfaces must not
 /// meet.

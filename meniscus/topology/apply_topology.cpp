@@ -169,6 +169,8 @@ std::optional<std::string> unlikeness(const Scene& scene, const Gap& gap) {
                &second = scene.liquids[is_nested && b.inside == a.outside ? b.outside : b.inside];
   if (first.viscosity != second.viscosity)
     return fmt::format("viscosity ratios {:g} and {:g}", first.viscosity, second.viscosity);
+  if (first.density != second.density)
+    return fmt::format("densities {:g} and {:g}", first.density, second.density);
   if (first.law != second.law) return "different laws of viscosity";
   if (a.tension != b.tension)
     return fmt::format("surface tensions {:g} and {:g}", a.tension, b.tension);

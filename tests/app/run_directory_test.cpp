@@ -120,14 +120,14 @@ TEST(RunDirectory, TakenUpItHasTheColumnsOfItsBulkScalars) {
     run.add_timing(step, history.t, {{"scalars", 0.5}});
   };
   {
-    RunDirectory run = RunDirectory::create(path, false, scalars);
+    RunDirectory run = RunDirectory::create(path, false, {scalars});
     add(run, 0);
     add(run, 1);
   }
   const std::string history = test::get(path / "history.csv"),
                     drops = test::get(path / "drops.csv");
   {
-    RunDirectory run = RunDirectory::take_up(path, 1, 0.1, scalars);
+    RunDirectory run = RunDirectory::take_up(path, 1, 0.1, {scalars});
     add(run, 1);
   }
   EXPECT_EQ(test::get(path / "history.csv"), history);

@@ -31,14 +31,25 @@ void append(NamesAndUnits& list, std::span<const ScalarColumn<Value>> columns,
 
 NamesAndUnits listed_history(const std::string& scalar) {
   NamesAndUnits list = listed(history_columns());
+  std::ranges::move(listed(history_inertia_columns()), std::back_inserter(list));
   append(list, history_scalar_columns(), scalar);
   return list;
 }
 
 NamesAndUnits listed_drops(const std::string& scalar) {
   NamesAndUnits list = listed(drop_columns());
+  std::ranges::move(listed(drop_inertia_columns()), std::back_inserter(list));
   append(list, drop_scalar_columns(), scalar);
   return list;
+}
+
+/// The cell of a column by its name.
+template <class Columns, class Row>
+io::Cell cell_of(const Columns& columns, const Row& row, const std::string& name) {
+  for (const auto& column : columns)
+    if (name == column.name) return column.value(row);
+  ADD_FAILURE() << name;
+  return {};
 }
 
 /// The cells "| `name` | unit |" of the table under the heading of a file in docs/notation.md.
@@ -94,11 +105,6 @@ TEST(RunTables, HaveTheColumnsAndUnitsOfEveryPlot) {
 }
 
 TEST(RunTables, LeaveCellsWithoutMeaningEmpty) {
-  const auto cell_of = [](const auto& columns, const auto& row, const std::string& name) {
-    const std::vector<std::string> names = names_of(columns);
-    return cells_of(columns, row)
-        .at(static_cast<std::size_t>(std::ranges::find(names, name) - names.begin()));
-  };
   HistoryRow history;
   EXPECT_EQ(cell_of(history_columns(), history, "power_residual"), io::Cell());
   EXPECT_EQ(cell_of(history_columns(), history, "N1"), io::Cell());
@@ -148,12 +154,12 @@ std::vector<T> behind(const std::vector<T>& all, std::span<const Column<Row>> fi
 
 TEST(RunTables, HaveColumnsOfEachBulkScalarBehindTheOthers) {
   const std::vector<Scalar> scalars = heat_and_dye();
-  EXPECT_EQ(behind(history_names(scalars), history_columns()),
+  EXPECT_EQ(behind(history_names({scalars}), history_columns()),
             (std::vector<std::string>{"heat_total", "heat_boundary_rate", "heat_source_rate",
                                       "heat_min", "heat_max", "dye_total", "dye_boundary_rate",
                                       "dye_source_rate", "dye_min", "dye_max"}));
   EXPECT_EQ(
-      behind(drop_names(scalars), drop_columns()),
+      behind(drop_names({scalars}), drop_columns()),
       (std::vector<std::string>{"heat_amount", "heat_nusselt", "dye_amount", "dye_sherwood"}));
   EXPECT_EQ(history_names({}), names_of(history_columns()));
   EXPECT_EQ(drop_names({}), names_of(drop_columns()));
@@ -165,15 +171,39 @@ TEST(RunTables, HaveTheCellsOfEachBulkScalar) {
   history.scalars = {{1.0, 2.0, 3.0, 4.0, 5.0}, {6.0, 7.0, 8.0, 9.0, 10.0}};
   std::vector<io::Cell> numbers;
   for (int i = 1; i <= 10; ++i) numbers.emplace_back(static_cast<double>(i));
-  EXPECT_EQ(behind(history_cells(history, scalars), history_columns()), numbers);
+  EXPECT_EQ(behind(history_cells(history, {scalars}), history_columns()), numbers);
 
   DropRow drop;
   drop.scalars = {{1.0, 2.0}, {3.0, {}}};
-  EXPECT_EQ(behind(drop_cells({2, 0.5, drop}, scalars), drop_columns()),
+  EXPECT_EQ(behind(drop_cells({2, 0.5, drop}, {scalars}), drop_columns()),
             (std::vector<io::Cell>{1.0, 2.0, 3.0, {}}));
   drop.scalars.clear();
   EXPECT_EQ(drop_cells({2, 0.5, drop}, {}),
             cells_of(drop_columns(), RowAtStep<DropRow>{2, 0.5, drop}));
+}
+
+TEST(RunTables, HaveColumnsOfInertiaWhereLiquidsHaveSome) {
+  const RunPhysics physics{{}, true};
+  EXPECT_EQ(behind(history_names(physics), history_columns()),
+            (std::vector<std::string>{"kinetic_energy", "kinetic_rate", "transfer_momentum_lost",
+                                      "transfer_energy_lost"}));
+  EXPECT_EQ(behind(drop_names(physics), drop_columns()),
+            (std::vector<std::string>{"velocity_x", "velocity_y", "velocity_z", "reynolds",
+                                      "kinetic_energy", "sphericity"}));
+  HistoryRow history;
+  history.power_in = 10.0;
+  history.dissipation = 4.0;
+  history.surface_rate = 3.0;
+  history.kinetic = KineticTotals{1.0, 2.0, 0.25, 0.5};
+  EXPECT_EQ(behind(history_cells(history, physics), history_columns()),
+            (std::vector<io::Cell>{1.0, 2.0, 0.25, 0.5}));
+  EXPECT_EQ(cell_of(history_columns(), history, "power_residual"), io::Cell(1.0));
+  DropRow drop;
+  drop.motion = DropMotion{Vec3(1.0, 2.0, 3.0), 4.0, 5.0, 6.0};
+  EXPECT_EQ(behind(drop_cells({2, 0.5, drop}, physics), drop_columns()),
+            (std::vector<io::Cell>{1.0, 2.0, 3.0, 4.0, 5.0, 6.0}));
+  drop.motion.reset();
+  EXPECT_EQ(behind(drop_cells({2, 0.5, drop}, physics), drop_columns()), std::vector<io::Cell>(6));
 }
 
 }  // namespace

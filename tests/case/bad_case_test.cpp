@@ -54,7 +54,8 @@ const std::vector<BadCase> kValues{
     {"two numbers for three", shear_with("center = [0, 0]\n"),
      "case.toml:6: drop.center = [0, 0] must be three numbers [x, y, z]"},
     {"number for a word", shear_with("[time]\nscheme = 2\n"),
-     "case.toml:7: time.scheme = 2 must be one of \"rk2\", \"euler\", \"semi-implicit\", \"rkc\""},
+     "case.toml:7: time.scheme = 2 must be one of \"rk2\", \"euler\", \"semi-implicit\", \"rkc\", "
+     "\"implicit\""},
     {"no tolerance", shear_with("[time]\ntolerance = 0.0\n"),
      "case.toml:7: time.tolerance = 0.0 must be between 0 and 1, 0 excluded"},
     {"negative tolerance", shear_with("[time]\ntolerance = -0.1\n"),

@@ -48,6 +48,34 @@ TEST(BuildScene, NoSurfaceTensionAtInfiniteCa) {
   EXPECT_EQ(scene.interfaces[0].tension, 0.0);
 }
 
+constexpr std::string_view kSecondDrop = "[[drop]]\nradius = 0.5\ncenter = [0, 0, 3]\n";
+
+TEST(BuildScene, LiquidsWithInertiaHaveTheirDensities) {
+  const std::string drops = "density-ratio = 0.5\n" + std::string(kSecondDrop);
+  const Scene scene = build_surroundings(shear_case(drops, {"flow.reynolds-number=10"}));
+  EXPECT_EQ(scene.liquids[RegionId{0}].density, 10.0);
+  EXPECT_EQ(scene.liquids[RegionId{1}].density, 5.0);
+  EXPECT_EQ(scene.liquids[RegionId{2}].density, 10.0);
+  EXPECT_TRUE(has_inertia(scene));
+  const Scene stokes = build_surroundings(shear_case(kSecondDrop));
+  for (const Liquid& liquid : stokes.liquids) EXPECT_EQ(liquid.density, 0.0);
+  EXPECT_FALSE(has_inertia(stokes));
+}
+
+TEST(BuildScene, GravityActsOnDifferencesOfDensity) {
+  const std::string drops =
+      "density-ratio = 1.5\nbody-force = [0.1, 0, 0]\n" + std::string(kSecondDrop);
+  for (const double reynolds : {0.0, 10.0}) {
+    const Scene scene = build_surroundings(shear_case(
+        drops, {fmt::format("flow.reynolds-number={}", reynolds), "flow.gravity=[0, 0, -0.6]"}));
+    EXPECT_EQ(scene.liquids[RegionId{0}].body_force, Vec3(0, 0, 0));
+    const Vec3 expected(0.1, 0.0, (1.5 - 1.0) * -0.6 / 0.3);  // Ca = 0.3
+    EXPECT_LT((scene.liquids[RegionId{1}].body_force - expected).norm(), 1e-15);
+    EXPECT_EQ(scene.liquids[RegionId{2}].body_force, Vec3(0, 0, 0));
+    EXPECT_EQ(scene.liquids[RegionId{1}].density, 1.5 * reynolds);
+  }
+}
+
 TEST(BuildScene, ShearBoxIsSymmetricInZAndFollowsTheFlowElsewhere) {
   const Scene scene = build_scene(shear_case());
   for (const FaceId f : scene.boundary.mesh.faces.ids()) {

@@ -16,12 +16,15 @@ TEST(Case, HasTheDocumentedDefaults) {
   const Case c = shear_case();
   EXPECT_EQ(c.title, "");
   EXPECT_EQ(c.Ca, 0.3);
+  EXPECT_EQ(c.reynolds, 0.0);
+  EXPECT_EQ(c.gravity, Vec3(0, 0, 0));
   EXPECT_EQ(c.flow.family(), FlowFamily::planar);
   EXPECT_EQ(c.flow.gradient(3.0), ImposedFlow::simple_shear());
   ASSERT_EQ(c.drops.size(), 1u);
   EXPECT_EQ(std::get<BallShape>(c.drops[0].shape).radius, 1.0);
   EXPECT_EQ(c.drops[0].center, Vec3(0, 0, 0));
   EXPECT_EQ(c.drops[0].viscosity_ratio, 1.0);
+  EXPECT_EQ(c.drops[0].density_ratio, 1.0);
   EXPECT_EQ(c.drops[0].tension_ratio, 1.0);
   EXPECT_EQ(c.drops[0].nodes, 110);
   EXPECT_EQ(c.domain.shape, DomainCase::Shape::box);
@@ -59,6 +62,30 @@ TEST(Case, AStepFactorWithoutControlMeansThePapersRule) {
   EXPECT_EQ(evolution.scheme, TimeScheme::rk2);
   EXPECT_EQ(evolution.step_factor, 0.7);
   EXPECT_EQ(evolution.max_step, 0.1);
+}
+
+TEST(Case, LiquidsWithInertiaHaveAnImplicitScheme) {
+  const auto evolution = [](const std::string& tables) {
+    return shear_case(tables, {"flow.reynolds-number=10"}).evolution;
+  };
+  for (const char* tables :
+       {"", "[time]\nscheme = \"implicit\"\n", "[interface]\nsurface-tension = \"balanced\"\n"}) {
+    EXPECT_EQ(evolution(tables).scheme, TimeScheme::implicit) << tables;
+    EXPECT_EQ(evolution(tables).control, StepControl::error) << tables;
+  }
+  for (const char* tables : {"[time]\ncontrol = \"paper\"\n", "[time]\nstep-factor = 0.7\n"}) {
+    EXPECT_EQ(evolution(tables).scheme, TimeScheme::implicit) << tables;
+    EXPECT_EQ(evolution(tables).control, StepControl::paper) << tables;
+  }
+}
+
+TEST(Case, AnOverrideMayTakeInertiaAndWithItTheEffectOfDensities) {
+  const Case c = parse_case(
+      "[flow]\nkind = \"quiescent\"\nreynolds-number = 10\n[[drop]]\nradius = 1\n"
+      "density-ratio = 2\n",
+      "case.toml", {}, std::vector<std::string>{"flow.reynolds-number=0"});
+  EXPECT_EQ(c.reynolds, 0.0);
+  EXPECT_EQ(c.evolution.scheme, TimeScheme::semi_implicit);
 }
 
 TEST(Case, OptionsOfThePapersMethodAreTheDefaultsOfTheRooms) {
@@ -265,6 +292,33 @@ TEST(Case, ScaleConvertsOnce) {
   EXPECT_DOUBLE_EQ(c.evolution.max_step, 1.0);        // a default stays dimensionless
 }
 
+/// kScaled with densities and gravity.
+constexpr const char* kScaledWeight =
+    "[flow]\nkind = \"simple-shear\"\ngravity = [0, 0, -9.81]\n"
+    "[[drop]]\nradius = 1e-3\ndensity-ratio = 0.8\n"
+    "[scale]\nlength = 1e-3\nviscosity = 5.0\nsurface-tension = 0.02\nrate = 2.0\n"
+    "density = 1000.0\n";
+
+TEST(Case, ScaleGivesReynoldsAndBondNumbers) {
+  const Case c = parse_case(kScaledWeight, "case.toml");
+  EXPECT_DOUBLE_EQ(c.reynolds, 1000.0 * 2.0 * 1e-6 / 5.0);
+  EXPECT_EQ(c.gravity.head<2>().norm(), 0.0);
+  EXPECT_DOUBLE_EQ(c.gravity.z(), -1000.0 * 9.81 * 1e-6 / 0.02);
+  EXPECT_EQ(c.drops[0].density_ratio, 0.8);
+  const Case light = parse_case(kScaled, "case.toml");
+  EXPECT_EQ(light.reynolds, 0.0);
+  EXPECT_EQ(light.evolution.scheme, TimeScheme::semi_implicit);
+}
+
+TEST(Case, ReynoldsNumberOfAQuiescentFlowIsTheLaplaceNumber) {
+  const Case c = parse_case(
+      "[flow]\nkind = \"quiescent\"\n[[drop]]\nradius = 1e-3\n"
+      "[scale]\nlength = 1e-3\nviscosity = 2.0\nsurface-tension = 0.03\ndensity = 1000.0\n",
+      "case.toml");
+  const double laplace = 1000.0 * 0.03 * 1e-3 / (2.0 * 2.0);
+  EXPECT_NEAR(c.reynolds, laplace, 1e-14 * laplace);  // roundoff
+}
+
 TEST(Case, ScaleOfAQuiescentFlowIsTheCapillaryTime) {
   const Case c = parse_case(
       "[flow]\nkind = \"quiescent\"\n[[drop]]\nradius = 1e-3\n"
@@ -279,16 +333,34 @@ TEST(Case, TomlWithDefaultsReadsBackToTheSameCase) {
                            "viscosity-ratio = 0.1\n[[drop]]\naxes = [1, 2, 0.3]\n"
                            "center = [5, 0, 0]\n[[flow.schedule]]\ntime = 3\nfactor = -1\n"
                            "[[domain.patch]]\nname = \"x+\"\nvelocity = [0.1, 0, 0]\n";
-  for (const std::string& source : {text, std::string(kScaled)}) {
+  const std::string inertia =
+      "[flow]\nkind = \"quiescent\"\nreynolds-number = 0.1\ngravity = [0, 0.1, -0.3]\n"
+      "[[drop]]\nradius = 0.7\ndensity-ratio = 0.1\n";
+  for (const std::string& source :
+       {text, std::string(kScaled), inertia, std::string(kScaledWeight)}) {
     const Case first = parse_case(source, "case.toml");
     const Case second = parse_case(case_toml(first), "again.toml");
     EXPECT_EQ(case_toml(first), case_toml(second));
     EXPECT_EQ(first.Ca, second.Ca);
+    EXPECT_EQ(first.reynolds, second.reynolds);
+    EXPECT_EQ(first.gravity, second.gravity);
+    EXPECT_EQ(first.drops[0].density_ratio, second.drops[0].density_ratio);
+    EXPECT_EQ(first.evolution.scheme, second.evolution.scheme);
     EXPECT_EQ(first.evolution.max_step, second.evolution.max_step);
     EXPECT_EQ(first.drops.size(), second.drops.size());
     EXPECT_EQ(first.flow.gradient(4.0), second.flow.gradient(4.0));
     EXPECT_EQ(first.domain.is_symmetric_in_z, second.domain.is_symmetric_in_z);
   }
+}
+
+TEST(Case, JsonHasInertiaAndGravity) {
+  const Case c =
+      shear_case("density-ratio = 2\n", {"flow.reynolds-number=10", "flow.gravity=[0, 0, -0.5]"});
+  const nlohmann::json json = nlohmann::json::parse(case_json(c));
+  EXPECT_EQ(json["flow"]["reynolds-number"], 10.0);
+  EXPECT_EQ(json["flow"]["gravity"], nlohmann::json({0.0, 0.0, -0.5}));
+  EXPECT_EQ(json["drop"][0]["density-ratio"], 2.0);
+  EXPECT_EQ(json["time"]["scheme"], "implicit");
 }
 
 TEST(Case, JsonHasEveryValueInItsPlace) {

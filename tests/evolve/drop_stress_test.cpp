@@ -21,7 +21,7 @@ Scene one_drop(const SurfaceMesh& mesh, double viscosity_ratio, double Ca) {
   Scene scene;
   scene.Ca = Ca;
   scene.liquids.add(Liquid{});
-  scene.liquids.add(Liquid{viscosity_ratio, Vec3::Zero()});
+  scene.liquids.add({.viscosity = viscosity_ratio});
   Interface interface;
   interface.mesh = mesh;
   interface.inside = RegionId{1};

@@ -84,6 +84,26 @@ void with_element(const FlowSpace& space, const NodePositions& positions, Action
   return action(element);
 }
 
+/// ∫φ_iφ_j/V of a straight quadratic tetrahedron.
+inline constexpr std::array<std::array<double, 10>, 10> kQuadraticMass = [] {
+  std::array<std::array<double, 10>, 10> mass{};
+  const auto touches = [](std::size_t e, std::size_t k) {
+    return kCellEdges[e][0] == k || kCellEdges[e][1] == k;
+  };
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) mass[i][j] = i == j ? 6.0 : 1.0;
+    for (std::size_t e = 0; e < 6; ++e) mass[i][4 + e] = mass[4 + e][i] = touches(e, i) ? -4 : -6;
+  }
+  for (std::size_t e = 0; e < 6; ++e)
+    for (std::size_t f = 0; f < 6; ++f)
+      mass[4 + e][4 + f] =
+          e == f ? 32.0
+                 : (touches(e, kCellEdges[f][0]) || touches(e, kCellEdges[f][1]) ? 16.0 : 8.0);
+  for (auto& row : mass)
+    for (double& each : row) each /= 420.0;
+  return mass;
+}();
+
 /// A point of the curved rule in a quadratic tetrahedron.
 struct CurvedMap {
   double weight = 0.0;             ///< [R0³]

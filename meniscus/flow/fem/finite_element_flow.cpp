@@ -11,12 +11,16 @@
 #include "meniscus/flow/fem/excess_stress.hpp"
 #include "meniscus/flow/fem/face_elements.hpp"
 #include "meniscus/flow/fem/interpolated_state.hpp"
+#include "meniscus/flow/fem/node_sources.hpp"
+#include "meniscus/flow/fem/region_motions.hpp"
 #include "meniscus/flow/fem/scalar_coupling.hpp"
 #include "meniscus/flow/fem/solver_archive.hpp"
 #include "meniscus/flow/fem/stokes_residual.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
 #include "meniscus/flow/fem/vertex_velocity.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/scene/interface_tension.hpp"
+#include "meniscus/volume/tetrahedralize.hpp"
 
 namespace meniscus::fem {
 namespace {
@@ -44,6 +48,49 @@ SurfaceNodes surface_nodes(const Scene& scene, const TetMesh& mesh, const FlowSp
   return nodes;
 }
 
+/// Velocities at the nodes of an interface's faces of what is given at its vertices, at the middles
+/// of edges half way between.
+void add_at_faces(const SurfaceMesh& surface, const FaceNodeTable& faces,
+                  const VertexField<Vec3>& at_vertices, Field<NodeId, Vec3>& to) {
+  for (const FaceId f : surface.faces.ids())
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 &here = at_vertices[surface.faces[f][k]],
+                 &next = at_vertices[surface.faces[f][(k + 1) % 3]];
+      to[faces.of(f)[k]] = here;
+      to[faces.of(f)[3 + k]] = 0.5 * (here + next);
+    }
+}
+
+/// What the stage of a domain adds by inertia, the nodes being at x.
+InertiaTerms inertia_terms(const FlowDomain& domain, const Field<NodeId, Vec3>& x,
+                           std::span<const FaceNodeTable> interfaces) {
+  const ImplicitStage& stage = *domain.stage;
+  const Scene& scene = domain.scene;
+  MENISCUS_ASSERT(stage.x.size() == x.span().size() && stage.v.size() == stage.x.size(),
+                  "{} nodes, {} before", x.size(), stage.x.size());
+  InertiaTerms terms{.duration = stage.duration};
+  for (const CellId c : domain.mesh->cells.ids())
+    terms.density.add(scene.liquids[domain.mesh->region[c]].density);
+  terms.before = Field<NodeId, Vec3>(stage.v);
+  for (const NodeId i : x.ids())
+    terms.mesh_velocity.add((x[i] - stage.x[static_cast<std::size_t>(i.value)]) / stage.duration);
+  terms.interface_went = Field<NodeId, Vec3>(x.size(), Vec3::Zero());
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+    const Interface& interface = scene.interfaces[i];
+    if (interface.tension == 0.0 || stage.slowing.empty()) continue;
+    add_at_faces(interface.mesh, interfaces[i], stage.slowing[i], terms.interface_went);
+    const double factor = stage.duration * largest_tension(interface);
+    for (const FaceId f : interfaces[i].faces())
+      terms.tension.push_back(face_stiffness(x, interfaces[i].of(f), factor));
+  }
+  std::vector<char> is_done(stage.x.size(), 0);
+  for (const FaceStiffness& face : terms.tension)
+    for (const NodeId i : face.nodes)
+      if (std::exchange(is_done[static_cast<std::size_t>(i.value)], 1) == 0)
+        terms.interface_went[i] += stage.expected_v[static_cast<std::size_t>(i.value)];
+  return terms;
+}
+
 InstantProblem instant_problem(const FlowDomain& domain, const FlowSpace& space,
                                NodePositions positions, CapillaryForm form, double t) {
   const Scene& scene = domain.scene;
@@ -58,7 +105,12 @@ InstantProblem instant_problem(const FlowDomain& domain, const FlowSpace& space,
   }
   if (!std::ranges::all_of(scene.liquids, is_newtonian, &Liquid::law))
     for (const Liquid& liquid : scene.liquids) problem.stokes.laws.add(liquid.law);
-  for (const Vec3& x : at.x) problem.stokes.undisturbed.add(scene.flow.velocity(x, t));
+  if (domain.stage != nullptr) {
+    problem.stokes.inertia = inertia_terms(domain, at.x, nodes.interfaces);
+    problem.stokes.undisturbed = problem.stokes.inertia->before;
+  } else {
+    for (const Vec3& x : at.x) problem.stokes.undisturbed.add(scene.flow.velocity(x, t));
+  }
   BoundaryConditions conditions = boundary_conditions(scene.boundary, nodes.boundary, at, t);
   problem.fault = std::move(conditions.fault);
   problem.stokes.constraints = std::move(conditions.constraints);
@@ -129,6 +181,12 @@ void level_pressure(const TetMesh& mesh, const PressureSpace& space,
   for (double& p : pressure) p -= integral / volume;
 }
 
+Vec3 momentum_of(std::span<const RegionMotion> motions) {
+  Vec3 sum = Vec3::Zero();
+  for (const RegionMotion& each : motions) sum += each.momentum;
+  return sum;
+}
+
 class FiniteElementFlow final : public FlowSolver {
  public:
   explicit FiniteElementFlow(const Options& options) : options_(options) {
@@ -141,6 +199,8 @@ class FiniteElementFlow final : public FlowSolver {
 
   FlowSolution solve(const FlowDomain& domain, const Instant& instant) override;
   void follow(const MeshChange& change, const FlowDomain& domain) override;
+  TransferredFlow transferred(const MeshChange& change, const Scene& before,
+                              const FlowDomain& domain, double t, const NodalFlow& flow) override;
 
   void save(Archive& archive, const FlowDomain& domain) const override;
   void load(const Archive& archive, const FlowDomain& domain) override;
@@ -154,7 +214,13 @@ class FiniteElementFlow final : public FlowSolver {
   }
   void decide_on_preconditioner(const StokesProblem& problem, const StokesReport& report,
                                 bool is_kept);
-  [[nodiscard]] StokesState first_guess(const StokesProblem& problem) const;
+  [[nodiscard]] StokesState first_guess(const FlowDomain& domain,
+                                        const StokesProblem& problem) const;
+  [[nodiscard]] FlowSolution first_flow(const FlowDomain& domain, double t);
+  [[nodiscard]] std::optional<Fault> keep_momentum(const FlowDomain& domain, double t,
+                                                   const NodePositions& positions,
+                                                   const Vec3& momentum, StokesState& state);
+  [[nodiscard]] StokesReport settle(const FlowDomain& domain, double t, StokesState& state);
   void keep_solution(const StokesProblem& problem, StokesState state);
   [[nodiscard]] FlowSolution solution(const FlowDomain& domain, const InstantProblem& problem,
                                       const StokesState& state);
@@ -170,6 +236,7 @@ class FiniteElementFlow final : public FlowSolver {
   /// iterations of the solve that made it; none when the next is to make its own.
   std::optional<NodePositions> prepared_at_;
   int iterations_then_ = 0;
+  double prepared_duration_ = 0.0;  // of the stage then; 0 without inertia
   PhaseTimes times_;
 };
 
@@ -195,7 +262,11 @@ void FiniteElementFlow::follow(const MeshChange& change, const FlowDomain& domai
 
 /// Undisturbed flow and drops change on their own: the one is known at once, what the drops add to
 /// it is taken from the last solution.
-StokesState FiniteElementFlow::first_guess(const StokesProblem& problem) const {
+StokesState FiniteElementFlow::first_guess(const FlowDomain& domain,
+                                           const StokesProblem& problem) const {
+  if (domain.stage != nullptr)
+    return {Field<NodeId, Vec3>(domain.stage->expected_v),
+            guess_ ? guess_->p : stokes_->state_at_rest().p};
   StokesState state = guess_ ? *guess_ : stokes_->state_at_rest();
   for (const NodeId i : state.v.ids()) state.v[i] += problem.undisturbed[i];
   return state;
@@ -206,11 +277,149 @@ void FiniteElementFlow::keep_solution(const StokesProblem& problem, StokesState 
   guess_ = std::move(state);
 }
 
+/// The flow with which a run of liquids with inertia begins, without divergence and with the
+/// boundary's velocity, and the pressure that goes with it.
+FlowSolution FiniteElementFlow::first_flow(const FlowDomain& domain, double t) {
+  const NodePositions positions =
+      node_positions(domain.scene, *domain.mesh, space_, options_.processes);
+  StokesState state = stokes_->state_at_rest();
+  const Scene& scene = domain.scene;
+  for (const NodeId i : state.v.ids())
+    state.v[i] = scene.initial_velocity ? scene.initial_velocity(positions.x[i])
+                                        : scene.flow.velocity(positions.x[i], t);
+  FlowSolution result;
+  // The first time finds the velocity, the second the pressure of a velocity without divergence.
+  for (int k = 0; k < 2; ++k) {
+    const StokesReport report = settle(domain, t, state);
+    result.iterations += report.iterations;
+    if (!report.ok()) return failed_flow(*report.fault, result.iterations);
+  }
+  const InstantProblem problem = instant_problem(domain, space_, positions, options_.capillary, t);
+  const int iterations = result.iterations;
+  result = solution(domain, problem, state);
+  result.iterations = iterations;
+  keep_solution(problem.stokes, std::move(state));
+  return result;
+}
+
+/// Takes a velocity to the nearest one without divergence and with the boundary's, by a stage too
+/// short for anything else, and the pressure to what it is then.
+StokesReport FiniteElementFlow::settle(const FlowDomain& domain, double t, StokesState& state) {
+  constexpr double kShare = 1e-4;  // of the time in which viscosity crosses a cell
+  const NodePositions positions =
+      node_positions(domain.scene, *domain.mesh, space_, options_.processes);
+  double fastest = 0.0;
+  for (const Liquid& liquid : domain.scene.liquids)
+    fastest = std::max(fastest, liquid.viscosity / liquid.density);
+  const double edge = shortest_edge(*domain.mesh);
+  ImplicitStage stage{.duration = kShare * edge * edge / fastest,
+                      .x = {positions.x.begin(), positions.x.end()},
+                      .v = {state.v.begin(), state.v.end()},
+                      .expected_v = {state.v.begin(), state.v.end()},
+                      .slowing = {}};
+  FlowDomain here = domain;
+  here.known = nullptr;
+  here.stage = &stage;
+  const InstantProblem problem = instant_problem(here, space_, positions, options_.capillary, t);
+  prepared_at_.reset();
+  StokesReport report =
+      stokes_->solve(problem.stokes, state, linear::Preconditioner::fresh, times_);
+  if (report.ok() && !problem.stokes.has_open_boundary)
+    level_pressure(*domain.mesh, space_.pressure, state.p);
+  return report;
+}
+
+/// Gives a velocity without divergence a momentum, by the least that three such fields add: what is
+/// left of the uniform ones. Where all densities are equal walls hold the momentum at zero.
+std::optional<Fault> FiniteElementFlow::keep_momentum(const FlowDomain& domain, double t,
+                                                      const NodePositions& positions,
+                                                      const Vec3& momentum, StokesState& state) {
+  constexpr double kLeast = 1e-4;  // of the momentum of a uniform field: walls hold the rest
+  const auto momentum_in = [&](const Field<NodeId, Vec3>& v) {
+    return momentum_of(region_motions(domain.scene, *domain.mesh, space_, positions, v.span()));
+  };
+  double scale = 0.0, mass = 0.0;
+  for (const Vec3& v : state.v) scale = std::max(scale, v.norm());
+  if (scale == 0.0) return {};
+  const Vec3 now = momentum_in(state.v);
+  std::array<Field<NodeId, Vec3>, 3> fields;
+  Mat3 momenta;
+  for (int k = 0; k < 3; ++k) {
+    StokesState moved = state;
+    for (Vec3& v : moved.v) v += scale * Vec3::Unit(k);
+    mass = std::max(mass, (momentum_in(moved.v) - now).norm());
+    if (StokesReport report = settle(domain, t, moved); !report.ok()) return report.fault;
+    for (const NodeId i : moved.v.ids()) moved.v[i] -= state.v[i];
+    momenta.col(k) = momentum_in(moved.v);
+    fields[static_cast<std::size_t>(k)] = std::move(moved.v);
+  }
+  if (momenta.norm() < kLeast * mass) return {};
+  const Vec3 share = momenta.completeOrthogonalDecomposition().solve(momentum - now);
+  for (const NodeId i : state.v.ids())
+    for (int k = 0; k < 3; ++k) state.v[i] += share[k] * fields[static_cast<std::size_t>(k)][i];
+  return {};
+}
+
+TransferredFlow FiniteElementFlow::transferred(const MeshChange& change, const Scene& before,
+                                               const FlowDomain& domain, double t,
+                                               const NodalFlow& flow) {
+  FlowSpace old_space;
+  {
+    const RemainderTimer timer(times_, "assemble");
+    old_space = flow_space(change.before, options_.elements);
+    follow(change, domain);
+    if (!has_connectivity_of(domain)) use_connectivity(domain);
+  }
+  const NodePositions old_positions =
+                          node_positions(before, change.before, old_space, options_.processes),
+                      positions =
+                          node_positions(domain.scene, *domain.mesh, space_, options_.processes);
+  const std::vector<NodeSource> sources = node_sources(
+      {change.before, old_space, old_positions}, {*domain.mesh, space_, positions}, change.sources);
+  StokesState state{Field<NodeId, Vec3>(interpolated_values<Vec3>(flow.v, old_space, sources)),
+                    guess_ ? guess_->p : stokes_->state_at_rest().p};
+  const std::vector<double> pressure = state.p;
+  TransferredFlow result;
+  result.fault = settle(domain, t, state).fault;
+  const auto had_momentum =
+      momentum_of(region_motions(before, change.before, old_space, old_positions, flow.v));
+  if (result.ok() && !change.sources.empty())
+    result.fault = keep_momentum(domain, t, positions, had_momentum, state);
+  result.flow = {{positions.x.begin(), positions.x.end()},
+                 {state.v.begin(), state.v.end()},
+                 pressure,
+                 flow.power};
+  double gross = 0.0;
+  RegionMotion lost;
+  for (const RegionMotion& each :
+       region_motions(before, change.before, old_space, old_positions, flow.v, &gross)) {
+    lost.momentum += each.momentum;
+    lost.kinetic_energy += each.kinetic_energy;
+  }
+  for (const RegionMotion& each :
+       region_motions(domain.scene, *domain.mesh, space_, positions, result.flow.v)) {
+    lost.momentum -= each.momentum;
+    lost.kinetic_energy -= each.kinetic_energy;
+  }
+  if (gross > 0.0) result.momentum_lost = lost.momentum.norm() / gross;
+  result.energy_lost = lost.kinetic_energy;
+  return result;
+}
+
 FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& instant) {
   MENISCUS_ASSERT(domain.mesh != nullptr, "finite elements need a volume mesh");
   const RemainderTimer timer(times_, "assemble");
   const TetMesh& mesh = *domain.mesh;
   if (!has_connectivity_of(domain)) use_connectivity(domain);
+  if (has_inertia(domain.scene) && options_.elements != Elements::p2_p1)
+    reject_input("liquids with inertia need P2-P1 elements");
+  if (domain.stage == nullptr && has_inertia(domain.scene)) {
+    if (domain.known == nullptr) return first_flow(domain, instant.t);
+    const InstantProblem problem = instant_problem(
+        domain, space_, node_positions(domain.scene, mesh, space_, options_.processes),
+        options_.capillary, instant.t);
+    return solution(domain, problem, {Field<NodeId, Vec3>(domain.known->v), domain.known->p});
+  }
   for (const CellId c : mesh.cells.ids())
     if (!(signed_volume(mesh, c) > 0.0))
       return failed_flow({FaultKind::inverted_cell, "a cell of the volume mesh is inverted",
@@ -219,7 +428,7 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
       domain, space_, node_positions(domain.scene, mesh, space_, options_.processes),
       options_.capillary, instant.t);
   if (problem.fault) return failed_flow(*problem.fault);
-  StokesState state = first_guess(problem.stokes);
+  StokesState state = first_guess(domain, problem.stokes);
   const bool is_kept = prepared_at_.has_value();
   const StokesReport report = stokes_->solve(
       problem.stokes, state, is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh,
@@ -252,6 +461,7 @@ void FiniteElementFlow::decide_on_preconditioner(const StokesProblem& problem,
   prepared_at_.reset();
   if (is_kept || !is_own) return;
   prepared_at_ = problem.positions;
+  prepared_duration_ = problem.inertia ? problem.inertia->duration : 0.0;
   iterations_then_ = report.iterations;
 }
 
@@ -269,10 +479,15 @@ FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const Instant
     if (options_.elements == Elements::p2_p1)
       result.middles.push_back(middle_nodes(surface, faces, positions, state.v));
   }
-  const StokesPower power = stokes_->power(problem.stokes, state);
-  double traction = 0.0;
-  for (const NodeId i : problem.traction.ids()) traction += problem.traction[i].dot(state.v[i]);
-  result.power = {power.reaction + traction + power.body_force, power.dissipation};
+  if (domain.known != nullptr) {
+    result.power = domain.known->power;
+  } else {
+    const StokesPower power = stokes_->power(problem.stokes, state);
+    double traction = 0.0;
+    for (const NodeId i : problem.traction.ids()) traction += problem.traction[i].dot(state.v[i]);
+    result.power = {power.reaction + traction + power.body_force, power.dissipation,
+                    power.kinetic_rate};
+  }
   GeneralisedLiquids liquids = generalised_liquids(problem.stokes, state);
   result.excess_stress = std::move(liquids.excess_stress);
   result.least_viscosity = std::move(liquids.least_viscosity);
@@ -284,6 +499,13 @@ FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const Instant
   for (const std::int32_t node : space_.pressure.nodes.cell_nodes)
     bulk.corner_pressure.push_back(state.p[static_cast<std::size_t>(node)]);
   result.bulk = std::move(bulk);
+  if (!has_inertia(domain.scene)) return result;
+  const Field<NodeId, Vec3>& x = problem.stokes.positions.x;
+  result.nodal =
+      NodalFlow{{x.begin(), x.end()}, {state.v.begin(), state.v.end()}, state.p, *result.power};
+  if (domain.stage == nullptr)
+    result.motions =
+        region_motions(domain.scene, mesh, space_, problem.stokes.positions, result.nodal->v);
   return result;
 }
 
@@ -293,6 +515,8 @@ void FiniteElementFlow::save(Archive& archive, const FlowDomain& domain) const {
   if (!prepared_at_) return;
   save_positions(*prepared_at_, archive, "flow/preconditioner");
   archive.integers["flow/preconditioner/iterations"] = {iterations_then_};
+  if (prepared_duration_ > 0.0)
+    archive.reals["flow/preconditioner/duration"] = {prepared_duration_};
 }
 
 /// Makes the preconditioner that the saved run had, so that a resumed run does the same arithmetic.
@@ -304,8 +528,19 @@ void FiniteElementFlow::restore_preconditioner(const Archive& archive, const Flo
     reject_input("checkpoint: flow/preconditioner/x does not fit the volume mesh");
   iterations_then_ = static_cast<int>(
       entry_of_size(archive.integers, "flow/preconditioner/iterations", 1).front());
-  // Time and forces matter to the right-hand side alone.
-  stokes_->prepare(instant_problem(domain, space_, *prepared_at_, options_.capillary, 0.0).stokes);
+  FlowDomain then = domain;
+  ImplicitStage stage;
+  if (has_inertia(domain.scene)) {
+    const std::vector<Vec3> zeros(prepared_at_->x.span().size(), Vec3::Zero());
+    prepared_duration_ = entry_of_size(archive.reals, "flow/preconditioner/duration", 1).front();
+    stage = {
+        prepared_duration_, {prepared_at_->x.begin(), prepared_at_->x.end()}, zeros, zeros, {}};
+    for (const Interface& interface : domain.scene.interfaces)
+      stage.slowing.emplace_back(interface.mesh.num_vertices(), Vec3::Zero());
+    then.stage = &stage;
+  }
+  // Time, forces and velocities matter to the right-hand side alone.
+  stokes_->prepare(instant_problem(then, space_, *prepared_at_, options_.capillary, 0.0).stokes);
 }
 
 void FiniteElementFlow::load(const Archive& archive, const FlowDomain& domain) {

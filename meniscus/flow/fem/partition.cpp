@@ -194,6 +194,30 @@ std::unique_ptr<const Partition> make_partition(const FlowSpace& space,
   return partition;
 }
 
+namespace {
+
+/// Faces with a node that is not local give nothing to owned rows.
+InertiaTerms local_part(const InertiaTerms& global, const Partition& partition) {
+  InertiaTerms local{.duration = global.duration};
+  for (const CellId c : partition.global_cell) local.density.add(global.density[c]);
+  Field<NodeId, std::int32_t> number(global.before.size(), -1);
+  for (std::size_t i = 0; i < partition.global_node.size(); ++i) {
+    const NodeId from = partition.global_node[i];
+    number[from] = static_cast<std::int32_t>(i);
+    local.before.add(global.before[from]);
+    local.mesh_velocity.add(global.mesh_velocity[from]);
+    local.interface_went.add(global.interface_went[from]);
+  }
+  for (FaceStiffness face : global.tension) {
+    for (NodeId& node : face.nodes) node = NodeId{number[node]};
+    if (std::ranges::none_of(face.nodes, [](NodeId node) { return node.value < 0; }))
+      local.tension.push_back(std::move(face));
+  }
+  return local;
+}
+
+}  // namespace
+
 StokesProblem local_part(const StokesProblem& global, const Partition& partition) {
   NodePositions positions;
   for (const NodeId i : partition.global_node) positions.x.add(global.positions.x[i]);
@@ -210,6 +234,7 @@ StokesProblem local_part(const StokesProblem& global, const Partition& partition
   if (!global.undisturbed.empty())
     for (const NodeId i_global : partition.global_node)
       local.undisturbed.add(global.undisturbed[i_global]);
+  if (global.inertia) local.inertia = local_part(*global.inertia, partition);
   for (const NodeId i : local.force.ids()) {
     const NodeId i_global = partition.global_node[at(i.value)];
     local.force[i] = global.force[i_global];

@@ -4,6 +4,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/elements.hpp"
+#include "meniscus/flow/fem/inertia_product.hpp"
 
 namespace meniscus::fem {
 namespace {
@@ -69,7 +70,8 @@ ProductJacobian::ProductJacobian(const FlowSpace& space, const Partition* partit
       vertex_graph_(node_graph(vertices_, vertices_)),
       pressure_graph_(node_graph(space.pressure.nodes, space.pressure.nodes)),
       laplacians_(space, partition),
-      region_weights_(space.pressure, partition) {
+      region_weights_(space.pressure, partition),
+      partition_(partition) {
   MENISCUS_ASSERT(space.elements == Elements::p2_p1, "linear elements have matrices");
   std::vector<std::int32_t> number;  // of a vertex
   for (const std::int32_t each : coarse_.number)
@@ -88,6 +90,11 @@ void ProductJacobian::assemble(const StokesProblem& problem, const StokesProduct
   pressure_mass_.assign(at(pressure_graph_.num_rows()), 0.0);
   consistent_mass_.assign(pressure_graph_.num_entries(), 0.0);
   for (const CellId c : problem.mesh.cells.ids()) add_cell(problem, c);
+  divergence_ = {};
+  if (problem.inertia) {
+    add_tension(*problem.inertia);
+    assemble_divergence(problem, *product.inertia());
+  }
   region_weights_.update(std::span(pressure_mass_).first(at(owned_.num_pressures)));
 }
 
@@ -96,6 +103,8 @@ void ProductJacobian::add_cell(const StokesProblem& problem, CellId c) {
                                                                    : straight_integrals(problem, c);
   const auto nodes = space_.velocity.of(c), vertices = vertices_.of(c),
              pressures = space_.pressure.nodes.of(c);
+  const double density_rate =
+      problem.inertia ? problem.inertia->density[c] / problem.inertia->duration : 0.0;
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t l = 0; l < 4; ++l) {
       const auto row = static_cast<Eigen::Index>(k), column = static_cast<Eigen::Index>(l);
@@ -104,12 +113,81 @@ void ProductJacobian::add_cell(const StokesProblem& problem, CellId c) {
         const bool is_fixed = laplacian.is_fixed[at(nodes[k])] || laplacian.is_fixed[at(nodes[l])];
         if (!is_fixed || k == l)
           laplacian.values[vertex_graph_.entry(vertices[k], pair)] +=
-              problem.viscosity[c] * integrals.gradients(row, column);
+              problem.viscosity[c] * integrals.gradients(row, column) +
+              density_rate * integrals.values(row, column);
       }
       const double mass = integrals.values(row, column) / problem.viscosity[c];
       pressure_mass_[at(pressures[k])] += mass;
       consistent_mass_[pressure_graph_.entry(pressures[k], pair)] += mass;
     }
+}
+
+/// Adds to the Laplacians what the tension of the stage does to linear functions.
+void ProductJacobian::add_tension(const InertiaTerms& terms) {
+  Eigen::Matrix<double, 6, 3> from_linear = Eigen::Matrix<double, 6, 3>::Zero();
+  for (int k = 0; k < 3; ++k)
+    from_linear(k, k) = 1.0, from_linear(3 + k, k) = from_linear(3 + k, (k + 1) % 3) = 0.5;
+  for (const FaceStiffness& face : terms.tension) {
+    const Mat3 values = from_linear.transpose() * face.values * from_linear;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t row = vertex_of_[at(face.nodes[k].value)];
+      for (std::size_t l = 0; l < 3; ++l) {
+        const std::int32_t number = coarse_.number[at(face.nodes[l].value)];
+        const auto first = vertex_graph_.columns.begin() + vertex_graph_.row_start[at(row)],
+                   last = vertex_graph_.columns.begin() + vertex_graph_.row_start[at(row) + 1];
+        const auto entry = std::find(first, last, number) - vertex_graph_.columns.begin();
+        for (ScalarLaplacian& laplacian : laplacians_.all())
+          if (k == l || (!laplacian.is_fixed[at(face.nodes[k].value)] &&
+                         !laplacian.is_fixed[at(face.nodes[l].value)]))
+            laplacian.values[static_cast<std::size_t>(entry)] +=
+                values(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l));
+      }
+    }
+  }
+}
+
+void ProductJacobian::assemble_divergence(const StokesProblem& problem,
+                                          const InertiaProduct& inertia) {
+  if (divergence_graph_.row_start.empty())
+    divergence_graph_ = node_graph(space_.pressure.nodes, space_.velocity);
+  const NodeGraph& graph = divergence_graph_;
+  std::vector<Vec3> entries(graph.num_entries(), Vec3::Zero());
+  QuadraticElement element(space_, problem.positions);
+  for (const CellId c : problem.mesh.cells.ids()) {
+    const auto pressures = space_.pressure.nodes.of(c);
+    for (const auto& point : element.points(c))
+      for (std::size_t k = 0; k < 4; ++k)
+        for (std::size_t i = 0; i < 10; ++i)
+          entries[graph.entry(pressures[k], 40 * at(c.value) + 10 * k + i)] -=
+              point.weight * point.pressure[k] * point.gradient.col(static_cast<Eigen::Index>(i));
+  }
+  divergence_.num_columns = 3 * owned_.num_nodes;
+  divergence_.row_start.push_back(0);
+  divergence_.values.reserve(3 * entries.size());
+  divergence_.columns.reserve(3 * entries.size());
+  for (std::int32_t row = 0; row < owned_.num_pressures; ++row) {
+    for (auto n = at(graph.row_start[at(row)]); n < at(graph.row_start[at(row) + 1]); ++n) {
+      const NodeId node{graph.columns[n]};
+      Vec3 entry = entries[n];
+      if (const NodeConstraint* constraint = problem.constraints.find(node)) {
+        entry = (constraint->frame.transpose() * entry).eval();
+        for (std::size_t k = 0; k < 3; ++k)
+          if (constraint->is_fixed[k]) entry[static_cast<Eigen::Index>(k)] = 0.0;
+      }
+      const std::int32_t number =
+          partition_ != nullptr ? partition_->node_number[at(node.value)] : node.value;
+      for (int k = 0; k < 3; ++k) {
+        divergence_.columns.push_back(3 * number + k);
+        divergence_.values.push_back(entry[k]);
+      }
+    }
+    divergence_.row_start.push_back(static_cast<std::int32_t>(divergence_.columns.size()));
+  }
+  std::vector<double> by_node(at(problem.space.velocity.num_nodes));
+  inertia.add_mass_diagonal(by_node);
+  mass_diagonal_.clear();
+  for (std::size_t i = 0; i < at(owned_.num_nodes); ++i)
+    mass_diagonal_.insert(mass_diagonal_.end(), 3, by_node[i]);
 }
 
 linear::SaddleSystem ProductJacobian::system() const {
@@ -131,6 +209,10 @@ linear::SaddleSystem ProductJacobian::system() const {
                             pressure_graph_.columns, consistent_mass_};
   system.pressure_mass = std::span(pressure_mass_).first(at(num_pressures));
   region_weights_.put_into(system);
+  if (!divergence_.row_start.empty()) {
+    system.divergence = divergence_.view();
+    system.mass_diagonal = mass_diagonal_;
+  }
   system.constant_pressure_is_null = constant_pressure_is_null_;
   return system;
 }

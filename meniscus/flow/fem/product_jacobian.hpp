@@ -28,6 +28,8 @@ class ProductJacobian {
 
  private:
   void add_cell(const StokesProblem& problem, CellId c);
+  void add_tension(const InertiaTerms& terms);
+  void assemble_divergence(const StokesProblem& problem, const InertiaProduct& inertia);
 
   const FlowSpace& space_;
   OwnedCounts owned_;
@@ -35,8 +37,12 @@ class ProductJacobian {
   std::vector<std::int32_t> vertex_of_;  ///< by node; −1 at the middles of edges
   NodeTable vertices_;                   ///< of each cell
   NodeGraph vertex_graph_, pressure_graph_;
+  NodeGraph divergence_graph_;         ///< pressures by nodes; empty until inertia needs it
+  linear::CsrMatrix divergence_;       ///< −∫ψ∇·φ of the free unknowns; only with inertia
+  std::vector<double> mass_diagonal_;  ///< ∫ρφ_iφ_i/τ of the owned velocities
   ScalarLaplacians laplacians_;
   RegionWeights region_weights_;
+  const Partition* partition_;
   std::vector<double> pressure_mass_, consistent_mass_, diagonals_;
   std::optional<FreeProduct> product_;
   bool constant_pressure_is_null_ = false;

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "meniscus/flow/fem/constraints.hpp"
+#include "meniscus/flow/fem/inertia_terms.hpp"
 #include "meniscus/flow/fem/node_positions.hpp"
 #include "meniscus/scene/viscosity.hpp"
 
@@ -35,6 +38,7 @@ struct StokesProblem {
   CellField<Vec3> body_force;  ///< f [μ_out G / R0]
   Field<NodeId, Vec3> force;   ///< F: further forces on the fluid, by node [μ_out G R0²]
   Constraints constraints;
+  std::optional<InertiaTerms> inertia = {};  ///< none: Stokes flow
   /// The flow without drops, every liquid being the outer one; empty: not known.
   Field<NodeId, Vec3> undisturbed = {};
   const Partition* partition =
@@ -55,6 +59,14 @@ struct StokesState {
   Field<NodeId, Vec3> v;  ///< [G R0]
   std::vector<double> p;  ///< [μ_out G]
 };
+
+/// The components of vectors, side by side.
+[[nodiscard]] inline std::span<const double> numbers(const Field<NodeId, Vec3>& vectors) {
+  return {vectors.span().front().data(), 3 * vectors.span().size()};
+}
+[[nodiscard]] inline std::span<double> numbers(Field<NodeId, Vec3>& vectors) {
+  return {vectors.span().front().data(), 3 * vectors.span().size()};
+}
 
 [[nodiscard]] inline StokesState state_at_rest(const FlowSpace& space) {
   return {Field<NodeId, Vec3>(space.velocity.num_nodes, Vec3::Zero()),

@@ -4,8 +4,9 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/vector_clones.hpp"
-#include "meniscus/flow/fem/cell_lanes.hpp"
+#include "meniscus/flow/fem/cell_batches.hpp"
 #include "meniscus/flow/fem/elements.hpp"
+#include "meniscus/flow/fem/inertia_product.hpp"
 
 // GCC 12 takes elements of vectors that are set one by one for uninitialised.
 #ifndef __clang__
@@ -210,15 +211,6 @@ MENISCUS_INLINE void add_pressure(std::span<const Batch> batches, const Fields& 
   }
 }
 
-}  // namespace
-
-struct StokesProduct::Cells {
-  std::vector<StraightCells> straight;
-  std::vector<CurvedCells> curved;
-};
-
-namespace {
-
 MENISCUS_VECTOR_CLONES
 void add_stresses(std::span<const StraightCells> straight, std::span<const CurvedCells> curved,
                   const Fields& fields) {
@@ -245,62 +237,29 @@ void add_diagonals(std::span<const StraightCells> straight, std::span<const Curv
   add_diagonal(curved, by_node);
 }
 
-void set(Tensor& to, std::size_t m, const std::array<Vec3, 3>& gradients) {
-  for (std::size_t l = 0; l < 3; ++l)
-    for (std::size_t a = 0; a < 3; ++a) to[l][a][m] = gradients[l][static_cast<Eigen::Index>(a)];
-}
-
-/// Sets lane m to a cell of a problem, whose volume counts so many times.
-void set(StraightCells& cells, std::size_t m, const StokesProblem& problem, CellId c,
-         double times) {
-  const auto nodes = problem.space.velocity.of(c);
-  const auto x = [&](std::size_t k) { return problem.positions.x[NodeId{nodes[k]}]; };
-  const LinearTetrahedron tet = linear_tetrahedron({x(0), x(1), x(2), x(3)});
-  set(cells.gradient, m, {tet.gradient[1], tet.gradient[2], tet.gradient[3]});
-  cells.volume[m] = times * tet.volume / 20.0;
-}
-void set(CurvedCells& cells, std::size_t m, const StokesProblem& problem, CellId c, double times) {
-  const std::array<CurvedMap, kTetrahedronRule5.size()> maps =
-      curved_maps(problem.positions.x, problem.space.velocity.of(c));
-  for (std::size_t q = 0; q < maps.size(); ++q) {
-    set(cells.points[q].gradient, m, maps[q].gradient);
-    cells.points[q].weight[m] = times * maps[q].weight;
-  }
-}
-
-/// The cells by eights.
-template <class Batch>
-std::vector<Batch> batches_of(const StokesProblem& problem, std::span<const CellId> cells) {
-  std::vector<Batch> batches((cells.size() + kLanes - 1) / kLanes);
-  for (std::size_t n = 0; n < kLanes * batches.size(); ++n) {
-    const CellId c = cells[std::min(n, cells.size() - 1)];
-    Batch& batch = batches[n / kLanes];
-    const std::size_t m = n % kLanes;
-    const auto nodes = problem.space.velocity.of(c), pressures = problem.space.pressure.nodes.of(c);
-    for (std::size_t i = 0; i < nodes.size(); ++i) batch.nodes[i][m] = nodes[i];
-    for (std::size_t i = 0; i < pressures.size(); ++i) batch.pressures[i][m] = pressures[i];
-    set(batch, m, problem, c, n < cells.size() ? 1.0 : 0.0);
-    batch.viscosity[m] = problem.viscosity[c];
-  }
-  return batches;
-}
-
 }  // namespace
 
 StokesProduct::StokesProduct(const StokesProblem& problem) {
   MENISCUS_ASSERT(has_product(problem), "linear elements, or a viscosity that depends on the rate");
-  std::vector<CellId> straight, curved;
-  for (const CellId c : problem.mesh.cells.ids())
-    (problem.positions.is_curved[c] ? curved : straight).push_back(c);
-  cells_ = std::make_unique<Cells>(Cells{batches_of<StraightCells>(problem, straight),
-                                         batches_of<CurvedCells>(problem, curved)});
+  cells_ = std::make_unique<CellBatches>(cell_batches(problem));
+  if (problem.inertia) inertia_ = std::make_unique<InertiaProduct>(problem, *cells_);
 }
 StokesProduct::StokesProduct(StokesProduct&&) noexcept = default;
 StokesProduct& StokesProduct::operator=(StokesProduct&&) noexcept = default;
 StokesProduct::~StokesProduct() = default;
 
+void StokesProduct::convect(std::span<const double> v) {
+  if (inertia_) inertia_->convect(v);
+}
+
 void StokesProduct::add(std::span<const double> v, std::span<const double> p,
                         std::span<double> momentum, std::span<double> continuity) const {
+  add_stress(v, p, momentum, continuity);
+  if (inertia_) inertia_->add(v, momentum);
+}
+
+void StokesProduct::add_stress(std::span<const double> v, std::span<const double> p,
+                               std::span<double> momentum, std::span<double> continuity) const {
   add_stresses(cells_->straight, cells_->curved,
                {v.data(), p.data(), momentum.data(), continuity.data()});
 }
@@ -311,10 +270,12 @@ void StokesProduct::add_gradient(std::span<const double> p, std::span<double> mo
 
 void StokesProduct::add_laplacian(std::span<const double> v, std::span<double> momentum) const {
   add_gradients(cells_->straight, cells_->curved, {v.data(), nullptr, momentum.data(), nullptr});
+  if (inertia_) inertia_->add_symmetric(v, momentum);
 }
 
 void StokesProduct::add_laplacian_diagonal(std::span<double> by_node) const {
   add_diagonals(cells_->straight, cells_->curved, by_node.data());
+  if (inertia_) inertia_->add_diagonal(by_node);
 }
 
 }  // namespace meniscus::fem

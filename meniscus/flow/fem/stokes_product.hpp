@@ -7,6 +7,9 @@
 
 namespace meniscus::fem {
 
+struct CellBatches;
+class InertiaProduct;
+
 /// What the viscous, pressure and continuity terms of quadratic elements on Newtonian liquids do to
 /// a velocity and a pressure, cell by cell, without a matrix: a cell takes 150 bytes where its
 /// share of a matrix takes 3,800 (docs/benchmark-stokes.md).
@@ -26,19 +29,27 @@ class StokesProduct {
   StokesProduct& operator=(StokesProduct&&) noexcept;
   ~StokesProduct();
 
-  /// Adds ∫(2μ D(v) − p I):∇φ to `momentum`, and −∫ψ∇·v to `continuity`.
+  /// Sets the velocity that convects; for problems with inertia, before `add`.
+  void convect(std::span<const double> v);
+  /// Adds what is linear in the problem once it is known what convects: `add_stress`, and with
+  /// inertia that of `InertiaProduct::add`.
   void add(std::span<const double> v, std::span<const double> p, std::span<double> momentum,
            std::span<double> continuity) const;
+  /// Adds ∫(2μ D(v) − p I):∇φ to `momentum`, and −∫ψ∇·v to `continuity`.
+  void add_stress(std::span<const double> v, std::span<const double> p, std::span<double> momentum,
+                  std::span<double> continuity) const;
   /// Adds −∫p∇·φ to `momentum`.
   void add_gradient(std::span<const double> p, std::span<double> momentum) const;
-  /// Adds ∫μ∇v:∇φ to `momentum`.
+  /// Adds ∫μ∇v:∇φ to `momentum`, and what is symmetric of inertia.
   void add_laplacian(std::span<const double> v, std::span<double> momentum) const;
-  /// Adds ∫μ∇φ_i·∇φ_i of each node.
+  /// Adds the diagonal of that, one number by node.
   void add_laplacian_diagonal(std::span<double> by_node) const;
+  /// What inertia adds; null without.
+  [[nodiscard]] const InertiaProduct* inertia() const { return inertia_.get(); }
 
  private:
-  struct Cells;
-  std::unique_ptr<const Cells> cells_;
+  std::unique_ptr<const CellBatches> cells_;
+  std::unique_ptr<InertiaProduct> inertia_;
 };
 
 /// Whether a problem has a product.

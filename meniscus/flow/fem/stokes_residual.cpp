@@ -3,8 +3,10 @@
 #include <cmath>
 #include <optional>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/cell_state.hpp"
 #include "meniscus/flow/fem/elements.hpp"
+#include "meniscus/flow/fem/inertia_product.hpp"
 #include "meniscus/flow/fem/partition.hpp"
 #include "meniscus/linear/collective.hpp"
 
@@ -66,14 +68,6 @@ StokesResidual residual_of_nothing(const StokesProblem& problem) {
           std::vector<double>(problem.space.pressure.vertex.size(), 0.0)};
 }
 
-/// The components of vectors, side by side.
-std::span<const double> numbers(const Field<NodeId, Vec3>& vectors) {
-  return {vectors.span().front().data(), 3 * vectors.span().size()};
-}
-std::span<double> numbers(Field<NodeId, Vec3>& vectors) {
-  return {vectors.span().front().data(), 3 * vectors.span().size()};
-}
-
 template <class Element>
 void add_cell_power(const StokesProblem& problem, const StokesState& state, Element& element,
                     StokesPower& power) {
@@ -98,19 +92,23 @@ void add_power(const StokesProblem& problem, const StokesState& state, const Sto
                StokesPower& power) {
   const std::vector<double> no_pressure(state.p.size(), 0.0);
   StokesResidual viscous = residual_of_nothing(problem), body = viscous;
-  product.add(numbers(state.v), no_pressure, numbers(viscous.momentum), viscous.continuity);
+  product.add_stress(numbers(state.v), no_pressure, numbers(viscous.momentum), viscous.continuity);
   with_element(problem.space, problem.positions,
                [&](auto& element) { subtract_body_force(problem, element, body); });
   for (const NodeId i : ids<NodeId>(owned_counts(problem).num_nodes)) {
     power.dissipation += viscous.momentum[i].dot(state.v[i]);
     power.body_force -= body.momentum[i].dot(state.v[i]);
   }
+  if (product.inertia() != nullptr)
+    power.kinetic_rate =
+        product.inertia()->kinetic_rate(numbers(state.v), owned_counts(problem).num_nodes);
 }
 
 }  // namespace
 
 StokesResidual residual(const StokesProblem& problem, const StokesState& state,
                         const StokesProduct* product) {
+  MENISCUS_ASSERT(product != nullptr || !problem.inertia, "inertia without a product");
   StokesResidual result = residual_of_nothing(problem);
   with_element(problem.space, problem.positions, [&](auto& element) {
     if (product == nullptr)
@@ -120,6 +118,7 @@ StokesResidual residual(const StokesProblem& problem, const StokesState& state,
   });
   if (product != nullptr)
     product->add(numbers(state.v), state.p, numbers(result.momentum), result.continuity);
+  if (problem.inertia) product->inertia()->subtract_given(numbers(result.momentum));
   for (const NodeId i : problem.force.ids()) result.momentum[i] -= problem.force[i];
   return result;
 }
@@ -144,6 +143,7 @@ StokesPower power(const StokesProblem& problem, const StokesState& state) {
   std::optional<StokesProduct> product;
   if (has_product(problem)) {
     product.emplace(problem);
+    product->convect(numbers(state.v));
     add_power(problem, state, *product, power);
   } else {
     with_element(problem.space, problem.positions,
@@ -157,7 +157,8 @@ StokesPower power(const StokesProblem& problem, const StokesState& state) {
       power.reaction +=
           constraint.fixed_part(reaction.momentum[constraint.node]).dot(state.v[constraint.node]);
   if (problem.partition != nullptr)
-    for (double* part : {&power.reaction, &power.body_force, &power.force, &power.dissipation})
+    for (double* part : {&power.reaction, &power.body_force, &power.force, &power.dissipation,
+                         &power.kinetic_rate})
       *part = linear::sum(problem.partition->communicator, *part);
   return power;
 }

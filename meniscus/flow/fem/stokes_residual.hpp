@@ -12,20 +12,22 @@ struct StokesResidual {
   Field<NodeId, Vec3> momentum;    ///< [μ_out G R0²]
   std::vector<double> continuity;  ///< [G R0³]
 };
-/// By `product`, the problem's own, where it is given.
+/// By `product`, the problem's own, where it is given; with inertia it must be, and must know that
+/// the state's velocity convects.
 [[nodiscard]] StokesResidual residual(const StokesProblem& problem, const StokesState& state,
                                       const StokesProduct* product = nullptr);
 /// Euclidean norm of what a solution must make zero: the residual without its fixed components. The
 /// norm is the global one; collective on the ranks of a partitioned problem.
 [[nodiscard]] double free_norm(const StokesResidual& residual, const StokesProblem& problem);
 
-/// The terms of the energy balance of a solution [μ_out G² R0³]. Exactly, up to the solver's
-/// residual, reaction + body_force + force = dissipation.
+/// The terms of the energy balance of a solution [μ_out G² R0³]. Up to the solver's residual and
+/// the implicit part of tension, reaction + body_force + force = dissipation + kinetic_rate.
 struct StokesPower {
-  double reaction = 0.0;     ///< of the fixed velocity components
-  double body_force = 0.0;   ///< ∫f·v
-  double force = 0.0;        ///< Σ F_i·v_i of the forces by node
-  double dissipation = 0.0;  ///< ∫2μ D:D + Σ τ∫∇p·(∇p − f)
+  double reaction = 0.0;      ///< of the fixed velocity components
+  double body_force = 0.0;    ///< ∫f·v
+  double force = 0.0;         ///< Σ F_i·v_i of the forces by node
+  double dissipation = 0.0;   ///< ∫2μ D:D + Σ τ∫∇p·(∇p − f)
+  double kinetic_rate = 0.0;  ///< ∫ρ v·Dv/Dt
 };
 /// The global energy balance; collective on the ranks of a partitioned problem.
 [[nodiscard]] StokesPower power(const StokesProblem& problem, const StokesState& state);

@@ -7,11 +7,11 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
+#include "meniscus/flow/fem/node_sources.hpp"
 #include "meniscus/transport/bulk/cell_kernel.hpp"
 #include "meniscus/transport/bulk/keep_range.hpp"
 #include "meniscus/transport/bulk/scalar_measures.hpp"
 #include "meniscus/transport/bulk/scalar_step.hpp"
-#include "meniscus/transport/bulk/scalar_transfer.hpp"
 
 namespace meniscus::bulk {
 namespace {
@@ -216,13 +216,15 @@ BulkScalars FiniteElementScalars::follow(const MeshChange& change, const Scene& 
   MENISCUS_ASSERT(old_space != last_.end(), "the mesh before the change is not known");
   const Placed old = *old_space;
   const Placed now = placed(domain);
+  const std::vector<fem::NodeSource> sources =
+      fem::node_sources({change.before, old.space->elements, *old.positions},
+                        {*domain.mesh, now.space->elements, *now.positions}, change.sources);
   BulkScalars result(scalars.size());
   for (std::size_t k = 0; k < scalars.size(); ++k) {
     result[k] = scalars[k];
     if (!change.sources.empty()) result[k].region_loss.clear();
     result[k].values =
-        interpolated_values(scalars[k].values, {change.before, *old.space, *old.positions},
-                            {*domain.mesh, *now.space, *now.positions}, change.sources);
+        fem::interpolated_values<double>(scalars[k].values, old.space->elements, sources);
     const GivenValues given = given_values(domain.scene, k, *now.space, *now.positions);
     for (std::size_t i = 0; i < given.value.size(); ++i)
       if (given.is_given[i] != 0) result[k].values[i] = given.value[i];

@@ -251,7 +251,7 @@ TEST(FiniteElementFlow, PressureIsRelativeToItsMeanOverTheMatrix) {
 
 TEST(FiniteElementFlow, TwoDropsEachKeepTheirVolume) {
   Scene scene = shear_scene();
-  scene.liquids.add({0.5, Vec3::Zero()});
+  scene.liquids.add({.viscosity = 0.5});
   scene.boundary.mesh = sphere(300, 6.0);
   scene.boundary.patch = FaceField<PatchId>(scene.boundary.mesh.num_faces(), PatchId{0});
   Interface other = scene.interfaces[0];

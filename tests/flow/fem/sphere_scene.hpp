@@ -31,7 +31,8 @@ inline Scene sphere_in_sphere(const SphereScene& options) {
   Scene scene;
   scene.Ca = options.Ca;
   scene.liquids = Field<RegionId, Liquid>(2, Liquid{});
-  scene.liquids[RegionId{1}] = {options.viscosity_ratio, options.drop_force};
+  scene.liquids[RegionId{1}] = {.viscosity = options.viscosity_ratio,
+                                .body_force = options.drop_force};
   Interface drop;
   drop.mesh = sphere(options.num_vertices);
   drop.inside = RegionId{1};

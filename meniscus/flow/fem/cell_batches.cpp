@@ -1,0 +1,64 @@
+#include "meniscus/flow/fem/cell_batches.hpp"
+
+#include <algorithm>
+
+#include "meniscus/flow/fem/elements.hpp"
+
+namespace meniscus::fem {
+
+using namespace lanes;
+
+namespace {
+
+void set(Tensor& to, std::size_t m, const std::array<Vec3, 3>& gradients) {
+  for (std::size_t l = 0; l < 3; ++l)
+    for (std::size_t a = 0; a < 3; ++a) to[l][a][m] = gradients[l][static_cast<Eigen::Index>(a)];
+}
+
+/// Sets lane m to a cell of a problem, whose volume counts so many times.
+void set(StraightCells& cells, std::size_t m, const StokesProblem& problem, CellId c,
+         double times) {
+  const auto nodes = problem.space.velocity.of(c);
+  const auto x = [&](std::size_t k) { return problem.positions.x[NodeId{nodes[k]}]; };
+  const LinearTetrahedron tet = linear_tetrahedron({x(0), x(1), x(2), x(3)});
+  set(cells.gradient, m, {tet.gradient[1], tet.gradient[2], tet.gradient[3]});
+  cells.volume[m] = times * tet.volume / 20.0;
+}
+void set(CurvedCells& cells, std::size_t m, const StokesProblem& problem, CellId c, double times) {
+  const std::array<CurvedMap, kTetrahedronRule5.size()> maps =
+      curved_maps(problem.positions.x, problem.space.velocity.of(c));
+  for (std::size_t q = 0; q < maps.size(); ++q) {
+    set(cells.points[q].gradient, m, maps[q].gradient);
+    cells.points[q].weight[m] = times * maps[q].weight;
+  }
+}
+
+/// The cells by eights.
+template <class Batch>
+std::vector<Batch> batches_of(const StokesProblem& problem, std::span<const CellId> cells) {
+  std::vector<Batch> batches((cells.size() + kLanes - 1) / kLanes);
+  for (std::size_t n = 0; n < kLanes * batches.size(); ++n) {
+    const CellId c = cells[std::min(n, cells.size() - 1)];
+    Batch& batch = batches[n / kLanes];
+    const std::size_t m = n % kLanes;
+    const auto nodes = problem.space.velocity.of(c), pressures = problem.space.pressure.nodes.of(c);
+    for (std::size_t i = 0; i < nodes.size(); ++i) batch.nodes[i][m] = nodes[i];
+    for (std::size_t i = 0; i < pressures.size(); ++i) batch.pressures[i][m] = pressures[i];
+    set(batch, m, problem, c, n < cells.size() ? 1.0 : 0.0);
+    batch.viscosity[m] = problem.viscosity[c];
+  }
+  return batches;
+}
+
+}  // namespace
+
+CellBatches cell_batches(const StokesProblem& problem) {
+  CellBatches batches;
+  for (const CellId c : problem.mesh.cells.ids())
+    (problem.positions.is_curved[c] ? batches.curved_cells : batches.straight_cells).push_back(c);
+  batches.straight = batches_of<StraightCells>(problem, batches.straight_cells);
+  batches.curved = batches_of<CurvedCells>(problem, batches.curved_cells);
+  return batches;
+}
+
+}  // namespace meniscus::fem

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "meniscus/flow/fem/stokes_problem.hpp"
+
+namespace meniscus::fem {
+
+struct CellBatches;
+
+/// What inertia (`InertiaTerms`) does to a velocity, by cells of quadratic elements. The matrix of
+/// a cell, ∫ρφ_i(φ_j/τ + a·∇φ_j), is the same for the three components; a = v − w is taken at the
+/// points of a rule of degree 5. Velocities have three components side by side at each node.
+class InertiaProduct {
+ public:
+  /// The problem has inertia, and must outlive this, as must its cells.
+  InertiaProduct(const StokesProblem& problem, const CellBatches& cells);
+  ~InertiaProduct();
+
+  /// Sets the velocity that convects.
+  void convect(std::span<const double> v);
+  /// Adds ∫ρ(v/τ + a·∇v)·φ + τσ∮∇_sv:∇_sφ.
+  void add(std::span<const double> v, std::span<double> momentum) const;
+  /// The same without convection.
+  void add_symmetric(std::span<const double> v, std::span<double> momentum) const;
+  /// Adds the diagonal of that, one number by node.
+  void add_diagonal(std::span<double> by_node) const;
+  /// Adds ∫ρφ_iφ_i/τ.
+  void add_mass_diagonal(std::span<double> by_node) const;
+  /// Subtracts what is given: ∫ρv̄/τ·φ + τσ∮∇_sv*:∇_sφ.
+  void subtract_given(std::span<double> momentum) const;
+  /// ∫ρ(v − v̄)/τ·v + ρ(a·∇v)·v: what the liquids' kinetic energy gains per time.
+  [[nodiscard]] double kinetic_rate(std::span<const double> v, std::int32_t num_owned) const;
+
+ private:
+  void add_mass(std::span<const double> v, std::span<double> momentum) const;
+
+  struct Matrices;
+  const InertiaTerms& terms_;
+  const CellBatches& cells_;
+  std::unique_ptr<Matrices> matrices_;
+  std::vector<double> given_mass_, given_tension_;
+};
+
+}  // namespace meniscus::fem

@@ -1,0 +1,75 @@
+#include "meniscus/flow/fem/region_motions.hpp"
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/flow/fem/elements.hpp"
+
+namespace meniscus::fem {
+namespace {
+
+/// ∫v dV, ½∫v² dV and ∫|v| dV of one cell.
+struct CellMotion {
+  Vec3 flux = Vec3::Zero();
+  double energy = 0.0, gross = 0.0, volume = 0.0;
+};
+
+CellMotion straight_motion(double volume, const std::array<Vec3, 10>& v) {
+  CellMotion motion{.volume = volume};
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const double share = i < 4 ? -0.05 : 0.2;  // ∫φ_i/V
+    motion.flux += share * volume * v[i];
+    motion.gross += share * volume * v[i].norm();
+    Vec3 row = Vec3::Zero();
+    for (std::size_t j = 0; j < v.size(); ++j) row += kQuadraticMass[i][j] * v[j];
+    motion.energy += 0.5 * volume * row.dot(v[i]);
+  }
+  return motion;
+}
+
+CellMotion curved_motion(const Field<NodeId, Vec3>& x, std::span<const std::int32_t> nodes,
+                         const std::array<Vec3, 10>& v) {
+  CellMotion motion;
+  const auto maps = curved_maps(x, nodes);
+  for (std::size_t q = 0; q < maps.size(); ++q) {
+    const auto phi = quadratic_tetrahedron_values(kTetrahedronRule5[q].barycentric);
+    Vec3 here = Vec3::Zero();
+    for (std::size_t i = 0; i < v.size(); ++i) here += phi[i] * v[i];
+    motion.flux += maps[q].weight * here;
+    motion.energy += 0.5 * maps[q].weight * here.squaredNorm();
+    motion.gross += maps[q].weight * here.norm();
+    motion.volume += maps[q].weight;
+  }
+  return motion;
+}
+
+}  // namespace
+
+std::vector<RegionMotion> region_motions(const Scene& scene, const TetMesh& mesh,
+                                         const FlowSpace& space, const NodePositions& positions,
+                                         std::span<const Vec3> v, double* gross) {
+  MENISCUS_ASSERT(space.elements == Elements::p2_p1, "linear elements");
+  std::vector<RegionMotion> motions(static_cast<std::size_t>(scene.liquids.size()));
+  std::vector<double> volume(motions.size(), 0.0);
+  if (gross != nullptr) *gross = 0.0;
+  for (const CellId c : mesh.cells.ids()) {
+    const auto nodes = space.velocity.of(c);
+    std::array<Vec3, 10> at_nodes;
+    for (std::size_t i = 0; i < at_nodes.size(); ++i)
+      at_nodes[i] = v[static_cast<std::size_t>(nodes[i])];
+    const CellMotion cell = positions.is_curved[c] != 0
+                                ? curved_motion(positions.x, nodes, at_nodes)
+                                : straight_motion(signed_volume(mesh, c), at_nodes);
+    const double density = scene.liquids[mesh.region[c]].density;
+    const auto region = static_cast<std::size_t>(mesh.region[c].value);
+    RegionMotion& motion = motions[region];
+    motion.mean_velocity += cell.flux;
+    volume[region] += cell.volume;
+    motion.momentum += density * cell.flux;
+    motion.kinetic_energy += density * cell.energy;
+    if (gross != nullptr) *gross += density * cell.gross;
+  }
+  for (std::size_t region = 0; region < motions.size(); ++region)
+    if (volume[region] > 0.0) motions[region].mean_velocity /= volume[region];
+  return motions;
+}
+
+}  // namespace meniscus::fem

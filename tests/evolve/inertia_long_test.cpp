@@ -1,0 +1,44 @@
+#include <iostream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/evolve/oscillating_drop.hpp"
+
+namespace meniscus::test {
+namespace {
+
+using Complex = std::complex<double>;
+
+void expect_rate(const OscillatingDrop& drop, double tolerance) {
+  const Complex exact = OscillationMode(drop.of, drop.guess).rate(), found = fitted_rate(drop);
+
+  const auto text = [&] {
+    return fmt::format(
+        "La = {}, λ = {}, ρ̂ = {}: s = {:.6g}, {:.6g} for {:.6g}, {:.6g}: "
+        "{:+.3f} %, {:+.3f} %",
+        drop.of.La, drop.of.lambda, drop.of.density_ratio, found.real(), found.imag(), exact.real(),
+        exact.imag(), 100.0 * (found.real() / exact.real() - 1.0),
+        100.0 * (found.imag() / exact.imag() - 1.0));
+  };
+  std::cout << text() << std::endl;
+  EXPECT_NEAR(found.real() / exact.real(), 1.0, tolerance) << text();
+  EXPECT_NEAR(found.imag() / exact.imag(), 1.0, tolerance) << text();
+}
+
+TEST(InertiaLong, OscillatesAtTheModesRate) {
+  expect_rate({.of = {.La = 10.0, .b = 5.0}, .guess = {0.33, 0.31}}, 0.01);
+  expect_rate({.of = {.La = 100.0, .b = 5.0}, .guess = {0.059, 0.174}}, 0.01);
+  expect_rate({.of = {.La = 1000.0, .b = 5.0}, .guess = {0.0089, 0.062}, .nodes = 400}, 0.01);
+}
+
+// The layer within a drop of a tenth of the viscosity is 0.07 R0 thick.
+TEST(InertiaLong, OscillatesWithOtherLiquids) {
+  expect_rate({.of = {.La = 100.0, .lambda = 0.1, .b = 5.0}, .guess = {0.04, 0.18}, .nodes = 400},
+              0.015);
+  expect_rate({.of = {.La = 100.0, .density_ratio = 0.1, .b = 5.0}, .guess = {0.09, 0.23}}, 0.01);
+  expect_rate({.of = {.La = 100.0, .density_ratio = 10.0, .b = 5.0}, .guess = {0.02, 0.08}}, 0.01);
+}
+
+}  // namespace
+}  // namespace meniscus::test
