@@ -37,7 +37,8 @@ TEST(InertiaLong, OscillatesWithOtherLiquids) {
   expect_rate({.of = {.La = 100.0, .lambda = 0.1, .b = 5.0}, .guess = {0.04, 0.18}, .nodes = 400},
               0.015);
   expect_rate({.of = {.La = 100.0, .density_ratio = 0.1, .b = 5.0}, .guess = {0.09, 0.23}}, 0.01);
-  expect_rate({.of = {.La = 100.0, .density_ratio = 10.0, .b = 5.0}, .guess = {0.0105, 0.08}}, 0.01);
+  expect_rate({.of = {.La = 100.0, .density_ratio = 10.0, .b = 5.0}, .guess = {0.0105, 0.08}},
+              0.01);
 }
 
 }  // namespace
