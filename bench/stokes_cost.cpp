@@ -127,7 +127,8 @@ void print_products(const StokesProblem& given, bool is_curved) {
   const double making = least_seconds([&] { (void)StokesProduct(problem); });
   const StokesProduct product(problem);
   ProductJacobian jacobian(problem.space);
-  const double assembly = least_seconds([&] { jacobian.assemble(problem, product); });
+  const double assembly =
+      least_seconds([&] { jacobian.assemble(problem, product, linear::Preconditioner::fresh); });
   const std::vector<double> v(3 * static_cast<std::size_t>(problem.space.velocity.num_nodes), 1.0),
       p(problem.space.pressure.vertex.size(), 1.0);
   std::vector<double> momentum(v.size()), continuity(p.size());

@@ -91,6 +91,22 @@ InertiaTerms inertia_terms(const FlowDomain& domain, const Field<NodeId, Vec3>& 
   return terms;
 }
 
+/// A stage of liquids at rest, for its matrix alone.
+ImplicitStage stage_at_rest(const Scene& scene, double duration, const Field<NodeId, Vec3>& x) {
+  const std::vector<Vec3> zeros(x.span().size(), Vec3::Zero());
+  ImplicitStage stage{duration, {x.begin(), x.end()}, zeros, zeros, {}};
+  for (const Interface& interface : scene.interfaces)
+    stage.slowing.emplace_back(interface.mesh.num_vertices(), Vec3::Zero());
+  return stage;
+}
+
+FlowDomain with_stage(const FlowDomain& domain, const ImplicitStage& stage) {
+  FlowDomain result = domain;
+  result.known = nullptr;
+  result.stage = &stage;
+  return result;
+}
+
 InstantProblem instant_problem(const FlowDomain& domain, const FlowSpace& space,
                                NodePositions positions, CapillaryForm form, double t) {
   const Scene& scene = domain.scene;
@@ -217,13 +233,14 @@ class FiniteElementFlow final : public FlowSolver {
   [[nodiscard]] StokesState first_guess(const FlowDomain& domain,
                                         const StokesProblem& problem) const;
   [[nodiscard]] FlowSolution first_flow(const FlowDomain& domain, double t);
-  [[nodiscard]] std::optional<Fault> keep_momentum(const FlowDomain& domain, double t,
-                                                   const NodePositions& positions,
-                                                   const Vec3& momentum, StokesState& state);
+  class Projection;
+  [[nodiscard]] std::optional<Fault> keep_momentum(const FlowDomain& domain, Projection& projection,
+                                                   const Vec3& momentum,
+                                                   Field<NodeId, Vec3>& v) const;
   [[nodiscard]] StokesReport settle(const FlowDomain& domain, double t, StokesState& state);
   void keep_solution(const StokesProblem& problem, StokesState state);
   [[nodiscard]] FlowSolution solution(const FlowDomain& domain, const InstantProblem& problem,
-                                      const StokesState& state);
+                                      const StokesState& state, const StokesPower& power);
   void restore_preconditioner(const Archive& archive, const FlowDomain& domain);
 
   Options options_;
@@ -235,8 +252,9 @@ class FiniteElementFlow final : public FlowSolver {
   /// Where the nodes were when the preconditioner was made that the next solve will keep, and the
   /// iterations of the solve that made it; none when the next is to make its own.
   std::optional<NodePositions> prepared_at_;
-  int iterations_then_ = 0;
+  int iterations_then_ = 0;         // 0 where none was yet
   double prepared_duration_ = 0.0;  // of the stage then; 0 without inertia
+  double last_duration_ = 0.0;      // of the last stage
   PhaseTimes times_;
 };
 
@@ -296,7 +314,7 @@ FlowSolution FiniteElementFlow::first_flow(const FlowDomain& domain, double t) {
   }
   const InstantProblem problem = instant_problem(domain, space_, positions, options_.capillary, t);
   const int iterations = result.iterations;
-  result = solution(domain, problem, state);
+  result = solution(domain, problem, state, stokes_->power(problem.stokes, state));
   result.iterations = iterations;
   keep_solution(problem.stokes, std::move(state));
   return result;
@@ -317,10 +335,8 @@ StokesReport FiniteElementFlow::settle(const FlowDomain& domain, double t, Stoke
                       .v = {state.v.begin(), state.v.end()},
                       .expected_v = {state.v.begin(), state.v.end()},
                       .slowing = {}};
-  FlowDomain here = domain;
-  here.known = nullptr;
-  here.stage = &stage;
-  const InstantProblem problem = instant_problem(here, space_, positions, options_.capillary, t);
+  const InstantProblem problem =
+      instant_problem(with_stage(domain, stage), space_, positions, options_.capillary, t);
   prepared_at_.reset();
   StokesReport report =
       stokes_->solve(problem.stokes, state, linear::Preconditioner::fresh, times_);
@@ -329,34 +345,72 @@ StokesReport FiniteElementFlow::settle(const FlowDomain& domain, double t, Stoke
   return report;
 }
 
+/// Takes divergence out of velocities on a new mesh, by the matrix of a stage as long as the last,
+/// whose preconditioner the next stage may keep.
+class FiniteElementFlow::Projection {
+ public:
+  Projection(FiniteElementFlow& flow, const FlowDomain& domain, double t)
+      : Projection(
+            flow, domain, t,
+            node_positions(domain.scene, *domain.mesh, flow.space_, flow.options_.processes)) {}
+
+  StokesReport apply(Field<NodeId, Vec3>& v) {
+    using linear::Preconditioner;
+    StokesReport report = flow_.stokes_->project(
+        problem_.stokes, v, flow_.prepared_at_ ? Preconditioner::kept : Preconditioner::fresh,
+        flow_.times_);
+    if (report.ok() && report.iterations > 0 && !flow_.prepared_at_) {
+      flow_.prepared_at_ = problem_.stokes.positions;
+      flow_.prepared_duration_ = stage_.duration;
+      flow_.iterations_then_ = 0;
+    }
+    return report;
+  }
+  [[nodiscard]] const NodePositions& positions() const { return problem_.stokes.positions; }
+
+ private:
+  Projection(FiniteElementFlow& flow, const FlowDomain& domain, double t, NodePositions positions)
+      : flow_(flow),
+        stage_(stage_at_rest(domain.scene, flow.last_duration_, positions.x)),
+        problem_(instant_problem(with_stage(domain, stage_), flow.space_, std::move(positions),
+                                 flow.options_.capillary, t)) {
+    MENISCUS_ASSERT(stage_.duration > 0.0, "no stage before");
+  }
+
+  FiniteElementFlow& flow_;
+  ImplicitStage stage_;
+  InstantProblem problem_;
+};
+
 /// Gives a velocity without divergence a momentum, by the least that three such fields add: what is
 /// left of the uniform ones. Where all densities are equal walls hold the momentum at zero.
-std::optional<Fault> FiniteElementFlow::keep_momentum(const FlowDomain& domain, double t,
-                                                      const NodePositions& positions,
-                                                      const Vec3& momentum, StokesState& state) {
+std::optional<Fault> FiniteElementFlow::keep_momentum(const FlowDomain& domain,
+                                                      Projection& projection, const Vec3& momentum,
+                                                      Field<NodeId, Vec3>& v) const {
   constexpr double kLeast = 1e-4;  // of the momentum of a uniform field: walls hold the rest
-  const auto momentum_in = [&](const Field<NodeId, Vec3>& v) {
-    return momentum_of(region_motions(domain.scene, *domain.mesh, space_, positions, v.span()));
+  const auto momentum_in = [&](const Field<NodeId, Vec3>& of) {
+    return momentum_of(
+        region_motions(domain.scene, *domain.mesh, space_, projection.positions(), of.span()));
   };
   double scale = 0.0, mass = 0.0;
-  for (const Vec3& v : state.v) scale = std::max(scale, v.norm());
+  for (const Vec3& each : v) scale = std::max(scale, each.norm());
   if (scale == 0.0) return {};
-  const Vec3 now = momentum_in(state.v);
+  const Vec3 now = momentum_in(v);
   std::array<Field<NodeId, Vec3>, 3> fields;
   Mat3 momenta;
   for (int k = 0; k < 3; ++k) {
-    StokesState moved = state;
-    for (Vec3& v : moved.v) v += scale * Vec3::Unit(k);
-    mass = std::max(mass, (momentum_in(moved.v) - now).norm());
-    if (StokesReport report = settle(domain, t, moved); !report.ok()) return report.fault;
-    for (const NodeId i : moved.v.ids()) moved.v[i] -= state.v[i];
-    momenta.col(k) = momentum_in(moved.v);
-    fields[static_cast<std::size_t>(k)] = std::move(moved.v);
+    Field<NodeId, Vec3> moved = v;
+    for (Vec3& each : moved) each += scale * Vec3::Unit(k);
+    mass = std::max(mass, (momentum_in(moved) - now).norm());
+    if (StokesReport report = projection.apply(moved); !report.ok()) return report.fault;
+    for (const NodeId i : moved.ids()) moved[i] -= v[i];
+    momenta.col(k) = momentum_in(moved);
+    fields[static_cast<std::size_t>(k)] = std::move(moved);
   }
   if (momenta.norm() < kLeast * mass) return {};
   const Vec3 share = momenta.completeOrthogonalDecomposition().solve(momentum - now);
-  for (const NodeId i : state.v.ids())
-    for (int k = 0; k < 3; ++k) state.v[i] += share[k] * fields[static_cast<std::size_t>(k)][i];
+  for (const NodeId i : v.ids())
+    for (int k = 0; k < 3; ++k) v[i] += share[k] * fields[static_cast<std::size_t>(k)][i];
   return {};
 }
 
@@ -370,24 +424,22 @@ TransferredFlow FiniteElementFlow::transferred(const MeshChange& change, const S
     follow(change, domain);
     if (!has_connectivity_of(domain)) use_connectivity(domain);
   }
+  Projection projection(*this, domain, t);
   const NodePositions old_positions =
                           node_positions(before, change.before, old_space, options_.processes),
-                      positions =
-                          node_positions(domain.scene, *domain.mesh, space_, options_.processes);
+                      &positions = projection.positions();
   const std::vector<NodeSource> sources = node_sources(
       {change.before, old_space, old_positions}, {*domain.mesh, space_, positions}, change.sources);
-  StokesState state{Field<NodeId, Vec3>(interpolated_values<Vec3>(flow.v, old_space, sources)),
-                    guess_ ? guess_->p : stokes_->state_at_rest().p};
-  const std::vector<double> pressure = state.p;
+  Field<NodeId, Vec3> v(interpolated_values<Vec3>(flow.v, old_space, sources));
   TransferredFlow result;
-  result.fault = settle(domain, t, state).fault;
+  result.fault = projection.apply(v).fault;
   const auto had_momentum =
       momentum_of(region_motions(before, change.before, old_space, old_positions, flow.v));
   if (result.ok() && !change.sources.empty())
-    result.fault = keep_momentum(domain, t, positions, had_momentum, state);
+    result.fault = keep_momentum(domain, projection, had_momentum, v);
   result.flow = {{positions.x.begin(), positions.x.end()},
-                 {state.v.begin(), state.v.end()},
-                 pressure,
+                 {v.begin(), v.end()},
+                 guess_ ? guess_->p : stokes_->state_at_rest().p,
                  flow.power};
   double gross = 0.0;
   RegionMotion lost;
@@ -418,7 +470,7 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
     const InstantProblem problem = instant_problem(
         domain, space_, node_positions(domain.scene, mesh, space_, options_.processes),
         options_.capillary, instant.t);
-    return solution(domain, problem, {Field<NodeId, Vec3>(domain.known->v), domain.known->p});
+    return solution(domain, problem, {Field<NodeId, Vec3>(domain.known->v), domain.known->p}, {});
   }
   for (const CellId c : mesh.cells.ids())
     if (!(signed_volume(mesh, c) > 0.0))
@@ -429,6 +481,7 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
       options_.capillary, instant.t);
   if (problem.fault) return failed_flow(*problem.fault);
   StokesState state = first_guess(domain, problem.stokes);
+  if (domain.stage != nullptr) last_duration_ = domain.stage->duration;
   const bool is_kept = prepared_at_.has_value();
   const StokesReport report = stokes_->solve(
       problem.stokes, state, is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh,
@@ -438,7 +491,8 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
   if (has_varying_viscosity(domain.scene)) prepared_at_.reset();
   if (report.ok() && !problem.stokes.has_open_boundary)
     level_pressure(mesh, space_.pressure, state.p);
-  FlowSolution result = report.ok() ? solution(domain, problem, state) : failed_flow(*report.fault);
+  FlowSolution result =
+      report.ok() ? solution(domain, problem, state, report.power) : failed_flow(*report.fault);
   if (report.ok()) keep_solution(problem.stokes, std::move(state));
   result.iterations = report.iterations;
   if (const int straight = problem.stokes.positions.num_straightened; straight > 0)
@@ -457,6 +511,7 @@ void FiniteElementFlow::decide_on_preconditioner(const StokesProblem& problem,
   const bool is_own = report.ok() && report.failed_solvers.empty() && report.iterations > 0 &&
                       !problem.is_generalised();  // whose steps make their own
   if (is_kept && report.ok() && report.iterations == 0) return;
+  if (is_kept && is_own && iterations_then_ == 0) iterations_then_ = report.iterations;
   if (is_kept && is_own && report.iterations <= iterations_then_ + kWorthOfOne) return;
   prepared_at_.reset();
   if (is_kept || !is_own) return;
@@ -466,7 +521,7 @@ void FiniteElementFlow::decide_on_preconditioner(const StokesProblem& problem,
 }
 
 FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const InstantProblem& problem,
-                                         const StokesState& state) {
+                                         const StokesState& state, const StokesPower& power) {
   const TetMesh& mesh = *domain.mesh;
   FlowSolution result;
   for (std::size_t i = 0; i < mesh.interfaces.size(); ++i) {
@@ -482,7 +537,6 @@ FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const Instant
   if (domain.known != nullptr) {
     result.power = domain.known->power;
   } else {
-    const StokesPower power = stokes_->power(problem.stokes, state);
     double traction = 0.0;
     for (const NodeId i : problem.traction.ids()) traction += problem.traction[i].dot(state.v[i]);
     result.power = {power.reaction + traction + power.body_force, power.dissipation,
@@ -531,12 +585,8 @@ void FiniteElementFlow::restore_preconditioner(const Archive& archive, const Flo
   FlowDomain then = domain;
   ImplicitStage stage;
   if (has_inertia(domain.scene)) {
-    const std::vector<Vec3> zeros(prepared_at_->x.span().size(), Vec3::Zero());
     prepared_duration_ = entry_of_size(archive.reals, "flow/preconditioner/duration", 1).front();
-    stage = {
-        prepared_duration_, {prepared_at_->x.begin(), prepared_at_->x.end()}, zeros, zeros, {}};
-    for (const Interface& interface : domain.scene.interfaces)
-      stage.slowing.emplace_back(interface.mesh.num_vertices(), Vec3::Zero());
+    stage = stage_at_rest(domain.scene, prepared_duration_, prepared_at_->x);
     then.stage = &stage;
   }
   // Time, forces and velocities matter to the right-hand side alone.

@@ -5,6 +5,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/vector_clones.hpp"
 #include "meniscus/flow/fem/cell_batches.hpp"
+#include "meniscus/flow/fem/cell_inertia.hpp"
 #include "meniscus/flow/fem/elements.hpp"
 
 // GCC 12 takes elements of vectors that are set one by one for uninitialised.
@@ -19,13 +20,6 @@ using namespace lanes;
 namespace {
 
 constexpr std::size_t kPoints = kTetrahedronRule5.size();
-/// Aligned for the widest vectors, as what it is made of is not.
-struct alignas(64) Square {
-  std::array<std::array<Lanes, 10>, 10> entry;
-};
-struct alignas(64) Density {
-  Lanes of;
-};
 
 /// φ_i, and ∂φ_i/∂b_l of the four barycentric coordinates, at the points of the rule.
 struct ShapeTable {
@@ -118,40 +112,14 @@ MENISCUS_INLINE void set_matrices(std::span<const Batch> batches, std::span<cons
   }
 }
 
-MENISCUS_INLINE void multiply(const Square& m, const Nodal& v, Nodal& r) {
-  for (std::size_t i = 0; i < 10; ++i) {
-    Lanes3 sum = {};
-    for (std::size_t j = 0; j < 10; ++j)
-      for (std::size_t k = 0; k < 3; ++k) sum[k] += m.entry[i][j] * v[j][k];
-    r[i] = sum;
-  }
-}
-
-template <class Batch>
-MENISCUS_INLINE void add_products(std::span<const Batch> batches, std::span<const Square> matrices,
-                                  const double* v, double* momentum) {
+/// Adds what a part of inertia makes of a velocity.
+template <class Batch, class Part>
+MENISCUS_INLINE void add_products(std::span<const Batch> batches, const Part& part, const double* v,
+                                  double* momentum) {
   for (std::size_t n = 0; n < batches.size(); ++n) {
-    Nodal given, result;
+    Nodal given, result = {};
     take(batches[n].nodes, v, given);
-    multiply(matrices[n], given, result);
-    give(batches[n].nodes, result, momentum);
-  }
-}
-
-/// With the masses of straight cells, which are multiples of one another.
-MENISCUS_INLINE void add_straight_masses(std::span<const StraightCells> batches,
-                                         std::span<const Density> density, double rate,
-                                         const double* v, double* momentum) {
-  for (std::size_t n = 0; n < batches.size(); ++n) {
-    Nodal given, result;
-    take(batches[n].nodes, v, given);
-    const Lanes scale = 20.0 * rate * batches[n].volume * density[n].of;
-    for (std::size_t i = 0; i < 10; ++i) {
-      Lanes3 sum = {};
-      for (std::size_t j = 0; j < 10; ++j)
-        for (std::size_t k = 0; k < 3; ++k) sum[k] += kQuadraticMass[i][j] * given[j][k];
-      for (std::size_t k = 0; k < 3; ++k) result[i][k] = scale * sum[k];
-    }
+    part.add(batches[n], n, given, result);
     give(batches[n].nodes, result, momentum);
   }
 }
@@ -175,14 +143,14 @@ void set_curved_masses(const Batches& cells, double rate, std::span<Square> curv
 MENISCUS_VECTOR_CLONES
 void add_all(const Batches& cells, std::span<const Square> straight, std::span<const Square> curved,
              const double* v, double* momentum) {
-  add_products(cells.straight, straight, v, momentum);
-  add_products(cells.curved, curved, v, momentum);
+  add_products(cells.straight, CellSquares{straight}, v, momentum);
+  add_products(cells.curved, CellSquares{curved}, v, momentum);
 }
 MENISCUS_VECTOR_CLONES
 void add_masses(const Batches& cells, double rate, std::span<const Square> curved, const double* v,
                 double* momentum) {
-  add_straight_masses(cells.straight, cells.straight_density, rate, v, momentum);
-  add_products(cells.curved, curved, v, momentum);
+  add_products(cells.straight, StraightMasses{cells.straight_density, rate}, v, momentum);
+  add_products(cells.curved, CellSquares{curved}, v, momentum);
 }
 
 /// The densities of the cells by eights; the last lanes repeat one.
@@ -215,7 +183,7 @@ void add_stiffness(std::span<const FaceStiffness> faces, std::span<const double>
 
 struct InertiaProduct::Matrices {
   std::vector<Density> straight_density, curved_density;
-  std::vector<Square> straight, curved;  // with convection
+  std::vector<Square> straight, curved;  // with convection, once there is any
   std::vector<Square> curved_mass;
 
   [[nodiscard]] Batches of(const CellBatches& cells) const {
@@ -232,8 +200,6 @@ InertiaProduct::InertiaProduct(const StokesProblem& problem, const CellBatches& 
   MENISCUS_ASSERT(problem.space.elements == Elements::p2_p1, "inertia needs quadratic elements");
   matrices_->straight_density = densities(terms_, cells.straight_cells, cells.straight.size());
   matrices_->curved_density = densities(terms_, cells.curved_cells, cells.curved.size());
-  matrices_->straight.resize(cells.straight.size());
-  matrices_->curved.resize(cells.curved.size());
   matrices_->curved_mass.resize(cells.curved.size());
   set_curved_masses(matrices_->of(cells), 1.0 / terms_.duration, matrices_->curved_mass);
   add_mass(numbers(terms_.before), given_mass_);
@@ -245,23 +211,29 @@ void InertiaProduct::convect(std::span<const double> v) {
   std::vector<double> convecting(v.begin(), v.end());
   const std::span<const double> mesh_velocity = numbers(terms_.mesh_velocity);
   for (std::size_t i = 0; i < convecting.size(); ++i) convecting[i] -= mesh_velocity[i];
+  matrices_->straight.resize(cells_.straight.size());
+  matrices_->curved.resize(cells_.curved.size());
+  convects_ = true;
   set_all(matrices_->of(cells_), 1.0 / terms_.duration, convecting.data(), matrices_->straight,
           matrices_->curved);
 }
 
-void InertiaProduct::add(std::span<const double> v, std::span<double> momentum) const {
-  add_all(matrices_->of(cells_), matrices_->straight, matrices_->curved, v.data(), momentum.data());
+CellInertia InertiaProduct::by_cells() const {
+  return {{matrices_->straight_density, 1.0 / terms_.duration}, {matrices_->curved_mass}};
+}
+
+ConvectedCells InertiaProduct::by_convected_cells() const {
+  MENISCUS_ASSERT(convects_, "nothing convects");
+  return {{matrices_->straight}, {matrices_->curved}};
+}
+
+void InertiaProduct::add_tension(std::span<const double> v, std::span<double> momentum) const {
   add_stiffness(terms_.tension, v, momentum);
 }
 
 void InertiaProduct::add_mass(std::span<const double> v, std::span<double> momentum) const {
   add_masses(matrices_->of(cells_), 1.0 / terms_.duration, matrices_->curved_mass, v.data(),
              momentum.data());
-}
-
-void InertiaProduct::add_symmetric(std::span<const double> v, std::span<double> momentum) const {
-  add_mass(v, momentum);
-  add_stiffness(terms_.tension, v, momentum);
 }
 
 void InertiaProduct::add_mass_diagonal(std::span<double> by_node) const {
@@ -295,6 +267,7 @@ void InertiaProduct::subtract_given(std::span<double> momentum) const {
 }
 
 double InertiaProduct::kinetic_rate(std::span<const double> v, std::int32_t num_owned) const {
+  MENISCUS_ASSERT(convects_, "nothing convects");
   std::vector<double> momentum(v.size());
   add_all(matrices_->of(cells_), matrices_->straight, matrices_->curved, v.data(), momentum.data());
   double rate = 0.0;

@@ -9,6 +9,8 @@
 namespace meniscus::fem {
 
 struct CellBatches;
+struct CellInertia;
+struct ConvectedCells;
 
 /// What inertia (`InertiaTerms`) does to a velocity, by cells of quadratic elements. The matrix of
 /// a cell, ∫ρφ_i(φ_j/τ + a·∇φ_j), is the same for the three components; a = v − w is taken at the
@@ -19,13 +21,16 @@ class InertiaProduct {
   InertiaProduct(const StokesProblem& problem, const CellBatches& cells);
   ~InertiaProduct();
 
-  /// Sets the velocity that convects.
+  /// Sets the velocity that convects; nothing does before.
   void convect(std::span<const double> v);
-  /// Adds ∫ρ(v/τ + a·∇v)·φ + τσ∮∇_sv:∇_sφ.
-  void add(std::span<const double> v, std::span<double> momentum) const;
-  /// The same without convection.
-  void add_symmetric(std::span<const double> v, std::span<double> momentum) const;
-  /// Adds the diagonal of that, one number by node.
+  [[nodiscard]] bool convects() const { return convects_; }
+  /// ∫ρv/τ·φ by cells.
+  [[nodiscard]] CellInertia by_cells() const;
+  /// ∫ρ(v/τ + a·∇v)·φ by cells, once there is what convects.
+  [[nodiscard]] ConvectedCells by_convected_cells() const;
+  /// Adds τσ∮∇_sv:∇_sφ.
+  void add_tension(std::span<const double> v, std::span<double> momentum) const;
+  /// Adds the diagonal of ∫ρv/τ·φ + τσ∮∇_sv:∇_sφ, one number by node.
   void add_diagonal(std::span<double> by_node) const;
   /// Adds ∫ρφ_iφ_i/τ.
   void add_mass_diagonal(std::span<double> by_node) const;
@@ -42,6 +47,7 @@ class InertiaProduct {
   const CellBatches& cells_;
   std::unique_ptr<Matrices> matrices_;
   std::vector<double> given_mass_, given_tension_;
+  bool convects_ = false;
 };
 
 }  // namespace meniscus::fem

@@ -33,15 +33,22 @@ struct LinearIntegrals {
   Eigen::Matrix4d gradients = Eigen::Matrix4d::Zero(), values = Eigen::Matrix4d::Zero();
 };
 
-/// ∫b_k b_l = V(1 + δ_kl)/20.
-LinearIntegrals straight_integrals(const StokesProblem& problem, CellId c) {
+LinearTetrahedron straight_cell(const StokesProblem& problem, CellId c) {
   const auto nodes = problem.space.velocity.of(c);
   const auto x = [&](std::size_t k) { return problem.positions.x[NodeId{nodes[k]}]; };
-  const LinearTetrahedron tet = linear_tetrahedron({x(0), x(1), x(2), x(3)});
+  return linear_tetrahedron({x(0), x(1), x(2), x(3)});
+}
+
+/// ∫b_k b_l = V(1 + δ_kl)/20.
+Eigen::Matrix4d straight_mass(double volume) {
+  return volume / 20.0 * (Eigen::Matrix4d::Ones() + Eigen::Matrix4d::Identity());
+}
+
+LinearIntegrals straight_integrals(const StokesProblem& problem, CellId c) {
+  const LinearTetrahedron tet = straight_cell(problem, c);
   Eigen::Matrix<double, 4, 3> gradients;
   for (int k = 0; k < 4; ++k) gradients.row(k) = tet.gradient[static_cast<std::size_t>(k)];
-  return {tet.volume * gradients * gradients.transpose(),
-          tet.volume / 20.0 * (Eigen::Matrix4d::Ones() + Eigen::Matrix4d::Identity())};
+  return {tet.volume * gradients * gradients.transpose(), straight_mass(tet.volume)};
 }
 
 LinearIntegrals curved_integrals(const StokesProblem& problem, CellId c) {
@@ -57,6 +64,11 @@ LinearIntegrals curved_integrals(const StokesProblem& problem, CellId c) {
     integrals.values.noalias() += weight * values * values.transpose();
   }
   return integrals;
+}
+
+LinearIntegrals integrals_of(const StokesProblem& problem, CellId c) {
+  return problem.positions.is_curved[c] ? curved_integrals(problem, c)
+                                        : straight_integrals(problem, c);
 }
 
 }  // namespace
@@ -82,43 +94,51 @@ ProductJacobian::ProductJacobian(const FlowSpace& space, const Partition* partit
     column = partition->pressure_number[at(column)];
 }
 
-void ProductJacobian::assemble(const StokesProblem& problem, const StokesProduct& product) {
+void ProductJacobian::assemble(const StokesProblem& problem, const StokesProduct& product,
+                               linear::Preconditioner preconditioner) {
   product_.emplace(problem, product);
-  diagonals_ = product_->laplacian_diagonals();
   constant_pressure_is_null_ = !problem.has_open_boundary;
-  laplacians_.choose(problem.constraints, vertex_graph_.num_entries());
   pressure_mass_.assign(at(pressure_graph_.num_rows()), 0.0);
   consistent_mass_.assign(pressure_graph_.num_entries(), 0.0);
-  for (const CellId c : problem.mesh.cells.ids()) add_cell(problem, c);
-  divergence_ = {};
-  if (problem.inertia) {
-    add_tension(*problem.inertia);
-    assemble_divergence(problem, *product.inertia());
-  }
+  for (const CellId c : problem.mesh.cells.ids()) add_pressure_mass(problem, c);
   region_weights_.update(std::span(pressure_mass_).first(at(owned_.num_pressures)));
+  if (preconditioner == linear::Preconditioner::kept && !diagonals_.empty()) return;
+  diagonals_ = product_->laplacian_diagonals();
+  laplacians_.choose(problem.constraints, vertex_graph_.num_entries());
+  for (const CellId c : problem.mesh.cells.ids()) add_laplacians(problem, c);
+  divergence_ = {};
+  if (!problem.inertia) return;
+  add_tension(*problem.inertia);
+  assemble_divergence(problem, *product.inertia());
 }
 
-void ProductJacobian::add_cell(const StokesProblem& problem, CellId c) {
-  const LinearIntegrals integrals = problem.positions.is_curved[c] ? curved_integrals(problem, c)
-                                                                   : straight_integrals(problem, c);
-  const auto nodes = space_.velocity.of(c), vertices = vertices_.of(c),
-             pressures = space_.pressure.nodes.of(c);
+void ProductJacobian::add_pressure_mass(const StokesProblem& problem, CellId c) {
+  const Eigen::Matrix4d values = problem.positions.is_curved[c]
+                                     ? curved_integrals(problem, c).values
+                                     : straight_mass(straight_cell(problem, c).volume);
+  const auto pressures = space_.pressure.nodes.of(c);
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t l = 0; l < 4; ++l) {
+      const double mass =
+          values(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l)) / problem.viscosity[c];
+      pressure_mass_[at(pressures[k])] += mass;
+      consistent_mass_[pressure_graph_.entry(pressures[k], 16 * at(c.value) + 4 * k + l)] += mass;
+    }
+}
+
+void ProductJacobian::add_laplacians(const StokesProblem& problem, CellId c) {
+  const LinearIntegrals integrals = integrals_of(problem, c);
+  const auto nodes = space_.velocity.of(c), vertices = vertices_.of(c);
   const double density_rate =
       problem.inertia ? problem.inertia->density[c] / problem.inertia->duration : 0.0;
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t l = 0; l < 4; ++l) {
       const auto row = static_cast<Eigen::Index>(k), column = static_cast<Eigen::Index>(l);
-      const std::size_t pair = 16 * at(c.value) + 4 * k + l;
-      for (ScalarLaplacian& laplacian : laplacians_.all()) {
-        const bool is_fixed = laplacian.is_fixed[at(nodes[k])] || laplacian.is_fixed[at(nodes[l])];
-        if (!is_fixed || k == l)
-          laplacian.values[vertex_graph_.entry(vertices[k], pair)] +=
-              problem.viscosity[c] * integrals.gradients(row, column) +
-              density_rate * integrals.values(row, column);
-      }
-      const double mass = integrals.values(row, column) / problem.viscosity[c];
-      pressure_mass_[at(pressures[k])] += mass;
-      consistent_mass_[pressure_graph_.entry(pressures[k], pair)] += mass;
+      const std::size_t entry = vertex_graph_.entry(vertices[k], 16 * at(c.value) + 4 * k + l);
+      for (ScalarLaplacian& laplacian : laplacians_.all())
+        if (k == l || (!laplacian.is_fixed[at(nodes[k])] && !laplacian.is_fixed[at(nodes[l])]))
+          laplacian.values[entry] += problem.viscosity[c] * integrals.gradients(row, column) +
+                                     density_rate * integrals.values(row, column);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "meniscus/flow/fem/node_graph.hpp"
 #include "meniscus/flow/fem/region_weights.hpp"
 #include "meniscus/flow/fem/scalar_laplacians.hpp"
+#include "meniscus/linear/saddle_solver.hpp"
 
 namespace meniscus::fem {
 
@@ -18,8 +19,10 @@ class ProductJacobian {
   /// As `StokesJacobian`'s.
   explicit ProductJacobian(const FlowSpace& space, const Partition* partition = nullptr);
 
-  /// The problem and the product, which is the problem's, must outlive the system.
-  void assemble(const StokesProblem& problem, const StokesProduct& product);
+  /// The problem and the product, which is the problem's, must outlive the system. Where the
+  /// preconditioner is kept, what only its making takes stays as it was.
+  void assemble(const StokesProblem& problem, const StokesProduct& product,
+                linear::Preconditioner preconditioner);
   void weigh_constant_pressures(const Field<RegionId, double>& shares) {
     region_weights_.set_shares(shares);
   }
@@ -27,7 +30,8 @@ class ProductJacobian {
   [[nodiscard]] linear::SaddleSystem system() const;
 
  private:
-  void add_cell(const StokesProblem& problem, CellId c);
+  void add_pressure_mass(const StokesProblem& problem, CellId c);
+  void add_laplacians(const StokesProblem& problem, CellId c);
   void add_tension(const InertiaTerms& terms);
   void assemble_divergence(const StokesProblem& problem, const InertiaProduct& inertia);
 

@@ -5,6 +5,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/vector_clones.hpp"
 #include "meniscus/flow/fem/cell_batches.hpp"
+#include "meniscus/flow/fem/cell_inertia.hpp"
 #include "meniscus/flow/fem/elements.hpp"
 #include "meniscus/flow/fem/inertia_product.hpp"
 
@@ -182,18 +183,21 @@ struct Fields {
   double *momentum, *continuity;
 };
 
-template <class Flux, class Batch>
-MENISCUS_INLINE void add_fluxes(std::span<const Batch> batches, const Fields& fields) {
-  for (const Batch& cells : batches) {
-    Nodal v;
+template <class Flux, class Batch, class Inertia>
+MENISCUS_INLINE void add_fluxes(std::span<const Batch> batches, const Inertia& inertia,
+                                const Fields& fields) {
+  for (std::size_t n = 0; n < batches.size(); ++n) {
+    const Batch& cells = batches[n];
+    Nodal v, result;
     Corners p = {};
     Derivatives d;
     take(cells.nodes, fields.v, v);
     if constexpr (Flux::has_pressure) take(cells.pressures, fields.p, p);
     differentiate(v, d);
     multiply<Flux>(cells, d, p);
-    differentiate_back(d, v);
-    give(cells.nodes, v, fields.momentum);
+    differentiate_back(d, result);
+    inertia.add(cells, n, v, result);
+    give(cells.nodes, result, fields.momentum);
     if constexpr (Flux::has_pressure) give(cells.pressures, p, fields.continuity);
   }
 }
@@ -211,17 +215,36 @@ MENISCUS_INLINE void add_pressure(std::span<const Batch> batches, const Fields& 
   }
 }
 
+struct Batches {
+  std::span<const StraightCells> straight;
+  std::span<const CurvedCells> curved;
+};
+
+// One function for each, as clones are made of functions alone.
 MENISCUS_VECTOR_CLONES
-void add_stresses(std::span<const StraightCells> straight, std::span<const CurvedCells> curved,
-                  const Fields& fields) {
-  add_fluxes<Stress>(straight, fields);
-  add_fluxes<Stress>(curved, fields);
+void add_stresses(const Batches& cells, const Fields& fields) {
+  add_fluxes<Stress>(cells.straight, NoInertia{}, fields);
+  add_fluxes<Stress>(cells.curved, NoInertia{}, fields);
 }
 MENISCUS_VECTOR_CLONES
-void add_gradients(std::span<const StraightCells> straight, std::span<const CurvedCells> curved,
-                   const Fields& fields) {
-  add_fluxes<ViscousGradient>(straight, fields);
-  add_fluxes<ViscousGradient>(curved, fields);
+void add_stresses(const Batches& cells, const CellInertia& inertia, const Fields& fields) {
+  add_fluxes<Stress>(cells.straight, inertia.straight, fields);
+  add_fluxes<Stress>(cells.curved, inertia.curved, fields);
+}
+MENISCUS_VECTOR_CLONES
+void add_stresses(const Batches& cells, const ConvectedCells& inertia, const Fields& fields) {
+  add_fluxes<Stress>(cells.straight, inertia.straight, fields);
+  add_fluxes<Stress>(cells.curved, inertia.curved, fields);
+}
+MENISCUS_VECTOR_CLONES
+void add_gradients(const Batches& cells, const Fields& fields) {
+  add_fluxes<ViscousGradient>(cells.straight, NoInertia{}, fields);
+  add_fluxes<ViscousGradient>(cells.curved, NoInertia{}, fields);
+}
+MENISCUS_VECTOR_CLONES
+void add_gradients(const Batches& cells, const CellInertia& inertia, const Fields& fields) {
+  add_fluxes<ViscousGradient>(cells.straight, inertia.straight, fields);
+  add_fluxes<ViscousGradient>(cells.curved, inertia.curved, fields);
 }
 MENISCUS_VECTOR_CLONES
 void add_pressures(std::span<const StraightCells> straight, std::span<const CurvedCells> curved,
@@ -254,13 +277,19 @@ void StokesProduct::convect(std::span<const double> v) {
 
 void StokesProduct::add(std::span<const double> v, std::span<const double> p,
                         std::span<double> momentum, std::span<double> continuity) const {
-  add_stress(v, p, momentum, continuity);
-  if (inertia_) inertia_->add(v, momentum);
+  if (!inertia_) return add_stress(v, p, momentum, continuity);
+  const Batches cells = {cells_->straight, cells_->curved};
+  const Fields fields = {v.data(), p.data(), momentum.data(), continuity.data()};
+  if (inertia_->convects())
+    add_stresses(cells, inertia_->by_convected_cells(), fields);
+  else
+    add_stresses(cells, inertia_->by_cells(), fields);
+  inertia_->add_tension(v, momentum);
 }
 
 void StokesProduct::add_stress(std::span<const double> v, std::span<const double> p,
                                std::span<double> momentum, std::span<double> continuity) const {
-  add_stresses(cells_->straight, cells_->curved,
+  add_stresses({cells_->straight, cells_->curved},
                {v.data(), p.data(), momentum.data(), continuity.data()});
 }
 
@@ -269,8 +298,11 @@ void StokesProduct::add_gradient(std::span<const double> p, std::span<double> mo
 }
 
 void StokesProduct::add_laplacian(std::span<const double> v, std::span<double> momentum) const {
-  add_gradients(cells_->straight, cells_->curved, {v.data(), nullptr, momentum.data(), nullptr});
-  if (inertia_) inertia_->add_symmetric(v, momentum);
+  const Batches cells = {cells_->straight, cells_->curved};
+  const Fields fields = {v.data(), nullptr, momentum.data(), nullptr};
+  if (!inertia_) return add_gradients(cells, fields);
+  add_gradients(cells, inertia_->by_cells(), fields);
+  inertia_->add_tension(v, momentum);
 }
 
 void StokesProduct::add_laplacian_diagonal(std::span<double> by_node) const {

@@ -29,10 +29,10 @@ class StokesProduct {
   StokesProduct& operator=(StokesProduct&&) noexcept;
   ~StokesProduct();
 
-  /// Sets the velocity that convects; for problems with inertia, before `add`.
+  /// Sets the velocity that convects, in problems with inertia; nothing does before.
   void convect(std::span<const double> v);
   /// Adds what is linear in the problem once it is known what convects: `add_stress`, and with
-  /// inertia that of `InertiaProduct::add`.
+  /// inertia ∫ρ(v/τ + a·∇v)·φ + τσ∮∇_sv:∇_sφ.
   void add(std::span<const double> v, std::span<const double> p, std::span<double> momentum,
            std::span<double> continuity) const;
   /// Adds ∫(2μ D(v) − p I):∇φ to `momentum`, and −∫ψ∇·v to `continuity`.

@@ -1,7 +1,6 @@
 #include "meniscus/flow/fem/stokes_residual.hpp"
 
 #include <cmath>
-#include <optional>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/cell_state.hpp"
@@ -138,12 +137,15 @@ double free_norm(const StokesResidual& residual, const StokesProblem& problem) {
   return problem.partition == nullptr ? norm : linear::norm(problem.partition->communicator, norm);
 }
 
-StokesPower power(const StokesProblem& problem, const StokesState& state) {
+StokesPower power(const StokesProblem& problem, const StokesState& state,
+                  const StokesProduct* product) {
+  if (product == nullptr && has_product(problem)) {
+    StokesProduct own(problem);
+    own.convect(numbers(state.v));
+    return power(problem, state, &own);
+  }
   StokesPower power;
-  std::optional<StokesProduct> product;
-  if (has_product(problem)) {
-    product.emplace(problem);
-    product->convect(numbers(state.v));
+  if (product != nullptr) {
     add_power(problem, state, *product, power);
   } else {
     with_element(problem.space, problem.positions,
@@ -151,7 +153,7 @@ StokesPower power(const StokesProblem& problem, const StokesState& state) {
   }
   const std::int32_t num_nodes = owned_counts(problem).num_nodes;
   for (const NodeId i : ids<NodeId>(num_nodes)) power.force += problem.force[i].dot(state.v[i]);
-  const StokesResidual reaction = residual(problem, state, product ? &*product : nullptr);
+  const StokesResidual reaction = residual(problem, state, product);
   for (const NodeConstraint& constraint : problem.constraints.all())
     if (constraint.node.value < num_nodes)
       power.reaction +=

@@ -12,8 +12,8 @@ struct StokesResidual {
   Field<NodeId, Vec3> momentum;    ///< [μ_out G R0²]
   std::vector<double> continuity;  ///< [G R0³]
 };
-/// By `product`, the problem's own, where it is given; with inertia it must be, and must know that
-/// the state's velocity convects.
+/// By `product`, the problem's own, where it is given; with inertia it must be, and counts the
+/// convection by the velocity that it was told, if any.
 [[nodiscard]] StokesResidual residual(const StokesProblem& problem, const StokesState& state,
                                       const StokesProduct* product = nullptr);
 /// Euclidean norm of what a solution must make zero: the residual without its fixed components. The
@@ -29,7 +29,9 @@ struct StokesPower {
   double dissipation = 0.0;   ///< ∫2μ D:D + Σ τ∫∇p·(∇p − f)
   double kinetic_rate = 0.0;  ///< ∫ρ v·Dv/Dt
 };
-/// The global energy balance; collective on the ranks of a partitioned problem.
-[[nodiscard]] StokesPower power(const StokesProblem& problem, const StokesState& state);
+/// The global energy balance; collective on the ranks of a partitioned problem. By `product`, the
+/// problem's own, told that the state's velocity convects, where it is given.
+[[nodiscard]] StokesPower power(const StokesProblem& problem, const StokesState& state,
+                                const StokesProduct* product = nullptr);
 
 }  // namespace meniscus::fem

@@ -17,7 +17,7 @@ constexpr std::int32_t most_nodes_for_mumps = 20000;
 constexpr int most_newton_steps = 6;
 // With inertia the velocity that convects is the last step's.
 constexpr int most_convection_steps = 20;
-constexpr double convection_reduction = 0.01;
+constexpr double convection_reduction = 1e-3;
 
 /// The chosen solver, then the others that the elements and their number allow: quadratic ones have
 /// no stabilisation on the diagonal, by which the paper's solver scales. The others need symmetry
@@ -88,18 +88,18 @@ void add_step(StokesState& state, const StokesProblem& problem,
 }
 
 /// The residual of a velocity without pressure, once the fixed velocities are imposed.
-double residual_at(const StokesProblem& problem, StokesProduct* product, Field<NodeId, Vec3> v) {
+double residual_at(const StokesProblem& problem, const StokesProduct* product,
+                   Field<NodeId, Vec3> v) {
   StokesState state{std::move(v), std::vector<double>(problem.space.pressure.vertex.size(), 0.0)};
   problem.constraints.impose(state.v);
-  if (product != nullptr) product->convect(numbers(state.v));
   return free_norm(residual(problem, state, product), problem);
 }
 
 /// The residual that the data alone cause where all else rests. A boundary far away has the most of
 /// it, in proportion to its distance squared: what counts is what the drops cause, the residual of
 /// the undisturbed flow, of which a boundary at 10 R0 has some 30 to 100 times as much, one at 100
-/// R0 ten thousand times.
-double reference_residual(const StokesProblem& problem, StokesProduct* product) {
+/// R0 ten thousand times. Of a product that was not told what convects.
+double reference_residual(const StokesProblem& problem, const StokesProduct* product) {
   const double at_rest = residual_at(problem, product, state_at_rest(problem.space).v);
   if (problem.undisturbed.empty()) return at_rest;
   const double undisturbed = residual_at(problem, product, problem.undisturbed);
@@ -137,7 +137,8 @@ void StokesSolver::prepare(const StokesProblem& problem) {
   shares_ = constant_pressure_shares(problem);
   const auto prepare_local = [&](const StokesProblem& local) {
     use_product(local);
-    linear_solver(options_.linear).prepare(assembled_system(local, options_.linear, nullptr));
+    linear_solver(options_.linear)
+        .prepare(assembled_system(local, options_.linear, linear::Preconditioner::fresh, nullptr));
   };
   if (partition_)
     prepare_local(local_part(problem, *partition_));
@@ -153,15 +154,16 @@ void StokesSolver::use_product(const StokesProblem& problem) {
 /// The system that a linear solver takes: its products where it can do with them, else matrices.
 linear::SaddleSystem StokesSolver::assembled_system(const StokesProblem& problem,
                                                     LinearSolver which,
+                                                    linear::Preconditioner preconditioner,
                                                     const Linearization* about) {
-  const auto assembled = [&](auto& jacobian, const auto& of) {
+  const auto assembled = [&](auto& jacobian, const auto&... of) {
     if (!jacobian) jacobian.emplace(partition_ ? partition_->space : space_, partition_.get());
     jacobian->weigh_constant_pressures(shares_);
-    jacobian->assemble(problem, of);
+    jacobian->assemble(problem, of...);
     return jacobian->system();
   };
   if (product_ && (which == LinearSolver::block || which == LinearSolver::minres))
-    return assembled(product_jacobian_, *product_);
+    return assembled(product_jacobian_, *product_, preconditioner);
   return assembled(jacobian_, about);
 }
 
@@ -187,7 +189,7 @@ StokesReport StokesSolver::solve_local(const StokesProblem& problem, StokesState
   {
     const PhaseTimer timer(times, "assemble");
     use_product(problem);
-    reference = reference_residual(problem, product_ ? &*product_ : nullptr);
+    reference = reference_residual(problem, product());
   }
   StokesReport report;
   report.reference = reference;
@@ -195,7 +197,11 @@ StokesReport StokesSolver::solve_local(const StokesProblem& problem, StokesState
     report.fault = Fault{FaultKind::not_finite, "the data of the flow problem are not finite"};
     return report;
   }
-  if (problem.is_generalised()) return solve_generalised(problem, state, reference, times);
+  if (problem.is_generalised()) {
+    report = solve_generalised(problem, state, reference, times);
+    if (report.ok()) report.power = fem::power(problem, state);
+    return report;
+  }
   StokesReport before;  // of the solvers that failed
   std::vector<LinearSolver> order = solvers_in_order(options_.linear, problem);
   if (preconditioner == linear::Preconditioner::kept) order.insert(order.begin(), order.front());
@@ -209,6 +215,7 @@ StokesReport StokesSolver::solve_local(const StokesProblem& problem, StokesState
     report.failed_solvers = before.failed_solvers;
     if (report.ok()) {
       state = std::move(attempt);
+      report.power = fem::power(problem, state, product());
       return report;
     }
     before = report;
@@ -216,6 +223,56 @@ StokesReport StokesSolver::solve_local(const StokesProblem& problem, StokesState
         fmt::format("linear solver {}: {}", linear::name(which), report.text()));
     log::warning("{}; trying another way", before.failed_solvers.back());
   }
+  return report;
+}
+
+StokesReport StokesSolver::project(const StokesProblem& problem, Field<NodeId, Vec3>& v,
+                                   linear::Preconditioner preconditioner, PhaseTimes& times) {
+  shares_ = constant_pressure_shares(problem);
+  StokesState state = state_at_rest();
+  state.v = v;
+  problem.constraints.impose(state.v);
+  StokesReport report;
+  if (!partition_) {
+    report = project_local(problem, state, preconditioner, times);
+  } else {
+    StokesState part = local_part(state, *partition_);
+    report = project_local(local_part(problem, *partition_), part, preconditioner, times);
+    if (report.ok()) gather_state(part, *partition_, state);
+  }
+  if (report.ok()) v = std::move(state.v);
+  return report;
+}
+
+/// One step from the velocity given, where only the continuity leaves a residual.
+StokesReport StokesSolver::project_local(const StokesProblem& problem, StokesState& state,
+                                         linear::Preconditioner preconditioner, PhaseTimes& times) {
+  StokesReport report;
+  report.solver = options_.linear;
+  std::optional<linear::SaddleSystem> system;
+  StokesResidual now;
+  {
+    const PhaseTimer timer(times, "assemble");
+    use_product(problem);
+    report.reference = reference_residual(problem, product());
+    now = residual(problem, state, product());
+    std::ranges::fill(now.momentum, Vec3::Zero());
+    report.residual = free_norm(now, problem);
+    if (report.residual <= options_.rtol * report.reference) return report;
+    system = assembled_system(problem, options_.linear, preconditioner, nullptr);
+  }
+  const PhaseTimer timer(times, "solve");
+  const std::vector<double> right = right_hand_side(now, problem);
+  std::vector<double> step(right.size());
+  const linear::LinearReport linear_report =
+      linear_solver(options_.linear)
+          .solve(*system, right, step, options_.rtol * report.reference / report.residual,
+                 preconditioner);
+  add_cost(report, linear_report);
+  if (linear_report.converged)
+    add_step(state, problem, step);
+  else
+    report.fault = Fault{FaultKind::not_converged, linear_report.reason};
   return report;
 }
 
@@ -241,7 +298,7 @@ StokesReport StokesSolver::solve_with(LinearSolver which, const StokesProblem& p
     if (report.newton_steps == most_steps) break;
     if (!system) {
       const PhaseTimer timer(times, "assemble");
-      system = assembled_system(problem, which, nullptr);
+      system = assembled_system(problem, which, preconditioner, nullptr);
     }
     const PhaseTimer timer(times, "solve");
     std::ranges::fill(step, 0.0);
@@ -270,7 +327,7 @@ bool StokesSolver::linear_step(const StokesProblem& problem, const StokesResidua
                                StokesState& step, StokesReport& report) {
   const linear::SaddleSystem system = [&] {
     const PhaseTimer timer(times, "assemble");
-    return assembled_system(problem, options_.linear, about);
+    return assembled_system(problem, options_.linear, linear::Preconditioner::fresh, about);
   }();
   const PhaseTimer timer(times, "solve");
   const std::vector<double> right = right_hand_side(now, problem);

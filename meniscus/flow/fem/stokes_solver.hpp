@@ -31,6 +31,7 @@ struct [[nodiscard]] StokesReport : Report {
   /// Processor time of this process in making preconditioners and in iterating, of all.
   double setup_seconds = 0.0, krylov_seconds = 0.0;
   std::vector<double> residuals;  ///< with laws of viscosity: before each step, and at last
+  StokesPower power;              ///< the energy balance of a solution
 };
 
 /// Solves R(u) = 0 by Newton's method, J δ = −R (eq. 13 of hooper2001), on one space, which
@@ -57,6 +58,11 @@ class StokesSolver {
   StokesReport solve(const StokesProblem& problem, StokesState& state,
                      linear::Preconditioner preconditioner, PhaseTimes& times);
 
+  /// Takes from `v` the least, by the matrix of the problem without convection, that leaves it
+  /// without divergence and with the imposed velocities. The preconditioner is that of `solve`.
+  StokesReport project(const StokesProblem& problem, Field<NodeId, Vec3>& v,
+                       linear::Preconditioner preconditioner, PhaseTimes& times);
+
   /// The energy balance of a solution.
   [[nodiscard]] StokesPower power(const StokesProblem& problem, const StokesState& state) const;
 
@@ -65,7 +71,10 @@ class StokesSolver {
   /// Null where there is none.
   [[nodiscard]] const StokesProduct* product() const { return product_ ? &*product_ : nullptr; }
   linear::SaddleSystem assembled_system(const StokesProblem& problem, LinearSolver which,
+                                        linear::Preconditioner preconditioner,
                                         const Linearization* about);
+  StokesReport project_local(const StokesProblem& problem, StokesState& state,
+                             linear::Preconditioner preconditioner, PhaseTimes& times);
   StokesReport solve_local(const StokesProblem& problem, StokesState& state,
                            linear::Preconditioner preconditioner, PhaseTimes& times);
   StokesReport solve_with(LinearSolver which, const StokesProblem& problem, StokesState& state,
