@@ -105,6 +105,10 @@ add_test(NAME event_ranks COMMAND Python3::Interpreter
 set_tests_properties(event_ranks PROPERTIES TIMEOUT 900 LABELS mpi PROCESSORS 3
   ENVIRONMENT "${MENISCUS_RANKS_ENVIRONMENT}")
 
+add_test(NAME inertia COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/inertia.py
+  $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/inertia)
+set_tests_properties(inertia PROPERTIES TIMEOUT 900)
+
 add_test(NAME scalars COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/scalars.py
   $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scalars)
 set_tests_properties(scalars PROPERTIES TIMEOUT 600 LABELS end_to_end)

@@ -55,7 +55,7 @@ RunDirectory::RunDirectory(FolderLock lock, fs::path path, RunPhysics physics,
                              : std::set<std::int64_t>{}),
       history_(table(path_ / RunFiles::history, history_names(physics_), first_step)),
       drops_(table(path_ / RunFiles::drops, drop_names(physics_), first_step)),
-      events_(table(path_ / RunFiles::events, names_of(event_columns()), first_step)),
+      events_(table(path_ / RunFiles::events, event_names(physics_), first_step)),
       timing_(
           table(path_ / RunFiles::timing, timing_columns(!physics_.scalars.empty()), first_step)) {}
 
@@ -89,11 +89,10 @@ void RunDirectory::add_rows(const HistoryRow& history, const std::vector<DropRow
   history_.add(history_cells(history, physics_));
 }
 
-void RunDirectory::add_events(std::int64_t step, double t,
-                              const std::vector<TopologyEvent>& events) {
+void RunDirectory::add_events(const HistoryRow& history, const std::vector<TopologyEvent>& events) {
   for (const TopologyEvent& event : events)
-    events_.add(cells_of(event_columns(), {step, t, event}));
-  if (!events.empty()) kept_steps_.insert({step - 1, step});
+    events_.add(event_cells({history.step, history.t, event}, history.kinetic));
+  if (!events.empty()) kept_steps_.insert({history.step - 1, history.step});
 }
 
 void RunDirectory::add_timing(std::int64_t step, double t, const PhaseSeconds& seconds) {

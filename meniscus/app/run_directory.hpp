@@ -35,7 +35,7 @@ class RunDirectory {
   [[nodiscard]] const std::vector<io::PvdEntry>& volume_frames() const { return volume_frames_; }
 
   void add_rows(const HistoryRow& history, const std::vector<DropRow>& drops);
-  void add_events(std::int64_t step, double t, const std::vector<TopologyEvent>& events);
+  void add_events(const HistoryRow& history, const std::vector<TopologyEvent>& events);
   void add_timing(std::int64_t step, double t, const PhaseSeconds& seconds);
   void add_surface_frame(const Evolution& evolution);
   void add_volume_frame(const Evolution& evolution);

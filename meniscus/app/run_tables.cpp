@@ -141,6 +141,10 @@ constexpr std::array<Column<HistoryRow>, 4> kHistoryOfInertia{{
     {"transfer_energy_lost", kEnergy, kinetic<&KineticTotals::energy_lost>},
 }};
 
+constexpr std::array<Column<KineticTotals>, 1> kEventsOfInertia{{
+    {"kinetic_energy_lost", kEnergy, [](const KineticTotals& k) { return Cell(k.energy_lost); }},
+}};
+
 template <int I>
 Cell velocity(const Drop& d) {
   return d.row.motion ? Cell(d.row.motion->velocity[I]) : Cell();
@@ -208,6 +212,7 @@ std::span<const Column<Drop>> drop_columns() { return kDrops; }
 std::span<const Column<Event>> event_columns() { return kEvents; }
 std::span<const Column<HistoryRow>> history_inertia_columns() { return kHistoryOfInertia; }
 std::span<const Column<Drop>> drop_inertia_columns() { return kDropsOfInertia; }
+std::span<const Column<KineticTotals>> event_inertia_columns() { return kEventsOfInertia; }
 std::span<const ScalarColumn<ScalarTotals>> history_scalar_columns() { return kHistoryOfScalars; }
 std::span<const ScalarColumn<ScalarOnDrop>> drop_scalar_columns() { return kDropsOfScalars; }
 
@@ -229,6 +234,13 @@ std::vector<std::string> drop_names(const RunPhysics& physics) {
   return names;
 }
 
+std::vector<std::string> event_names(const RunPhysics& physics) {
+  std::vector<std::string> names = names_of(event_columns());
+  if (physics.has_inertia)
+    std::ranges::move(names_of(event_inertia_columns()), std::back_inserter(names));
+  return names;
+}
+
 std::vector<Cell> history_cells(const HistoryRow& row, const RunPhysics& physics) {
   std::vector<Cell> cells = cells_of(history_columns(), row);
   if (physics.has_inertia)
@@ -242,6 +254,14 @@ std::vector<Cell> drop_cells(const RowAtStep<DropRow>& row, const RunPhysics& ph
   if (physics.has_inertia)
     std::ranges::move(cells_of(drop_inertia_columns(), row), std::back_inserter(cells));
   append_cells(cells, drop_scalar_columns(), physics.scalars, row.row.scalars);
+  return cells;
+}
+
+std::vector<Cell> event_cells(const RowAtStep<TopologyEvent>& row,
+                              const std::optional<KineticTotals>& kinetic) {
+  std::vector<Cell> cells = cells_of(event_columns(), row);
+  if (kinetic)
+    std::ranges::move(cells_of(event_inertia_columns(), *kinetic), std::back_inserter(cells));
   return cells;
 }
 

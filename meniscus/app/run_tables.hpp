@@ -56,16 +56,21 @@ struct RunPhysics {
 /// Those of liquids with inertia, behind the columns above.
 [[nodiscard]] std::span<const Column<HistoryRow>> history_inertia_columns();
 [[nodiscard]] std::span<const Column<RowAtStep<DropRow>>> drop_inertia_columns();
+[[nodiscard]] std::span<const Column<KineticTotals>> event_inertia_columns();
 [[nodiscard]] std::span<const ScalarColumn<ScalarTotals>> history_scalar_columns();
 [[nodiscard]] std::span<const ScalarColumn<ScalarOnDrop>> drop_scalar_columns();
 
-/// The columns of history.csv and drops.csv in a run: the fixed ones, those of inertia where there
-/// is any, then all of the first scalar, of the second, ….
+/// The columns of history.csv, drops.csv and events.csv in a run: the fixed ones, those of inertia
+/// where there is any, then all of the first scalar, of the second, ….
 [[nodiscard]] std::vector<std::string> history_names(const RunPhysics& physics);
 [[nodiscard]] std::vector<std::string> drop_names(const RunPhysics& physics);
+[[nodiscard]] std::vector<std::string> event_names(const RunPhysics& physics);
 [[nodiscard]] std::vector<io::Cell> history_cells(const HistoryRow& row, const RunPhysics& physics);
 [[nodiscard]] std::vector<io::Cell> drop_cells(const RowAtStep<DropRow>& row,
                                                const RunPhysics& physics);
+/// `kinetic` is that of the event's step; none without inertia.
+[[nodiscard]] std::vector<io::Cell> event_cells(const RowAtStep<TopologyEvent>& row,
+                                                const std::optional<KineticTotals>& kinetic);
 
 /// The phases of timing.csv and run.json, in their order; one more in runs with bulk scalars.
 [[nodiscard]] std::span<const char* const> timed_phases(bool has_scalars);

@@ -102,7 +102,7 @@ void Simulation::record(Progress& progress, bool is_last) {
       next_volume_frame_ = output_.volume ? next_multiple(output_.volume_interval, t) : HUGE_VAL;
     }
     directory_->add_rows(history, drops);
-    directory_->add_events(history.step, history.t, evolution_.events());
+    directory_->add_events(history, evolution_.events());
   }
   if (observer_) time_phase(output_times_, "output", [&] { observer_(*directory_); });
   const auto now = seconds();

@@ -120,7 +120,8 @@ Case parse_case(std::string_view text, const std::string& name, const std::files
     c.volume_mesh = read_volume_mesh(c.settings, c.flow_solver.elements);
   }
   read_inertia(c);
-  c.evolution = read_evolution(c.settings, c.method, c.flow_solver.elements, c.reynolds > 0.0);
+  c.evolution =
+      read_evolution(c.settings, c.method, c.flow_solver.elements, c.reynolds, c.flow.family());
   require_inertia_fits(c);
   if (!c.scalars.empty() && c.evolution.follows_drops)
     c.settings.reject("domain.frame",

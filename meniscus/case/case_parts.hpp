@@ -34,7 +34,8 @@ void read_inertia(Case& c);
 void require_inertia_fits(const Case& c);
 /// The default of a scheme depends on whether liquids have inertia.
 [[nodiscard]] EvolutionOptions read_evolution(Settings& settings, FlowMethod method,
-                                              fem::Elements elements, bool has_inertia);
+                                              fem::Elements elements, double reynolds,
+                                              FlowFamily family);
 /// Throws InvalidInput when a liquid is not Newtonian, as boundary integrals require.
 void require_newtonian(const Case& c);
 [[nodiscard]] FlowMethod read_method(Settings& settings, const DomainCase& domain);

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <sstream>
 #include <string>
 
@@ -69,9 +71,9 @@ TimeScheme read_scheme(Settings& settings, StepControl control, bool has_inertia
 }
 
 /// How steps are made, and how long they are.
-void read_steps(Settings& settings, bool has_inertia, EvolutionOptions& options) {
+void read_steps(Settings& settings, double reynolds, FlowFamily family, EvolutionOptions& options) {
   options.control = read_control(settings);
-  options.scheme = read_scheme(settings, options.control, has_inertia);
+  options.scheme = read_scheme(settings, options.control, reynolds > 0.0);
   if (options.control == StepControl::paper) {
     options.step_factor = settings.number("time.step-factor");
     options.step_edges = settings.choice("time.step-edges", words::step_edges);
@@ -79,7 +81,9 @@ void read_steps(Settings& settings, bool has_inertia, EvolutionOptions& options)
     options.max_step = settings.number_or("time.max-step", 0.1);
   } else {
     options.tolerance = settings.number("time.tolerance");
-    options.max_step = settings.number_or("time.max-step", kDefaultLongestStep);
+    const double wave =
+        family == FlowFamily::quiescent ? kDefaultLongestWave * std::sqrt(reynolds) : 0.0;
+    options.max_step = settings.number_or("time.max-step", std::max(kDefaultLongestStep, wave));
   }
   options.min_step = settings.number("time.min-step");
   if (options.min_step > options.max_step)
@@ -101,12 +105,12 @@ void read_motion_normal(Settings& settings, EvolutionOptions& options) {
 }  // namespace
 
 EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elements elements,
-                                bool has_inertia) {
+                                double reynolds, FlowFamily family) {
   EvolutionOptions options;
   options.surface = surface_shape(method, elements);
   read_motion_normal(settings, options);
   options.end = settings.number("time.end");
-  read_steps(settings, has_inertia, options);
+  read_steps(settings, reynolds, family, options);
   options.follows_drops = settings.choice("domain.frame", words::domain_frames);
   settings.prefer("interface.remesh-every",
                   std::int64_t{options.control == StepControl::paper ? 1 : 0});

@@ -180,7 +180,8 @@ const std::vector<Key> kRunKeys{
     {.path = "time.max-step",
      .dimension = Dimension::time,
      .range = kPositive,
-     .default_note = "1; 0.1 with control = \"paper\"",
+     .default_note = "1; 0.1 with control = \"paper\"; 0.07 La^(1/2) in quiescent cases with "
+                     "inertia, if longer",
      .sentence = "No step is longer."},
     {.path = "time.min-step",
      .dimension = Dimension::time,

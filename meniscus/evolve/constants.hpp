@@ -38,6 +38,9 @@ inline constexpr double kRoundness = 1e-3;
 inline constexpr double kDefaultTolerance = 0.03;
 /// [1/G] The longest step under error control where a case does not set one.
 inline constexpr double kDefaultLongestStep = 1.0;
+/// [(ρ_out R0³/σ)^½] The same where tension alone drives liquids with inertia and this is longer: a
+/// fortieth of the slowest period, 2π(5/24)^½ for equal densities.
+inline constexpr double kDefaultLongestWave = 0.07;
 /// Edges around a neck where a case does not say how many and faces are splined. In a thinning
 /// filament the flow's power is then off by 2 % of what tension gives in the median and by 7 % at
 /// most, and by 29 to 58 % with ten.

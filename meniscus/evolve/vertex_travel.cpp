@@ -6,23 +6,33 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/evolve/stability.hpp"
 #include "meniscus/mesh/rigid_motion.hpp"
+#include "meniscus/mesh/surface_tree.hpp"
 #include "meniscus/surface/curvature.hpp"
 
 namespace meniscus {
 namespace {
 
-/// A neck is where the surface bends this much less along than around it. A sphere has 1, a
-/// cylinder 0, the waist of a catenoid −1.
-constexpr double kMostAxialBend = 0.25;
+/// A neck is where the surface bends this much less along than around it, a sphere having 1, a
+/// cylinder 0 and the waist of a catenoid −1, and where the other side is within so many radii: a
+/// round neck has 2. The rim of a cap bends as a neck does, but has no other side.
+constexpr double kMostAxialBend = 0.25, kFarthestSide = 6.0;
 
-/// Largest fraction of its radius that a neck loses.
+/// Largest fraction of its radius that a neck loses: half of what its sides come closer.
 double neck_loss(const SurfaceMesh& mesh, const VertexField<Vec3>& w, double dt) {
+  constexpr double kSkip = 1e-3;  // radii; of the faces where the ray starts
   const VertexField<VertexCurvature> curvature = fitted_curvature(mesh, SurfaceTopology(mesh));
+  const SurfaceTree tree(mesh);
   double loss = 0.0;
   for (const VertexId v : w.ids()) {
     const VertexCurvature& at = curvature[v];
     if (at.k1 <= 0.0 || at.k2 > kMostAxialBend * at.k1) continue;
-    loss = std::max(loss, -at.n.dot(w[v]) * at.k1 * dt);
+    const auto opposite =
+        tree.first_hit(mesh.x[v] - kSkip / at.k1 * at.n, -at.n, kFarthestSide / at.k1);
+    if (!opposite) continue;
+    Vec3 there = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k)
+      there += opposite->weights[static_cast<Eigen::Index>(k)] * w[mesh.faces[opposite->face][k]];
+    loss = std::max(loss, 0.5 * at.n.dot(there - w[v]) * at.k1 * dt);
   }
   return loss;
 }

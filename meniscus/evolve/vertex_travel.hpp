@@ -15,7 +15,7 @@ struct VertexTravel {
   /// Way of the liquid relative to the vertex, in shortest edges over what a step aims at
   /// (`aimed_slip`): the shape slides over the mesh.
   double slip = 0.0;
-  /// Way inwards at a neck, in radii of the neck.
+  /// Half of the way by which the sides of a neck come closer, in radii of the neck.
   double neck_loss = 0.0;
 };
 

@@ -81,7 +81,9 @@ TEST(RunDirectory, KeepsTheLastTwoCheckpointsAndThoseAroundEvents) {
   for (std::int64_t step = 0; step <= 5; ++step) {
     TopologyEvent event;
     event.neck_radius = 0.01;
-    if (step == 2) run.add_events(step, 0.2, {event});
+    HistoryRow history;
+    history.step = step;
+    if (step == 2) run.add_events(history, {event});
     run.write_checkpoint({}, step);
   }
   const std::set<std::string> names = names_in(run.path());

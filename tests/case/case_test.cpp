@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -45,6 +46,18 @@ TEST(Case, SolvesWithQuadraticElementsInStepsThatFollowTheError) {
   EXPECT_EQ(c.evolution.tolerance, kDefaultTolerance);
   EXPECT_EQ(c.evolution.max_step, kDefaultLongestStep);
   EXPECT_EQ(c.evolution.motion_normal, MotionNormal::faces);
+}
+
+TEST(Case, WithInertiaThePeriodOfADropMayAllowLongerSteps) {
+  const auto longest = [](double laplace) {
+    return parse_case(fmt::format("[flow]\nkind = \"quiescent\"\nreynolds-number = {}\n[[drop]]\n"
+                                  "radius = 1\n[domain]\nhalf-width = 4\n[time]\nend = 1\n",
+                                  laplace),
+                      "drop.toml")
+        .evolution.max_step;
+  };
+  EXPECT_EQ(longest(100.0), kDefaultLongestStep);
+  EXPECT_NEAR(longest(1e4), 7.0, 1e-12);
 }
 
 TEST(Case, WhatLinearElementsAloneCanDoChoosesThem) {

@@ -24,7 +24,8 @@ def run(program, *arguments, status=0):
 
 
 # The columns that only runs of liquids with inertia have.
-OF_INERTIA = {"kinetic_energy", "kinetic_rate", "transfer_momentum_lost", "transfer_energy_lost", "velocity_x",
+OF_INERTIA = {"kinetic_energy", "kinetic_rate", "transfer_momentum_lost", "transfer_energy_lost", "kinetic_energy_lost",
+              "velocity_x",
               "velocity_y", "velocity_z", "reynolds", "sphericity"}
 
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -58,6 +59,44 @@ TEST(InertialDrop, RisesWithTheBooksInBalance) {
   EXPECT_GT(rows.drops[0].motion->reynolds, 0.4);
   EXPECT_GT(rows.history.kinetic->energy, 0.0);
   EXPECT_LT(std::abs(*rows.history.power_residual()), 0.03 * *rows.history.power_in);
+}
+
+/// Steady speed of a drop at the centre of a sphere without slip, both liquids of one viscosity,
+/// over what drives it, (4π/3)(ρ̂ − 1)Bo. Stream functions f(r) sin²θ with f = C/r + Dr + Er² + Fr⁴
+/// outside and Ar⁴ + Br² within; the drag is 8πD.
+double speed_in_sphere(double b) {
+  Eigen::Matrix<double, 6, 6> conditions = Eigen::Matrix<double, 6, 6>::Zero();
+  const auto outside = [](double r) {
+    Eigen::Matrix<double, 3, 4> f;           // and its derivatives
+    f << 1.0 / r, r, r * r, std::pow(r, 4),  //
+        -1.0 / (r * r), 1.0, 2.0 * r, 4.0 * r * r * r, 2.0 / (r * r * r), 0.0, 2.0, 12.0 * r * r;
+    return f;
+  };
+  Eigen::Matrix<double, 3, 2> inside;
+  inside << 1.0, 1.0, 4.0, 2.0, 12.0, 2.0;
+  conditions.block<2, 4>(0, 0) = outside(b).topRows(2);
+  conditions.block<1, 4>(2, 0) = outside(1.0).row(0);
+  conditions.block<1, 2>(3, 4) = inside.row(0);
+  conditions.block<2, 4>(4, 0) = outside(1.0).bottomRows(2);
+  conditions.block<2, 2>(4, 4) = -inside.bottomRows(2);
+  Eigen::Vector<double, 6> right = Eigen::Vector<double, 6>::Zero();
+  right[2] = right[3] = 0.5;
+  return 1.0 / (8.0 * std::numbers::pi * conditions.fullPivLu().solve(right)[1]);
+}
+
+TEST(InertialDrop, SinksAsInStokesFlowWhereInertiaIsSmall) {
+  const Case c = parse_case(
+      "[flow]\nkind = \"quiescent\"\nreynolds-number = 0.01\ngravity = [0, 0, -0.1]\n[[drop]]\n"
+      "radius = 1\nnodes = 110\nviscosity-ratio = 1\ndensity-ratio = 1.1\n[domain]\n"
+      "shape = \"sphere\"\nradius = 5\n[time]\nend = 3\n",
+      "sinking.toml");
+  Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c), make_moving_mesh(c));
+  ASSERT_TRUE(evolution.prepare().ok());
+  while (!evolution.is_finished()) step(evolution);
+  ASSERT_TRUE(evolution.solve().ok());
+  const double exact = -speed_in_sphere(5.0) * 4.0 / 3.0 * std::numbers::pi * 0.1 * 0.1;
+  EXPECT_NEAR(exact, -0.001693013, 1e-9);
+  EXPECT_NEAR(evolution.rows().drops[0].motion->velocity.z() / exact, 1.0, 0.005);
 }
 
 TEST(InertialDrop, GoesOnFromACheckpointToTheSameBits) {

@@ -367,6 +367,13 @@ class FiniteElementFlow::Projection {
     return report;
   }
   [[nodiscard]] const NodePositions& positions() const { return problem_.stokes.positions; }
+  /// A uniform field but at nodes with conditions, where it is zero.
+  [[nodiscard]] Field<NodeId, Vec3> uniform_off_walls(const Vec3& value) const {
+    Field<NodeId, Vec3> field(positions().x.size(), value);
+    for (const NodeConstraint& constraint : problem_.stokes.constraints.all())
+      field[constraint.node].setZero();
+    return field;
+  }
 
  private:
   Projection(FiniteElementFlow& flow, const FlowDomain& domain, double t, NodePositions positions)
@@ -383,7 +390,8 @@ class FiniteElementFlow::Projection {
 };
 
 /// Gives a velocity without divergence a momentum, by the least that three such fields add: what is
-/// left of the uniform ones. Where all densities are equal walls hold the momentum at zero.
+/// left of the uniform ones. Where all densities are equal walls hold the momentum, and what
+/// differs is the solver's tolerance; uniform fields off the walls take that away in any case.
 std::optional<Fault> FiniteElementFlow::keep_momentum(const FlowDomain& domain,
                                                       Projection& projection, const Vec3& momentum,
                                                       Field<NodeId, Vec3>& v) const {
@@ -395,9 +403,15 @@ std::optional<Fault> FiniteElementFlow::keep_momentum(const FlowDomain& domain,
   double scale = 0.0, mass = 0.0;
   for (const Vec3& each : v) scale = std::max(scale, each.norm());
   if (scale == 0.0) return {};
+  const auto give = [&](const std::array<Field<NodeId, Vec3>, 3>& fields, const Mat3& momenta) {
+    const Vec3 share =
+        momenta.completeOrthogonalDecomposition().solve(momentum - momentum_in(v)).eval();
+    for (const NodeId i : v.ids())
+      for (int k = 0; k < 3; ++k) v[i] += share[k] * fields[static_cast<std::size_t>(k)][i];
+  };
   const Vec3 now = momentum_in(v);
-  std::array<Field<NodeId, Vec3>, 3> fields;
-  Mat3 momenta;
+  std::array<Field<NodeId, Vec3>, 3> fields, uniform;
+  Mat3 momenta, momenta_of_uniform;
   for (int k = 0; k < 3; ++k) {
     Field<NodeId, Vec3> moved = v;
     for (Vec3& each : moved) each += scale * Vec3::Unit(k);
@@ -406,11 +420,11 @@ std::optional<Fault> FiniteElementFlow::keep_momentum(const FlowDomain& domain,
     for (const NodeId i : moved.ids()) moved[i] -= v[i];
     momenta.col(k) = momentum_in(moved);
     fields[static_cast<std::size_t>(k)] = std::move(moved);
+    uniform[static_cast<std::size_t>(k)] = projection.uniform_off_walls(Vec3::Unit(k));
+    momenta_of_uniform.col(k) = momentum_in(uniform[static_cast<std::size_t>(k)]);
   }
-  if (momenta.norm() < kLeast * mass) return {};
-  const Vec3 share = momenta.completeOrthogonalDecomposition().solve(momentum - now);
-  for (const NodeId i : v.ids())
-    for (int k = 0; k < 3; ++k) v[i] += share[k] * fields[static_cast<std::size_t>(k)][i];
+  if (momenta.norm() >= kLeast * mass) give(fields, momenta);
+  give(uniform, momenta_of_uniform);
   return {};
 }
 
