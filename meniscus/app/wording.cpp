@@ -45,6 +45,11 @@ struct Wording {
         "after a shorter step",
         t, shift.over_edge);
   }
+  std::string operator()(const FlowJump& jump) const {
+    return fmt::format(
+        "the flow jumps at t = {:g}, and the liquids have inertia: a ramp would be smoother",
+        jump.time);
+  }
 };
 
 }  // namespace
@@ -76,7 +81,8 @@ void log_notice(const Notice& notice) {
   if (std::holds_alternative<RefusedStep>(notice.what))
     log::warning("{}; trying a shorter one", text_of(notice));
   else if (std::holds_alternative<InterfaceRemesh>(notice.what) ||
-           std::holds_alternative<LargeVolumeShift>(notice.what))
+           std::holds_alternative<LargeVolumeShift>(notice.what) ||
+           std::holds_alternative<FlowJump>(notice.what))
     log::warning("{}", text_of(notice));
 }
 

@@ -77,6 +77,9 @@ Evolution::Evolution(Scene scene, const EvolutionOptions& options, std::unique_p
 }
 
 Report Evolution::prepare() {
+  if (has_inertia(state_.scene))
+    for (const ImposedFlow::Entry& entry : state_.scene.flow.schedule())
+      if (entry.ramp == 0.0) give_notice(FlowJump{entry.time});
   const Scene before = state_.scene;
   remesh_interfaces();
   keep_surfactant(state_.scene, before, carriers_);

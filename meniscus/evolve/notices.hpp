@@ -30,10 +30,17 @@ struct LargeVolumeShift {
   double over_edge = 0.0;
 };
 
+/// The imposed flow of liquids with inertia jumps at a time: the schedule has no ramp there.
+struct FlowJump {
+  double time = 0.0;
+};
+
 /// Something that happened in a run and that its user should know.
 struct Notice {
   double t = 0.0;
-  std::variant<RefusedStep, InterfaceRemesh, FailedSurgery, FailedSolver, LargeVolumeShift> what;
+  std::variant<RefusedStep, InterfaceRemesh, FailedSurgery, FailedSolver, LargeVolumeShift,
+               FlowJump>
+      what;
 };
 
 /// A function that receives each notice.

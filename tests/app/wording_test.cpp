@@ -21,6 +21,8 @@ TEST(Wording, SaysWhatHappenedWhenAndWhere) {
             "drop 3 was not remeshed at t = 0.5: a face is folded over");
   EXPECT_EQ(text_of(Notice{0.25, FailedSurgery{"why"}}), "t = 0.25: why");
   EXPECT_EQ(text_of(Notice{0.25, FailedSolver{"why"}}), "t = 0.25: why");
+  EXPECT_EQ(text_of(Notice{0.0, FlowJump{2.5}}),
+            "the flow jumps at t = 2.5, and the liquids have inertia: a ramp would be smoother");
   EXPECT_EQ(text_of(Notice{0.25, LargeVolumeShift{0.0234}}),
             "t = 0.25: restoring the volume shifts a vertex by 0.023 of its edges, and by as much "
             "after a shorter step");

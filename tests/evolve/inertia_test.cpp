@@ -99,6 +99,23 @@ TEST(InertialDrop, SinksAsInStokesFlowWhereInertiaIsSmall) {
   EXPECT_NEAR(evolution.rows().drops[0].motion->velocity.z() / exact, 1.0, 0.005);
 }
 
+TEST(InertialDrop, AJumpOfTheFlowIsSaid) {
+  const auto jumps = [](const std::string& ramp) {
+    const Case c = parse_case(
+        "[flow]\nkind = \"simple-shear\"\ncapillary-number = 0.2\nreynolds-number = 1\n"
+        "[[flow.schedule]]\ntime = 2\nkind = \"quiescent\"\n" +
+            ramp + "[[drop]]\nradius = 1\nnodes = 42\n[domain]\nhalf-width = 3\n[time]\nend = 4\n",
+        "cessation.toml");
+    Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c), make_moving_mesh(c));
+    EXPECT_TRUE(evolution.prepare().ok());
+    return std::ranges::count_if(evolution.notices(), [](const Notice& notice) {
+      return std::holds_alternative<FlowJump>(notice.what);
+    });
+  };
+  EXPECT_EQ(jumps(""), 1);
+  EXPECT_EQ(jumps("ramp = 0.5\n"), 0);
+}
+
 TEST(InertialDrop, GoesOnFromACheckpointToTheSameBits) {
   Evolution whole = bubble();
   ASSERT_TRUE(whole.prepare().ok());
