@@ -84,6 +84,11 @@ ScalarLiquid read_liquid(Settings& settings, const std::string& table, const Sca
     settings.reject(table + ".source", "must be 0 with peclet = 0, where a source has no effect");
   if (scalar.is_species && liquid.initial.value < 0.0)
     reject_concentration(settings, table + ".initial");
+  if (scalar.is_species && liquid.initial.gradient.isZero(0.0) &&
+      liquid.initial.value + liquid.initial.spot < 0.0)
+    settings.reject(table + ".spot-height",
+                    "must be at least −initial = {}: the sum is a concentration",
+                    -liquid.initial.value);
   return liquid;
 }
 

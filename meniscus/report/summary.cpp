@@ -49,7 +49,9 @@ std::string physics(const RunFacts& facts) {
   const std::string flow = facts.case_value("flow.kind");
   if (!flow.empty()) parts.push_back(markup_text(in_words(flow)));
   add("flow.capillary-number", "Ca");
-  if (facts.case_value("flow.reynolds-number") != "0.0") add("flow.reynolds-number", "Re");
+  if (const std::string Re = facts.case_value("flow.reynolds-number");
+      !Re.empty() && Re.find_first_not_of("0.") != std::string::npos)
+    add("flow.reynolds-number", "Re");
   add("drop[0].viscosity-ratio", "λ");
   add("drop[0].nodes", "N₀");
   const bool has_several = !facts.case_value("drop[1].viscosity-ratio").empty();

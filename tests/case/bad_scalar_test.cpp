@@ -53,6 +53,10 @@ const std::vector<BadScalar> kScalars{
      "case.toml:8: scalar.kind = \"salt\" must be one of \"heat\", \"species\""},
     {"a negative concentration", heat("kind = \"species\"\ninitial = -1\n"),
      "case.toml:9: scalar.initial = -1.0 must be at least 0: it is a concentration"},
+    {"a spot of negative concentration",
+     heat("kind = \"species\"\ninitial = 1\nspot-height = -2\nspot-width = 0.5\n"),
+     "case.toml:10: scalar.spot-height = -2.0 must be at least −initial = -1: the sum is a "
+     "concentration"},
     {"a negative concentration on a patch",
      heat("kind = \"species\"\n[[scalar.patch]]\nname = \"x-\"\ncondition = \"value\"\nvalue = "
           "-1\n"),

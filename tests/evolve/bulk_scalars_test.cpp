@@ -260,7 +260,9 @@ double centred_speed(double s, double b, double viscosity) {
 TEST(BulkScalars, ThermocapillarySpeedsAreTheExactOnes) {
   for (const double wall : {2.0, 5.0})
     for (const auto& [viscosity, conductivity] :
-         {std::pair(0.1, 10.0), std::pair(1.0, 1.0), std::pair(10.0, 0.1)}) {
+         {std::pair(0.1, 0.1), std::pair(0.1, 1.0), std::pair(0.1, 10.0), std::pair(1.0, 0.1),
+          std::pair(1.0, 1.0), std::pair(1.0, 10.0), std::pair(10.0, 0.1), std::pair(10.0, 1.0),
+          std::pair(10.0, 10.0)}) {
       Evolution evolution = evolution_of(thermocapillary(200, wall, viscosity, conductivity));
       const Report solved = evolution.solve();
       ASSERT_TRUE(solved.ok()) << solved.text();
@@ -277,6 +279,30 @@ TEST(BulkScalars, ThermocapillarySpeedsAreTheExactOnes) {
                    speed = centroid_velocity(mesh, swept).z();
       EXPECT_NEAR(speed / exact, 1.0, 5e-3);
     }
+}
+
+// Between a wall with T = z and a drop the temperature is z(A + B/r³), within it z(A + B).
+TEST(BulkScalars, ConductionConvergesOnCurvedInterfaces) {
+  const double wall = 2.0, k = 10.0;
+  const double within = 3.0 / (2.0 + k) / (1.0 + (1.0 - k) / ((2.0 + k) * std::pow(wall, 3))),
+               B = (within - 1.0) / (1.0 - 1.0 / std::pow(wall, 3)), A = within - B;
+  std::vector<double> errors, edges;
+  for (const int nodes : {60, 110, 220}) {
+    Evolution evolution = evolution_of(thermocapillary(nodes, wall, 1.0, k));
+    const TetMesh& mesh = *evolution.state().domain().mesh;
+    const std::vector<double>& values = evolution.state().scalars[0].values;
+    double squared = 0.0;
+    for (const TetVertexId v : mesh.x.ids()) {
+      const Vec3& x = mesh.x[v];
+      const double r = std::max(x.norm(), 1.0);
+      squared +=
+          std::pow(values[static_cast<std::size_t>(v.value)] - x.z() * (A + B / (r * r * r)), 2);
+    }
+    errors.push_back(std::sqrt(squared / mesh.num_vertices()));
+    edges.push_back(1.0 / std::sqrt(nodes));
+  }
+  EXPECT_GT(std::log(errors.front() / errors.back()) / std::log(edges.front() / edges.back()), 2.5);
+  EXPECT_LT(errors.back(), 1e-3);
 }
 
 TEST(BulkScalars, ASourceGoesBeyondTheFirstValuesThroughRemeshing) {
