@@ -40,9 +40,9 @@ def main():
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
     solver = SOLVERS["P2-P1"]
-    for density_ratio in (1.0, 0.5):
+    for density_ratio, end in ((1.0, 0.22), (0.5, 0.2)):
         meet = work / f"meet-{density_ratio}.toml"
-        meet.write_text(with_inertia(MEET.format(end=0.4), density_ratio) + COMMON + solver.format(radius=3),
+        meet.write_text(with_inertia(MEET.format(end=end), density_ratio) + COMMON + solver.format(radius=3),
                         encoding="utf-8")
         folder = work / f"meet-{density_ratio}"
         run(program, "run", str(meet), "-o", str(folder), "-q")
@@ -53,7 +53,7 @@ def main():
                     str(work / "thread.off"), "--aspect", "6", "--amplitude", "0.6", "--edges", "8"],
                    check=True)
     thread = work / "thread.toml"
-    thread.write_text(with_inertia(BREAK.format(radius=0.2, end=0.3), 0.5) + COMMON + solver.format(radius=5),
+    thread.write_text(with_inertia(BREAK.format(radius=0.2, end=0.12), 0.5) + COMMON + solver.format(radius=5),
                       encoding="utf-8")
     run(program, "run", str(thread), "-o", str(work / "break"), "-q")
     check_resuming(program, work / "break", check_breaking(work / "break"))

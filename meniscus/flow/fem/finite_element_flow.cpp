@@ -230,6 +230,7 @@ class FiniteElementFlow final : public FlowSolver {
   }
   void decide_on_preconditioner(const StokesProblem& problem, const StokesReport& report,
                                 bool is_kept);
+  void drop_preconditioner_of_other_stages(double duration);
   [[nodiscard]] StokesState first_guess(const FlowDomain& domain,
                                         const StokesProblem& problem) const;
   [[nodiscard]] FlowSolution first_flow(const FlowDomain& domain, double t);
@@ -495,7 +496,10 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
       options_.capillary, instant.t);
   if (problem.fault) return failed_flow(*problem.fault);
   StokesState state = first_guess(domain, problem.stokes);
-  if (domain.stage != nullptr) last_duration_ = domain.stage->duration;
+  if (domain.stage != nullptr) {
+    last_duration_ = domain.stage->duration;
+    drop_preconditioner_of_other_stages(last_duration_);
+  }
   const bool is_kept = prepared_at_.has_value();
   const StokesReport report = stokes_->solve(
       problem.stokes, state, is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh,
@@ -515,6 +519,15 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
   result.warnings.insert(result.warnings.end(), report.failed_solvers.begin(),
                          report.failed_solvers.end());
   return result;
+}
+
+/// One made for a stage of another length is of no use: seven times the length took 2000
+/// iterations.
+void FiniteElementFlow::drop_preconditioner_of_other_stages(double duration) {
+  constexpr double kMostRatio = 2.0;
+  if (prepared_at_ &&
+      (duration > kMostRatio * prepared_duration_ || kMostRatio * duration < prepared_duration_))
+    prepared_at_.reset();
 }
 
 /// Keeps a preconditioner while the connectivity stands and it saves more than it costs: to make
