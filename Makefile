@@ -75,6 +75,17 @@ format: ## lay out every C++ source as .clang-format says
 	@scripts/setup.sh test
 	@scripts/check_format.sh --fix
 
+.PHONY: docs
+docs: ## the site of all pages and of the C++ interface: out/site/index.html
+	@scripts/setup.sh docs
+	@python3 -B site/build.py out/site
+	@python3 -B site/check_links.py out/site
+	@echo "Site: $(CURDIR)/out/site/index.html; make docs-serve shows it with its search"
+
+.PHONY: docs-serve
+docs-serve: docs ## the same, served to this machine alone: http://127.0.0.1:8000/
+	@python3 -m http.server 8000 --bind 127.0.0.1 --directory out/site
+
 .PHONY: install
 install: ## build and install the program and the library under PREFIX=/usr/local
 	@scripts/setup.sh run

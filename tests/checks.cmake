@@ -14,6 +14,8 @@ foreach(CHECK layers citations)
   meniscus_static_check(${CHECK}_check Python3::Interpreter -B ${FOLDER}/check_${CHECK}_test.py)
 endforeach()
 
+meniscus_static_check(links Python3::Interpreter -B ${PROJECT_SOURCE_DIR}/site/build.py --check)
+
 function(meniscus_program_of_tests TARGET SOURCE ROOM)
   add_executable(${TARGET} ${SOURCE} ${MENISCUS_PROGRAM_SOURCES})
   target_link_libraries(${TARGET} PRIVATE meniscus_options meniscus_${ROOM})
