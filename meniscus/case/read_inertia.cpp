@@ -21,18 +21,6 @@ void require_fit(const Case& c) {
                     "must be \"weak\" or \"balanced\" where liquids have inertia");
   if (c.flow_solver.elements != fem::Elements::p2_p1)
     settings.reject("solver.elements", "must be \"P2-P1\" where liquids have inertia");
-  const auto require_newtonian = [&](const ViscosityLaw& law, const std::string& table) {
-    if (!is_newtonian(law))
-      settings.reject(table + ".viscosity-law", "must be \"newtonian\" where liquids have inertia");
-  };
-  require_newtonian(c.matrix_law, "matrix");
-  for (std::size_t i = 0; i < c.drops.size(); ++i) {
-    const std::string table = fmt::format("drop[{}]", i);
-    require_newtonian(c.drops[i].law, table);
-    if (c.drops[i].surfactant)
-      settings.reject(table + ".surfactant.elasticity",
-                      "must not be given where liquids have inertia: surfactants need Stokes flow");
-  }
   if (c.evolution.follows_drops)
     settings.reject("domain.frame", "must be \"fixed\" where liquids have inertia");
 }

@@ -66,6 +66,15 @@ AmountRates amount_rates(const SurfactantTransport& transport, const Scene& scen
   return rates;
 }
 
+SurfactantTransport combined(double a, const SurfactantTransport& first, double b,
+                             const SurfactantTransport& second) {
+  MENISCUS_ASSERT(first.size() == second.size(), "{} {}", first.size(), second.size());
+  SurfactantTransport result(first.size());
+  for (std::size_t i = 0; i < result.size(); ++i)
+    if (first[i]) result[i].emplace(a, *first[i], b, *second[i]);
+  return result;
+}
+
 AmountRates mean_amount_rates(const SurfactantTransport& transport, const SurfactantPath& path) {
   MENISCUS_ASSERT(transport.size() == path.start.interfaces.size(), "{} {}", transport.size(),
                   path.start.interfaces.size());

@@ -50,6 +50,9 @@ using SurfactantTransport = std::vector<std::optional<SurfaceTransport>>;
                                                        const SceneCarriers& carriers,
                                                        std::span<const VertexField<Vec3>> velocity,
                                                        const InterfaceMotion& motion);
+/// a first + b second, of the same interfaces.
+[[nodiscard]] SurfactantTransport combined(double a, const SurfactantTransport& first, double b,
+                                           const SurfactantTransport& second);
 /// The rates at this instant, at the concentrations of the scene.
 [[nodiscard]] AmountRates amount_rates(const SurfactantTransport& transport, const Scene& scene);
 

@@ -85,12 +85,17 @@ VertexField<double> translation_speeds(const SurfaceMesh& mesh, const VertexFiel
   return speeds;
 }
 
-/// Gives a stage the rates with which the amounts of surfactant go from the start of the step for
-/// `duration`.
-void set_mean_rates(StageFlow& stage, const Step& step, double duration) {
+/// Gives a stage the rates with which a transport takes the amounts of surfactant from the start of
+/// the step for `duration`.
+void set_mean_rates(StageFlow& stage, const SurfactantTransport& transport, const Step& step,
+                    double duration) {
   if (has_surfactant(step.start))
     stage.amount_rates =
-        mean_amount_rates(stage.surfactant, surfactant_path(step, stage.motion, duration));
+        mean_amount_rates(transport, surfactant_path(step, stage.motion, duration));
+}
+/// The same by the stage's own transport.
+void set_mean_rates(StageFlow& stage, const Step& step, double duration) {
+  set_mean_rates(stage, stage.surfactant, step, duration);
 }
 
 /// The same, damped about other rates of concentrations (none: zero). Returns these rates.
@@ -216,6 +221,7 @@ StageFlow implicit_step(const StageFlow& first, const Step& step, const Implicit
   StageFlow start = first;
   expect(start, zero_speeds(first.normal_speed));
   start.motion = velocity_of(start.shape, step.start);
+  set_mean_rates(start, step, first_part);
   StageFlow middle =
       solve(start, first_part, {.t = step.t + first_part, .dt = step.dt, .stage = Stage::middle},
             {first_part, at_start.x, at_start.v, at_start.v,
@@ -239,6 +245,8 @@ StageFlow implicit_step(const StageFlow& first, const Step& step, const Implicit
   StageFlow to_end = middle;
   to_end.motion = scaled(weight, middle.motion);
   add(to_end.motion, gamma, expected.motion);
+  set_mean_rates(to_end, combined(1.0 + weight, middle.surfactant, -weight, first.surfactant), step,
+                 step.dt);
   StageFlow end = solve(
       to_end, step.dt, {.t = step.t + step.dt, .dt = step.dt, .stage = Stage::end},
       {first_part, beyond(at_start.x, at_middle.x, ahead), beyond(at_start.v, at_middle.v, ahead),
@@ -248,10 +256,12 @@ StageFlow implicit_step(const StageFlow& first, const Step& step, const Implicit
   InterfaceMotion whole = scaled(weight, middle.motion);
   add(whole, gamma, end.motion);
   end.motion = std::move(whole);
+  set_mean_rates(end, combined(weight, middle.surfactant, gamma, end.surfactant), step, step.dt);
   end.surface_rate = weight * middle.surface_rate + gamma * end.surface_rate;
   const InterfaceNormals normals = interface_normals(step.start, MotionNormal::area_vector);
-  end.error =
-      step_error(step, normal_speeds(normals, end.motion), normal_speeds(normals, start.motion));
+  end.error = std::max(
+      step_error(step, normal_speeds(normals, end.motion), normal_speeds(normals, start.motion)),
+      amount_error(step, end.amount_rates, start.amount_rates));
   end.damps_waves = true;
   return end;
 }

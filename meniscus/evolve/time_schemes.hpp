@@ -90,6 +90,7 @@ struct StageDampers {
 /// stages, γΔt and Δt after t (alexander1977). It damps what is fast. The velocity at the end is
 /// that of the second stage, at the mesh that the motion expected of it leads to; the interfaces go
 /// on to where its own leads. `expect` slows expected speeds by what tension will do in a stage.
+/// Surfactants go with the transport of the stages, in the shares that the motion takes them.
 [[nodiscard]] StageFlow implicit_step(const StageFlow& first, const Step& step,
                                       const ImplicitSolver& solve, const StageDamper& expect);
 /// γ.

@@ -74,13 +74,20 @@ double largest_tension(const Interface& interface) {
   return tension_at(interface, *std::ranges::min_element(*concentration));
 }
 
-double largest_elasticity(const Interface& interface) {
+VertexField<double> vertex_elasticity(const Interface& interface) {
+  VertexField<double> elasticity;
   const VertexField<double>* concentration = surfactant_concentration(interface);
-  if (concentration == nullptr) return 0.0;
-  double largest = 0.0;
+  if (concentration == nullptr) return elasticity;
   for (const double each : *concentration)
-    largest = std::max(largest, -each * relative_tension(interface.surfactant->state, each).slope);
-  return interface.tension * largest;
+    elasticity.add(-interface.tension * each *
+                   relative_tension(interface.surfactant->state, each).slope);
+  return elasticity;
+}
+
+double largest_elasticity(const Interface& interface) {
+  double largest = 0.0;
+  for (const double each : vertex_elasticity(interface)) largest = std::max(largest, each);
+  return largest;
 }
 
 double tension_energy(const Interface& interface) {

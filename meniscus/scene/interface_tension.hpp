@@ -24,7 +24,9 @@ inline constexpr const char* kSurfactantField = "surfactant";
 [[nodiscard]] VertexField<double> vertex_tension(const Interface& interface);
 /// The largest σ of the vertices [μ_out G R0].
 [[nodiscard]] double largest_tension(const Interface& interface);
-/// The largest Gibbs elasticity −Γ dσ/dΓ of the vertices [μ_out G R0]; 0 without surfactant.
+/// The Gibbs elasticity −Γ dσ/dΓ at the vertices [μ_out G R0]; empty without surfactant.
+[[nodiscard]] VertexField<double> vertex_elasticity(const Interface& interface);
+/// The largest of them; 0 without surfactant.
 [[nodiscard]] double largest_elasticity(const Interface& interface);
 /// Σ σ × area of the flat faces [μ_out G R0³]: the energy of an interface without surfactant.
 [[nodiscard]] double tension_energy(const Interface& interface);

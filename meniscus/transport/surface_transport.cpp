@@ -80,6 +80,10 @@ SurfaceTransport::SurfaceTransport(const CarrierSurface& surface, const VertexFi
   L_ = diffusivity * matrix_of(mesh, stiffness) - Matrix(matrix_of(mesh, convection) * P);
 }
 
+SurfaceTransport::SurfaceTransport(double a, const SurfaceTransport& first, double b,
+                                   const SurfaceTransport& second)
+    : L_(a * first.L_ + b * second.L_) {}
+
 VertexField<double> SurfaceTransport::rates(const VertexField<double>& concentration) const {
   return field_of(-(L_ * vector_of(concentration)));
 }

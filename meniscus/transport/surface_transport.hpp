@@ -22,6 +22,10 @@ class SurfaceTransport {
   SurfaceTransport(const CarrierSurface& surface, const VertexField<Vec3>& slip,
                    double diffusivity);
 
+  /// Of L = a L_1 + b L_2, both of the same vertices.
+  SurfaceTransport(double a, const SurfaceTransport& first, double b,
+                   const SurfaceTransport& second);
+
   /// −L Γ [G R0²].
   [[nodiscard]] VertexField<double> rates(const VertexField<double>& concentration) const;
 

@@ -93,25 +93,6 @@ const std::vector<BadInertia> kMethods{
      {"flow.reynolds-number=10"}},
 };
 
-const std::vector<BadInertia> kLiquids{
-    {"a matrix that thins", inertia("[matrix]\nviscosity-law = \"power-law\"\npower-index = 0.5\n"),
-     "case.toml:7: matrix.viscosity-law = \"power-law\" must be \"newtonian\" where liquids have "
-     "inertia"},
-    {"a drop that thins",
-     inertia("viscosity-law = \"carreau-yasuda\"\npower-index = 0.5\ntime-constant = 1\n"),
-     "case.toml:6: drop.viscosity-law = \"carreau-yasuda\" must be \"newtonian\" where liquids "
-     "have "
-     "inertia"},
-    {"a second drop that thins",
-     inertia("[[drop]]\nradius = 1\ncenter = [0, 0, 3]\nviscosity-law = \"power-law\"\n"
-             "power-index = 0.5\n"),
-     "case.toml:9: drop.viscosity-law = \"power-law\" must be \"newtonian\" where liquids have "
-     "inertia"},
-    {"a surfactant", inertia("[drop.surfactant]\nelasticity = 0.1\n"),
-     "case.toml:7: drop.surfactant.elasticity = 0.1 must not be given where liquids have inertia: "
-     "surfactants need Stokes flow"},
-};
-
 const std::vector<BadInertia> kGravity{
     {"liquids of one density", gravity(""),
      "case.toml:3: flow.gravity = [0.0, 0.0, -1.0] needs drop.density-ratio: liquids of one "
@@ -148,7 +129,6 @@ void expect_messages(const std::vector<BadInertia>& cases) {
 
 TEST(BadInertia, NamesNumbersAndWhatIsAllowed) { expect_messages(kNumbers); }
 TEST(BadInertia, NamesMethodsOfStokesFlow) { expect_messages(kMethods); }
-TEST(BadInertia, NamesLiquidsOfStokesFlow) { expect_messages(kLiquids); }
 TEST(BadInertia, NamesWhatGravityNeeds) { expect_messages(kGravity); }
 
 }  // namespace

@@ -17,10 +17,10 @@ void expect_rate(const OscillatingDrop& drop, double tolerance) {
 
   const auto text = [&] {
     return fmt::format(
-        "La = {}, λ = {}, ρ̂ = {}: s = {:.6g}, {:.6g} for {:.6g}, {:.6g}: "
+        "La = {}, λ = {}, ρ̂ = {}, E0 = {}: s = {:.6g}, {:.6g} for {:.6g}, {:.6g}: "
         "{:+.3f} %, {:+.3f} %",
-        drop.of.La, drop.of.lambda, drop.of.density_ratio, found.real(), found.imag(), exact.real(),
-        exact.imag(), 100.0 * (found.real() / exact.real() - 1.0),
+        drop.of.La, drop.of.lambda, drop.of.density_ratio, drop.of.E0, found.real(), found.imag(),
+        exact.real(), exact.imag(), 100.0 * (found.real() / exact.real() - 1.0),
         100.0 * (found.imag() / exact.imag() - 1.0));
   };
   std::cout << text() << std::endl;
@@ -41,6 +41,13 @@ TEST(InertiaLong, OscillatesWithOtherLiquids) {
   expect_rate({.of = {.La = 100.0, .density_ratio = 0.1, .b = 5.0}, .guess = {0.09, 0.23}}, 0.01);
   expect_rate({.of = {.La = 100.0, .density_ratio = 10.0, .b = 5.0}, .guess = {0.0105, 0.08}},
               0.01);
+}
+
+TEST(InertiaLong, OscillatesWithSurfactant) {
+  expect_rate({.of = {.La = 100.0, .b = 5.0, .E0 = 0.25}, .guess = {0.0755, 0.178}}, 0.01);
+  expect_rate({.of = {.La = 100.0, .b = 5.0, .E0 = 0.5, .D_s = 0.1}, .guess = {0.0615, 0.1697}},
+              0.01);
+  expect_rate({.of = {.La = 100.0, .b = 5.0, .E0 = 5.0}, .guess = {0.0596, 0.158}}, 0.01);
 }
 
 // The balanced form gives a sphere's constant curvature no flow. After a hundred capillary times

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/scene/interface_tension.hpp"
 #include "tests/evolve/boundary_integral_run.hpp"
 
 namespace meniscus::test {
@@ -26,22 +27,37 @@ double height(const Interface& interface, int l) {
   return sum / squared;
 }
 
+std::string surfactant_table(const Oscillation& of) {
+  if (of.E0 == 0.0) return "";
+  return fmt::format("[drop.surfactant]\nelasticity = {}\npeclet = {}\n", of.E0,
+                     of.D_s > 0.0 ? fmt::format("{}", 1.0 / of.D_s) : "inf");
+}
+
 /// f after each step, the first at the start.
 std::vector<double> heights(const OscillatingDrop& drop, double step) {
   const double period = step * drop.steps;
   const Case c = parse_case(
       fmt::format("[flow]\nkind = \"quiescent\"\nreynolds-number = {}\n[[drop]]\nradius = 1.0\n"
-                  "viscosity-ratio = {}\ndensity-ratio = {}\nnodes = {}\n[domain]\n"
+                  "viscosity-ratio = {}\ndensity-ratio = {}\nnodes = {}\n{}[domain]\n"
                   "shape = \"sphere\"\nradius = {}\nnodes = 250\n[time]\nend = {}\n"
                   "max-step = {}\n{}\n"
                   "[interface]\nremesh-every = 0\n",
-                  drop.of.La, drop.of.lambda, drop.of.density_ratio, drop.nodes, drop.of.b,
-                  period * drop.periods - 0.5 * step, step, drop.more),
+                  drop.of.La, drop.of.lambda, drop.of.density_ratio, drop.nodes,
+                  surfactant_table(drop.of), drop.of.b, period * drop.periods - 0.5 * step, step,
+                  drop.more),
       "drop.toml");
   const OscillationMode mode(drop.of, drop.guess);
   Scene scene = build_scene(c);
-  for (Vec3& x : scene.interfaces[0].mesh.x)
-    x *= 1.0 + drop.height * std::legendre(static_cast<unsigned>(drop.of.l), x.x() / x.norm());
+  const SurfaceMesh sphere = scene.interfaces[0].mesh;
+  const auto mode_at = [&](VertexId v) {
+    const Vec3& x = sphere.x[v];
+    return std::legendre(static_cast<unsigned>(drop.of.l), x.x() / x.norm());
+  };
+  for (const VertexId v : sphere.x.ids())
+    scene.interfaces[0].mesh.x[v] *= 1.0 + drop.height * mode_at(v);
+  if (VertexField<double>* concentration = surfactant_concentration(scene.interfaces[0]))
+    for (const VertexId v : concentration->ids())
+      (*concentration)[v] = 1.0 + mode.concentration(drop.height) * mode_at(v);
   scene.initial_velocity = [&](const Vec3& x) { return mode.velocity(x, drop.height); };
   std::vector<double> found;
   const Report report = run(
@@ -80,6 +96,13 @@ std::complex<double> fitted_rate(const OscillatingDrop& drop) {
   const double p = (ac * bb - bc * ab) / determinant, q = -(bc * aa - ac * ab) / determinant;
   // Their modulus is the root of q, their real part p/2.
   return {-0.5 * std::log(q) / step, std::acos(0.5 * p / std::sqrt(q)) / step};
+}
+
+double decay_rate(OscillatingDrop drop, double step, int steps) {
+  drop.steps = steps;
+  drop.periods = 1.0;
+  const std::vector<double> f = heights(drop, step);
+  return std::log(f.front() / f.back()) / (step * (static_cast<double>(f.size()) - 1.0));
 }
 
 double last_height(const OscillatingDrop& drop) { return heights(drop, step_of(drop)).back(); }

@@ -20,5 +20,8 @@ struct OscillatingDrop {
 [[nodiscard]] std::complex<double> fitted_rate(const OscillatingDrop& drop);
 /// f at the end of the run.
 [[nodiscard]] double last_height(const OscillatingDrop& drop);
+/// The rate at which f decays in that many steps of length `step`, of a mode that does not
+/// oscillate.
+[[nodiscard]] double decay_rate(OscillatingDrop drop, double step, int steps);
 
 }  // namespace meniscus::test

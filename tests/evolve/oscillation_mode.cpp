@@ -89,6 +89,12 @@ std::vector<Terms> functions(const Oscillation& of, Complex s, double r, bool is
   return all;
 }
 
+/// g of a velocity at r = 1.
+Complex concentration_of(const Oscillation& of, Complex s, const Terms& at) {
+  const double ll = of.l * (of.l + 1.0);
+  return of.E0 == 0.0 ? 0.0 : (2.0 * at.u - ll * at.v) / (s - of.D_s * ll);
+}
+
 /// What must vanish at r = 1, and at the wall, by columns of the functions: inside, then outside.
 Eigen::MatrixXcd conditions(const Oscillation& of, Complex s) {
   const auto inside = functions(of, s, 1.0, true), outside = functions(of, s, 1.0, false);
@@ -97,8 +103,10 @@ Eigen::MatrixXcd conditions(const Oscillation& of, Complex s) {
   Eigen::Index column = 0;
   for (const Terms& each : inside) {
     // f = −u/s.
-    const Complex restoring = -(of.l - 1.0) * (of.l + 2.0) * each.u / s;
-    rows.col(column++).head(4) << each.u, each.v, each.shear, each.normal + restoring;
+    const Complex restoring = -(of.l - 1.0) * (of.l + 2.0) * each.u / s,
+                  lost = of.E0 * concentration_of(of, s, each);
+    rows.col(column++).head(4) << each.u, each.v, each.shear + lost,
+        each.normal + restoring - 2.0 * lost;
   }
   for (const Terms& each : outside)
     rows.col(column++).head(4) << -each.u, -each.v, -each.shear, -each.normal;
@@ -135,6 +143,9 @@ OscillationMode::OscillationMode(const Oscillation& of, Complex guess) : of_(of)
   for (std::size_t k = 0; k < inside.size(); ++k)
     u += amplitudes_[static_cast<Eigen::Index>(k)] * inside[k].u;
   amplitudes_ *= -rate_ / u;
+  for (std::size_t k = 0; k < inside.size(); ++k)
+    concentration_ +=
+        amplitudes_[static_cast<Eigen::Index>(k)] * concentration_of(of, rate_, inside[k]);
 }
 
 Vec3 OscillationMode::velocity(const Vec3& x, double f0) const {

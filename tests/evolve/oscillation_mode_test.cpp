@@ -31,6 +31,17 @@ TEST(OscillationMode, TendsToLambsFrequency) {
   EXPECT_LT(s.real() / lamb, 0.02);
 }
 
+/// The eigenvalues of a drop with surfactant in Stokes flow, l = 2 and 3.
+TEST(OscillationMode, TendsToTheRatesOfStokesFlowWithSurfactant) {
+  const auto expect = [](const Oscillation& of, double rate) {
+    EXPECT_NEAR(OscillationMode(of, 1.02 * rate).rate().real() / rate, 1.0, 1e-3) << rate;
+  };
+  expect({.La = 1e-4, .lambda = 0.1, .E0 = 0.5, .D_s = 0.1}, 0.6879279371);
+  expect({.La = 1e-4, .lambda = 0.1, .E0 = 0.5, .D_s = 0.1}, 1.2790413367);
+  expect({.La = 1e-4, .lambda = 1.0, .E0 = 0.5, .D_s = 1.0}, 0.4560280867);
+  expect({.La = 1e-4, .lambda = 0.1, .E0 = 2.0}, 2.4904445817);
+}
+
 TEST(OscillationMode, HasTheVelocityOfItsConditions) {
   const OscillationMode mode({.La = 100.0, .lambda = 0.5, .density_ratio = 2.0, .b = 5.0},
                              {0.05, 0.14});

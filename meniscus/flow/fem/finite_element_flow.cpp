@@ -4,13 +4,13 @@
 #include <limits>
 #include <optional>
 
-#include "meniscus/core/archive_entries.hpp"
 #include "meniscus/core/error.hpp"
-#include "meniscus/flow/fem/boundary_conditions.hpp"
-#include "meniscus/flow/fem/capillary_force.hpp"
 #include "meniscus/flow/fem/excess_stress.hpp"
 #include "meniscus/flow/fem/face_elements.hpp"
+#include "meniscus/flow/fem/flow_transfer.hpp"
+#include "meniscus/flow/fem/instant_problem.hpp"
 #include "meniscus/flow/fem/interpolated_state.hpp"
+#include "meniscus/flow/fem/kept_preconditioner.hpp"
 #include "meniscus/flow/fem/node_sources.hpp"
 #include "meniscus/flow/fem/region_motions.hpp"
 #include "meniscus/flow/fem/scalar_coupling.hpp"
@@ -24,125 +24,6 @@
 
 namespace meniscus::fem {
 namespace {
-
-/// The problem's coefficients and forces; tractions and buoyancy apart, as their power is paid for
-/// outside.
-struct InstantProblem {
-  StokesProblem stokes;
-  Field<NodeId, Vec3> traction;
-  std::optional<Fault> fault = {};
-};
-
-/// The nodes of the faces of every embedded surface.
-struct SurfaceNodes {
-  std::vector<FaceNodeTable> interfaces;
-  FaceNodeTable boundary;
-};
-
-SurfaceNodes surface_nodes(const Scene& scene, const TetMesh& mesh, const FlowSpace& space) {
-  SurfaceNodes nodes;
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
-    nodes.interfaces.push_back(
-        face_nodes(space, mesh, scene.interfaces[i].mesh, mesh.interfaces[i]));
-  nodes.boundary = face_nodes(space, mesh, scene.boundary.mesh, mesh.boundary);
-  return nodes;
-}
-
-/// Velocities at the nodes of an interface's faces of what is given at its vertices, at the middles
-/// of edges half way between.
-void add_at_faces(const SurfaceMesh& surface, const FaceNodeTable& faces,
-                  const VertexField<Vec3>& at_vertices, Field<NodeId, Vec3>& to) {
-  for (const FaceId f : surface.faces.ids())
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 &here = at_vertices[surface.faces[f][k]],
-                 &next = at_vertices[surface.faces[f][(k + 1) % 3]];
-      to[faces.of(f)[k]] = here;
-      to[faces.of(f)[3 + k]] = 0.5 * (here + next);
-    }
-}
-
-/// What the stage of a domain adds by inertia, the nodes being at x.
-InertiaTerms inertia_terms(const FlowDomain& domain, const Field<NodeId, Vec3>& x,
-                           std::span<const FaceNodeTable> interfaces) {
-  const ImplicitStage& stage = *domain.stage;
-  const Scene& scene = domain.scene;
-  MENISCUS_ASSERT(stage.x.size() == x.span().size() && stage.v.size() == stage.x.size(),
-                  "{} nodes, {} before", x.size(), stage.x.size());
-  InertiaTerms terms{.duration = stage.duration};
-  for (const CellId c : domain.mesh->cells.ids())
-    terms.density.add(scene.liquids[domain.mesh->region[c]].density);
-  terms.before = Field<NodeId, Vec3>(stage.v);
-  for (const NodeId i : x.ids())
-    terms.mesh_velocity.add((x[i] - stage.x[static_cast<std::size_t>(i.value)]) / stage.duration);
-  terms.interface_went = Field<NodeId, Vec3>(x.size(), Vec3::Zero());
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
-    const Interface& interface = scene.interfaces[i];
-    if (interface.tension == 0.0 || stage.slowing.empty()) continue;
-    add_at_faces(interface.mesh, interfaces[i], stage.slowing[i], terms.interface_went);
-    const double factor = stage.duration * largest_tension(interface);
-    for (const FaceId f : interfaces[i].faces())
-      terms.tension.push_back(face_stiffness(x, interfaces[i].of(f), factor));
-  }
-  std::vector<char> is_done(stage.x.size(), 0);
-  for (const FaceStiffness& face : terms.tension)
-    for (const NodeId i : face.nodes)
-      if (std::exchange(is_done[static_cast<std::size_t>(i.value)], 1) == 0)
-        terms.interface_went[i] += stage.expected_v[static_cast<std::size_t>(i.value)];
-  return terms;
-}
-
-/// A stage of liquids at rest, for its matrix alone.
-ImplicitStage stage_at_rest(const Scene& scene, double duration, const Field<NodeId, Vec3>& x) {
-  const std::vector<Vec3> zeros(x.span().size(), Vec3::Zero());
-  ImplicitStage stage{duration, {x.begin(), x.end()}, zeros, zeros, {}};
-  for (const Interface& interface : scene.interfaces)
-    stage.slowing.emplace_back(interface.mesh.num_vertices(), Vec3::Zero());
-  return stage;
-}
-
-FlowDomain with_stage(const FlowDomain& domain, const ImplicitStage& stage) {
-  FlowDomain result = domain;
-  result.known = nullptr;
-  result.stage = &stage;
-  return result;
-}
-
-InstantProblem instant_problem(const FlowDomain& domain, const FlowSpace& space,
-                               NodePositions positions, CapillaryForm form, double t) {
-  const Scene& scene = domain.scene;
-  const TetMesh& mesh = *domain.mesh;
-  InstantProblem problem{StokesProblem(mesh, space, std::move(positions)), {}, {}};
-  const NodePositions& at = problem.stokes.positions;
-  const SurfaceNodes nodes = surface_nodes(scene, mesh, space);
-  for (const CellId c : mesh.cells.ids()) {
-    const Liquid& liquid = scene.liquids[mesh.region[c]];
-    problem.stokes.viscosity[c] = liquid.viscosity;
-    problem.stokes.body_force[c] = liquid.body_force;
-  }
-  if (!std::ranges::all_of(scene.liquids, is_newtonian, &Liquid::law))
-    for (const Liquid& liquid : scene.liquids) problem.stokes.laws.add(liquid.law);
-  if (domain.stage != nullptr) {
-    problem.stokes.inertia = inertia_terms(domain, at.x, nodes.interfaces);
-    problem.stokes.undisturbed = problem.stokes.inertia->before;
-  } else {
-    for (const Vec3& x : at.x) problem.stokes.undisturbed.add(scene.flow.velocity(x, t));
-  }
-  BoundaryConditions conditions = boundary_conditions(scene.boundary, nodes.boundary, at, t);
-  problem.fault = std::move(conditions.fault);
-  problem.stokes.constraints = std::move(conditions.constraints);
-  problem.stokes.has_open_boundary = conditions.has_open_patch;
-  problem.traction = std::move(conditions.traction);
-  if (domain.scalars != nullptr) {
-    const CellField<double> factors = viscosity_factors(scene, mesh, space, *domain.scalars);
-    for (const CellId c : mesh.cells.ids()) problem.stokes.viscosity[c] *= factors[c];
-    add_buoyancy(scene, *domain.scalars, problem.stokes, problem.traction);
-  }
-  problem.stokes.force = problem.traction;
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
-    if (scene.interfaces[i].tension != 0.0)
-      add_capillary_force(scene.interfaces[i], form, nodes.interfaces[i], at, problem.stokes.force);
-  return problem;
-}
 
 /// Takes a net flux out of the velocity of an interface, along its area vectors. The pressures
 /// inside keep Σ A_i·v_i at zero but for the linear solver's residual; this removes the rest, so
@@ -197,12 +78,6 @@ void level_pressure(const TetMesh& mesh, const PressureSpace& space,
   for (double& p : pressure) p -= integral / volume;
 }
 
-Vec3 momentum_of(std::span<const RegionMotion> motions) {
-  Vec3 sum = Vec3::Zero();
-  for (const RegionMotion& each : motions) sum += each.momentum;
-  return sum;
-}
-
 class FiniteElementFlow final : public FlowSolver {
  public:
   explicit FiniteElementFlow(const Options& options) : options_(options) {
@@ -228,16 +103,10 @@ class FiniteElementFlow final : public FlowSolver {
   [[nodiscard]] bool has_connectivity_of(const FlowDomain& domain) const {
     return stokes_ && connectivity_ == domain.connectivity;
   }
-  void decide_on_preconditioner(const StokesProblem& problem, const StokesReport& report,
-                                bool is_kept);
-  void drop_preconditioner_of_other_stages(double duration);
   [[nodiscard]] StokesState first_guess(const FlowDomain& domain,
                                         const StokesProblem& problem) const;
   [[nodiscard]] FlowSolution first_flow(const FlowDomain& domain, double t);
-  class Projection;
-  [[nodiscard]] std::optional<Fault> keep_momentum(const FlowDomain& domain, Projection& projection,
-                                                   const Vec3& momentum,
-                                                   Field<NodeId, Vec3>& v) const;
+  [[nodiscard]] StageProjection projection(const FlowDomain& domain, double t);
   [[nodiscard]] StokesReport settle(const FlowDomain& domain, double t, StokesState& state);
   void keep_solution(const StokesProblem& problem, StokesState state);
   [[nodiscard]] FlowSolution solution(const FlowDomain& domain, const InstantProblem& problem,
@@ -250,12 +119,8 @@ class FiniteElementFlow final : public FlowSolver {
   std::optional<StokesSolver> stokes_;
   /// The last solution less the undisturbed flow: the next solve's first guess.
   std::optional<StokesState> guess_;
-  /// Where the nodes were when the preconditioner was made that the next solve will keep, and the
-  /// iterations of the solve that made it; none when the next is to make its own.
-  std::optional<NodePositions> prepared_at_;
-  int iterations_then_ = 0;         // 0 where none was yet
-  double prepared_duration_ = 0.0;  // of the stage then; 0 without inertia
-  double last_duration_ = 0.0;      // of the last stage
+  KeptPreconditioner preconditioner_;
+  double last_duration_ = 0.0;  // of the last stage
   PhaseTimes times_;
 };
 
@@ -264,7 +129,7 @@ void FiniteElementFlow::use_connectivity(const FlowDomain& domain) {
   space_ = flow_space(*domain.mesh, options_.elements);
   stokes_.emplace(space_, options_);
   guess_.reset();
-  prepared_at_.reset();
+  preconditioner_.at.reset();
   connectivity_ = domain.connectivity;
 }
 
@@ -338,7 +203,7 @@ StokesReport FiniteElementFlow::settle(const FlowDomain& domain, double t, Stoke
                       .slowing = {}};
   const InstantProblem problem =
       instant_problem(with_stage(domain, stage), space_, positions, options_.capillary, t);
-  prepared_at_.reset();
+  preconditioner_.at.reset();
   StokesReport report =
       stokes_->solve(problem.stokes, state, linear::Preconditioner::fresh, times_);
   if (report.ok() && !problem.stokes.has_open_boundary)
@@ -346,87 +211,14 @@ StokesReport FiniteElementFlow::settle(const FlowDomain& domain, double t, Stoke
   return report;
 }
 
-/// Takes divergence out of velocities on a new mesh, by the matrix of a stage as long as the last,
-/// whose preconditioner the next stage may keep.
-class FiniteElementFlow::Projection {
- public:
-  Projection(FiniteElementFlow& flow, const FlowDomain& domain, double t)
-      : Projection(
-            flow, domain, t,
-            node_positions(domain.scene, *domain.mesh, flow.space_, flow.options_.processes)) {}
-
-  StokesReport apply(Field<NodeId, Vec3>& v) {
-    using linear::Preconditioner;
-    StokesReport report = flow_.stokes_->project(
-        problem_.stokes, v, flow_.prepared_at_ ? Preconditioner::kept : Preconditioner::fresh,
-        flow_.times_);
-    if (report.ok() && report.iterations > 0 && !flow_.prepared_at_) {
-      flow_.prepared_at_ = problem_.stokes.positions;
-      flow_.prepared_duration_ = stage_.duration;
-      flow_.iterations_then_ = 0;
-    }
-    return report;
-  }
-  [[nodiscard]] const NodePositions& positions() const { return problem_.stokes.positions; }
-  /// A uniform field but at nodes with conditions, where it is zero.
-  [[nodiscard]] Field<NodeId, Vec3> uniform_off_walls(const Vec3& value) const {
-    Field<NodeId, Vec3> field(positions().x.size(), value);
-    for (const NodeConstraint& constraint : problem_.stokes.constraints.all())
-      field[constraint.node].setZero();
-    return field;
-  }
-
- private:
-  Projection(FiniteElementFlow& flow, const FlowDomain& domain, double t, NodePositions positions)
-      : flow_(flow),
-        stage_(stage_at_rest(domain.scene, flow.last_duration_, positions.x)),
-        problem_(instant_problem(with_stage(domain, stage_), flow.space_, std::move(positions),
-                                 flow.options_.capillary, t)) {
-    MENISCUS_ASSERT(stage_.duration > 0.0, "no stage before");
-  }
-
-  FiniteElementFlow& flow_;
-  ImplicitStage stage_;
-  InstantProblem problem_;
-};
-
-/// Gives a velocity without divergence a momentum, by the least that three such fields add: what is
-/// left of the uniform ones. Where all densities are equal walls hold the momentum, and what
-/// differs is the solver's tolerance; uniform fields off the walls take that away in any case.
-std::optional<Fault> FiniteElementFlow::keep_momentum(const FlowDomain& domain,
-                                                      Projection& projection, const Vec3& momentum,
-                                                      Field<NodeId, Vec3>& v) const {
-  constexpr double kLeast = 1e-4;  // of the momentum of a uniform field: walls hold the rest
-  const auto momentum_in = [&](const Field<NodeId, Vec3>& of) {
-    return momentum_of(
-        region_motions(domain.scene, *domain.mesh, space_, projection.positions(), of.span()));
-  };
-  double scale = 0.0, mass = 0.0;
-  for (const Vec3& each : v) scale = std::max(scale, each.norm());
-  if (scale == 0.0) return {};
-  const auto give = [&](const std::array<Field<NodeId, Vec3>, 3>& fields, const Mat3& momenta) {
-    const Vec3 share =
-        momenta.completeOrthogonalDecomposition().solve(momentum - momentum_in(v)).eval();
-    for (const NodeId i : v.ids())
-      for (int k = 0; k < 3; ++k) v[i] += share[k] * fields[static_cast<std::size_t>(k)][i];
-  };
-  const Vec3 now = momentum_in(v);
-  std::array<Field<NodeId, Vec3>, 3> fields, uniform;
-  Mat3 momenta, momenta_of_uniform;
-  for (int k = 0; k < 3; ++k) {
-    Field<NodeId, Vec3> moved = v;
-    for (Vec3& each : moved) each += scale * Vec3::Unit(k);
-    mass = std::max(mass, (momentum_in(moved) - now).norm());
-    if (StokesReport report = projection.apply(moved); !report.ok()) return report.fault;
-    for (const NodeId i : moved.ids()) moved[i] -= v[i];
-    momenta.col(k) = momentum_in(moved);
-    fields[static_cast<std::size_t>(k)] = std::move(moved);
-    uniform[static_cast<std::size_t>(k)] = projection.uniform_off_walls(Vec3::Unit(k));
-    momenta_of_uniform.col(k) = momentum_in(uniform[static_cast<std::size_t>(k)]);
-  }
-  if (momenta.norm() >= kLeast * mass) give(fields, momenta);
-  give(uniform, momenta_of_uniform);
-  return {};
+/// The projection by the matrix of a stage as long as the last.
+StageProjection FiniteElementFlow::projection(const FlowDomain& domain, double t) {
+  MENISCUS_ASSERT(last_duration_ > 0.0, "no stage before");
+  NodePositions positions = node_positions(domain.scene, *domain.mesh, space_, options_.processes);
+  const ImplicitStage stage = stage_at_rest(domain.scene, last_duration_, positions.x);
+  InstantProblem problem = instant_problem(with_stage(domain, stage), space_, std::move(positions),
+                                           options_.capillary, t);
+  return {*stokes_, std::move(problem.stokes), preconditioner_, times_};
 }
 
 TransferredFlow FiniteElementFlow::transferred(const MeshChange& change, const Scene& before,
@@ -439,37 +231,27 @@ TransferredFlow FiniteElementFlow::transferred(const MeshChange& change, const S
     follow(change, domain);
     if (!has_connectivity_of(domain)) use_connectivity(domain);
   }
-  Projection projection(*this, domain, t);
+  StageProjection projection = this->projection(domain, t);
   const NodePositions old_positions =
-                          node_positions(before, change.before, old_space, options_.processes),
-                      &positions = projection.positions();
-  const std::vector<NodeSource> sources = node_sources(
-      {change.before, old_space, old_positions}, {*domain.mesh, space_, positions}, change.sources);
+      node_positions(before, change.before, old_space, options_.processes);
+  const std::vector<NodeSource> sources =
+      node_sources({change.before, old_space, old_positions},
+                   {*domain.mesh, space_, projection.positions()}, change.sources);
+  const MovingLiquids then{before, change.before, old_space, old_positions},
+      now{domain.scene, *domain.mesh, space_, projection.positions()};
   Field<NodeId, Vec3> v(interpolated_values<Vec3>(flow.v, old_space, sources));
   TransferredFlow result;
   result.fault = projection.apply(v).fault;
-  const auto had_momentum =
-      momentum_of(region_motions(before, change.before, old_space, old_positions, flow.v));
   if (result.ok() && !change.sources.empty())
-    result.fault = keep_momentum(domain, projection, had_momentum, v);
-  result.flow = {{positions.x.begin(), positions.x.end()},
+    result.fault = keep_momentum(now, projection, momentum(then, flow.v), v);
+  const Field<NodeId, Vec3>& x = projection.positions().x;
+  result.flow = {{x.begin(), x.end()},
                  {v.begin(), v.end()},
                  guess_ ? guess_->p : stokes_->state_at_rest().p,
                  flow.power};
-  double gross = 0.0;
-  RegionMotion lost;
-  for (const RegionMotion& each :
-       region_motions(before, change.before, old_space, old_positions, flow.v, &gross)) {
-    lost.momentum += each.momentum;
-    lost.kinetic_energy += each.kinetic_energy;
-  }
-  for (const RegionMotion& each :
-       region_motions(domain.scene, *domain.mesh, space_, positions, result.flow.v)) {
-    lost.momentum -= each.momentum;
-    lost.kinetic_energy -= each.kinetic_energy;
-  }
-  if (gross > 0.0) result.momentum_lost = lost.momentum.norm() / gross;
-  result.energy_lost = lost.kinetic_energy;
+  const MotionLost lost = motion_lost(then, flow.v, now, result.flow.v);
+  result.momentum_lost = lost.momentum;
+  result.energy_lost = lost.energy;
   return result;
 }
 
@@ -498,15 +280,20 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
   StokesState state = first_guess(domain, problem.stokes);
   if (domain.stage != nullptr) {
     last_duration_ = domain.stage->duration;
-    drop_preconditioner_of_other_stages(last_duration_);
+    preconditioner_.drop_unless_of_stage(last_duration_);
   }
-  const bool is_kept = prepared_at_.has_value();
+  const bool is_kept = preconditioner_.at.has_value();
   const StokesReport report = stokes_->solve(
       problem.stokes, state, is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh,
       times_);
-  decide_on_preconditioner(problem.stokes, report, is_kept);
-  // A kept one could not be made again from a checkpoint, whose scalars are later ones.
-  if (has_varying_viscosity(domain.scene)) prepared_at_.reset();
+  preconditioner_.decide(problem.stokes, report, is_kept);
+  // A kept one could not be made again from a checkpoint, whose concentrations are later ones.
+  const auto varies_in_matrix = [&](const Interface& interface) {
+    return problem.stokes.inertia && has_varying_tension(interface);
+  };
+  if (has_varying_viscosity(domain.scene) ||
+      std::ranges::any_of(domain.scene.interfaces, varies_in_matrix))
+    preconditioner_.at.reset();
   if (report.ok() && !problem.stokes.has_open_boundary)
     level_pressure(mesh, space_.pressure, state.p);
   FlowSolution result =
@@ -519,32 +306,6 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
   result.warnings.insert(result.warnings.end(), report.failed_solvers.begin(),
                          report.failed_solvers.end());
   return result;
-}
-
-/// One made for a stage of another length is of no use: seven times the length took 2000
-/// iterations.
-void FiniteElementFlow::drop_preconditioner_of_other_stages(double duration) {
-  constexpr double kMostRatio = 2.0;
-  if (prepared_at_ &&
-      (duration > kMostRatio * prepared_duration_ || kMostRatio * duration < prepared_duration_))
-    prepared_at_.reset();
-}
-
-/// Keeps a preconditioner while the connectivity stands and it saves more than it costs: to make
-/// one takes as long as three or four iterations (docs/benchmark-stokes.md).
-void FiniteElementFlow::decide_on_preconditioner(const StokesProblem& problem,
-                                                 const StokesReport& report, bool is_kept) {
-  constexpr int kWorthOfOne = 3;
-  const bool is_own = report.ok() && report.failed_solvers.empty() && report.iterations > 0 &&
-                      !problem.is_generalised();  // whose steps make their own
-  if (is_kept && report.ok() && report.iterations == 0) return;
-  if (is_kept && is_own && iterations_then_ == 0) iterations_then_ = report.iterations;
-  if (is_kept && is_own && report.iterations <= iterations_then_ + kWorthOfOne) return;
-  prepared_at_.reset();
-  if (is_kept || !is_own) return;
-  prepared_at_ = problem.positions;
-  prepared_duration_ = problem.inertia ? problem.inertia->duration : 0.0;
-  iterations_then_ = report.iterations;
 }
 
 FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const InstantProblem& problem,
@@ -593,31 +354,25 @@ FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const Instant
 void FiniteElementFlow::save(Archive& archive, const FlowDomain& domain) const {
   if (!has_connectivity_of(domain)) return;
   if (guess_) fem::save(*guess_, archive, "flow/guess");
-  if (!prepared_at_) return;
-  save_positions(*prepared_at_, archive, "flow/preconditioner");
-  archive.integers["flow/preconditioner/iterations"] = {iterations_then_};
-  if (prepared_duration_ > 0.0)
-    archive.reals["flow/preconditioner/duration"] = {prepared_duration_};
+  preconditioner_.save(archive);
 }
 
 /// Makes the preconditioner that the saved run had, so that a resumed run does the same arithmetic.
 void FiniteElementFlow::restore_preconditioner(const Archive& archive, const FlowDomain& domain) {
-  if (!archive.reals.contains("flow/preconditioner/x")) return;
-  prepared_at_ = load_positions(archive, "flow/preconditioner");
-  if (prepared_at_->x.size() != space_.velocity.num_nodes ||
-      prepared_at_->is_curved.size() != domain.mesh->num_cells())
+  preconditioner_ = load_preconditioner(archive);
+  if (!preconditioner_.at) return;
+  if (preconditioner_.at->x.size() != space_.velocity.num_nodes ||
+      preconditioner_.at->is_curved.size() != domain.mesh->num_cells())
     reject_input("checkpoint: flow/preconditioner/x does not fit the volume mesh");
-  iterations_then_ = static_cast<int>(
-      entry_of_size(archive.integers, "flow/preconditioner/iterations", 1).front());
   FlowDomain then = domain;
   ImplicitStage stage;
   if (has_inertia(domain.scene)) {
-    prepared_duration_ = entry_of_size(archive.reals, "flow/preconditioner/duration", 1).front();
-    stage = stage_at_rest(domain.scene, prepared_duration_, prepared_at_->x);
+    stage = stage_at_rest(domain.scene, preconditioner_.duration, preconditioner_.at->x);
     then.stage = &stage;
   }
   // Time, forces and velocities matter to the right-hand side alone.
-  stokes_->prepare(instant_problem(then, space_, *prepared_at_, options_.capillary, 0.0).stokes);
+  stokes_->prepare(
+      instant_problem(then, space_, *preconditioner_.at, options_.capillary, 0.0).stokes);
 }
 
 void FiniteElementFlow::load(const Archive& archive, const FlowDomain& domain) {

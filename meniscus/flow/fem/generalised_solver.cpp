@@ -5,6 +5,9 @@
 #include <limits>
 
 #include "meniscus/core/log.hpp"
+#include "meniscus/flow/fem/cell_state.hpp"
+#include "meniscus/flow/fem/elements.hpp"
+#include "meniscus/flow/fem/solver_steps.hpp"
 #include "meniscus/flow/fem/stokes_residual.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
 
@@ -66,6 +69,30 @@ double linear_tolerance(double norm, double reference, double target) {
   return std::max(std::min(loosest, norm / reference), 0.5 * target / norm);
 }
 
+// With inertia: steps at most, and the relative residual of the linear solve of each, which lowers
+// that of a liquid that thins by no more than its law bends.
+constexpr int most_steps_with_inertia = 60;
+constexpr double reduction_with_inertia = 0.05;
+
+/// The mean of the viscosity over each cell, at a state.
+CellField<double> mean_viscosities(const StokesProblem& problem, const StokesState& state) {
+  CellField<double> means = problem.viscosity;
+  with_element(problem.space, problem.positions, [&](auto& element) {
+    using Element = std::remove_reference_t<decltype(element)>;
+    for (const CellId c : problem.mesh.cells.ids()) {
+      if (problem.law(c) == nullptr) continue;
+      const CellState<Element> cell(problem.space, state, c);
+      double sum = 0.0, volume = 0.0;
+      for (const auto& point : element.points(c)) {
+        sum += point.weight * viscosity_at(problem, c, cell.velocity_gradient(point));
+        volume += point.weight;
+      }
+      means[c] = sum / volume;
+    }
+  });
+  return means;
+}
+
 std::string text_of(const std::vector<double>& residuals, double reference) {
   std::string text;
   for (const double residual : residuals) text += fmt::format(" {:.1e}", residual / reference);
@@ -125,6 +152,65 @@ StokesReport StokesSolver::solve_generalised(const StokesProblem& problem, Stoke
     at = std::move(next);
   }
   state = std::move(at.state);
+  return report;
+}
+
+/// Picard's method: the viscosity of each cell is held at its mean in the last state, as the
+/// velocity that convects is the last one. The residual is that of the true viscosities.
+StokesReport StokesSolver::solve_generalised_with_inertia(const StokesProblem& problem,
+                                                          StokesState& state,
+                                                          linear::Preconditioner preconditioner,
+                                                          PhaseTimes& times) {
+  StokesReport report;
+  report.solver = options_.linear;
+  StokesProblem held = problem;
+  held.laws = {};
+  std::vector<double> step(3 * static_cast<std::size_t>(owned_counts(problem).num_nodes) +
+                           static_cast<std::size_t>(owned_counts(problem).num_pressures));
+  const auto fail = [&](std::string why) {
+    report.fault = Fault{FaultKind::not_converged, std::move(why)};
+    return report;
+  };
+  for (;; ++report.picard_steps) {
+    std::optional<linear::SaddleSystem> system;
+    StokesResidual now;
+    {
+      const PhaseTimer timer(times, "assemble");
+      held.viscosity = mean_viscosities(problem, state);
+      use_product(held);
+      if (report.picard_steps == 0) report.reference = reference_residual(problem, product());
+      if (!std::isfinite(report.reference))
+        return fail("the data of the flow problem are not finite");
+      product_->convect(numbers(state.v));
+      now = residual(problem, state, product());
+      report.residual = free_norm(now, problem);
+      report.residuals.push_back(report.residual);
+      if (!std::isfinite(report.residual)) return fail("the residual is not finite");
+      if (report.residual <=
+          (report.picard_steps == 0 ? 1.0 : 2.0) * options_.rtol * report.reference)
+        break;
+      if (report.picard_steps == most_steps_with_inertia)
+        return fail(
+            fmt::format("the viscosity's iteration does not converge; residuals of the {} "
+                        "steps:{}",
+                        report.picard_steps, text_of(report.residuals, report.reference)));
+      system = assembled_system(held, options_.linear, preconditioner, nullptr);
+    }
+    const PhaseTimer timer(times, "solve");
+    std::ranges::fill(step, 0.0);
+    const double rtol =
+        std::max(options_.rtol * report.reference / report.residual, reduction_with_inertia);
+    const linear::LinearReport linear_report =
+        linear_solver(options_.linear)
+            .solve(*system, right_hand_side(now, problem), step, rtol, preconditioner);
+    add_cost(report, linear_report);
+    report.linear_residuals = linear_report.residuals;
+    if (!linear_report.converged) return fail(linear_report.reason);
+    add_step(state, problem, step);
+    preconditioner = linear::Preconditioner::kept;
+  }
+  report.power = fem::power(problem, state, product());
+  product_.reset();  // of a problem that ends here
   return report;
 }
 

@@ -179,6 +179,24 @@ void add_stiffness(std::span<const FaceStiffness> faces, std::span<const double>
   }
 }
 
+/// The same of what their elasticity makes.
+void add_stiffness(std::span<const FaceElasticity> faces, std::span<const double> v,
+                   std::span<double> momentum) {
+  for (const FaceElasticity& face : faces) {
+    Eigen::Vector<double, 18> at_nodes;
+    const auto first = [&](std::size_t i) {
+      return 3 * static_cast<std::size_t>(face.nodes[i].value);
+    };
+    for (std::size_t i = 0; i < 6; ++i)
+      at_nodes.segment<3>(3 * static_cast<Eigen::Index>(i)) =
+          Eigen::Map<const Vec3>(v.data() + first(i));
+    const Eigen::Vector<double, 18> force = face.values * at_nodes;
+    for (std::size_t i = 0; i < 6; ++i)
+      Eigen::Map<Vec3>(momentum.data() + first(i)) +=
+          force.segment<3>(3 * static_cast<Eigen::Index>(i));
+  }
+}
+
 }  // namespace
 
 struct InertiaProduct::Matrices {
@@ -203,7 +221,7 @@ InertiaProduct::InertiaProduct(const StokesProblem& problem, const CellBatches& 
   matrices_->curved_mass.resize(cells.curved.size());
   set_curved_masses(matrices_->of(cells), 1.0 / terms_.duration, matrices_->curved_mass);
   add_mass(numbers(terms_.before), given_mass_);
-  add_stiffness(terms_.tension, numbers(terms_.interface_went), given_tension_);
+  add_tension(numbers(terms_.interface_went), given_tension_);
 }
 InertiaProduct::~InertiaProduct() = default;
 
@@ -227,8 +245,18 @@ ConvectedCells InertiaProduct::by_convected_cells() const {
   return {{matrices_->straight}, {matrices_->curved}};
 }
 
+void InertiaProduct::add(std::span<const double> v, std::span<double> momentum) const {
+  if (convects_)
+    add_all(matrices_->of(cells_), matrices_->straight, matrices_->curved, v.data(),
+            momentum.data());
+  else
+    add_mass(v, momentum);
+  add_tension(v, momentum);
+}
+
 void InertiaProduct::add_tension(std::span<const double> v, std::span<double> momentum) const {
   add_stiffness(terms_.tension, v, momentum);
+  add_stiffness(terms_.elasticity, v, momentum);
 }
 
 void InertiaProduct::add_mass(std::span<const double> v, std::span<double> momentum) const {
@@ -255,10 +283,14 @@ void InertiaProduct::add_mass_diagonal(std::span<double> by_node) const {
 
 void InertiaProduct::add_diagonal(std::span<double> by_node) const {
   add_mass_diagonal(by_node);
-  for (const FaceStiffness& face : terms_.tension)
+  const auto add = [&](const std::array<NodeId, 6>& nodes,
+                       const Eigen::Matrix<double, 6, 6>& values) {
     for (std::size_t i = 0; i < 6; ++i)
-      by_node[static_cast<std::size_t>(face.nodes[i].value)] +=
-          face.values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i));
+      by_node[static_cast<std::size_t>(nodes[i].value)] +=
+          values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i));
+  };
+  for (const FaceStiffness& face : terms_.tension) add(face.nodes, face.values);
+  for (const FaceElasticity& face : terms_.elasticity) add(face.nodes, face.mean_of_components());
 }
 
 void InertiaProduct::subtract_given(std::span<double> momentum) const {

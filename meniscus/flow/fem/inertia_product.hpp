@@ -28,13 +28,15 @@ class InertiaProduct {
   [[nodiscard]] CellInertia by_cells() const;
   /// ∫ρ(v/τ + a·∇v)·φ by cells, once there is what convects.
   [[nodiscard]] ConvectedCells by_convected_cells() const;
-  /// Adds τσ∮∇_sv:∇_sφ.
+  /// Adds ∫ρ(v/τ + a·∇v)·φ, without convection where nothing convects, and `add_tension`.
+  void add(std::span<const double> v, std::span<double> momentum) const;
+  /// Adds τσ∮∇_sv:∇_sφ + τ∮E ∇_s·v ∇_s·φ.
   void add_tension(std::span<const double> v, std::span<double> momentum) const;
-  /// Adds the diagonal of ∫ρv/τ·φ + τσ∮∇_sv:∇_sφ, one number by node.
+  /// Adds the diagonal of ∫ρv/τ·φ and of `add_tension`, one number by node.
   void add_diagonal(std::span<double> by_node) const;
   /// Adds ∫ρφ_iφ_i/τ.
   void add_mass_diagonal(std::span<double> by_node) const;
-  /// Subtracts what is given: ∫ρv̄/τ·φ + τσ∮∇_sv*:∇_sφ.
+  /// Subtracts what is given: ∫ρv̄/τ·φ and `add_tension` of v*.
   void subtract_given(std::span<double> momentum) const;
   /// ∫ρ(v − v̄)/τ·v + ρ(a·∇v)·v: what the liquids' kinetic energy gains per time.
   [[nodiscard]] double kinetic_rate(std::span<const double> v, std::int32_t num_owned) const;

@@ -208,11 +208,13 @@ InertiaTerms local_part(const InertiaTerms& global, const Partition& partition) 
     local.mesh_velocity.add(global.mesh_velocity[from]);
     local.interface_went.add(global.interface_went[from]);
   }
-  for (FaceStiffness face : global.tension) {
+  const auto take = [&](auto face, auto& to) {
     for (NodeId& node : face.nodes) node = NodeId{number[node]};
     if (std::ranges::none_of(face.nodes, [](NodeId node) { return node.value < 0; }))
-      local.tension.push_back(std::move(face));
-  }
+      to.push_back(std::move(face));
+  };
+  for (const FaceStiffness& face : global.tension) take(face, local.tension);
+  for (const FaceElasticity& face : global.elasticity) take(face, local.elasticity);
   return local;
 }
 

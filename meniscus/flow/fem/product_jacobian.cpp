@@ -147,23 +147,26 @@ void ProductJacobian::add_tension(const InertiaTerms& terms) {
   Eigen::Matrix<double, 6, 3> from_linear = Eigen::Matrix<double, 6, 3>::Zero();
   for (int k = 0; k < 3; ++k)
     from_linear(k, k) = 1.0, from_linear(3 + k, k) = from_linear(3 + k, (k + 1) % 3) = 0.5;
-  for (const FaceStiffness& face : terms.tension) {
-    const Mat3 values = from_linear.transpose() * face.values * from_linear;
+  const auto add = [&](const std::array<NodeId, 6>& nodes,
+                       const Eigen::Matrix<double, 6, 6>& stiffness) {
+    const Mat3 values = from_linear.transpose() * stiffness * from_linear;
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t row = vertex_of_[at(face.nodes[k].value)];
+      const std::int32_t row = vertex_of_[at(nodes[k].value)];
       for (std::size_t l = 0; l < 3; ++l) {
-        const std::int32_t number = coarse_.number[at(face.nodes[l].value)];
+        const std::int32_t number = coarse_.number[at(nodes[l].value)];
         const auto first = vertex_graph_.columns.begin() + vertex_graph_.row_start[at(row)],
                    last = vertex_graph_.columns.begin() + vertex_graph_.row_start[at(row) + 1];
         const auto entry = std::find(first, last, number) - vertex_graph_.columns.begin();
         for (ScalarLaplacian& laplacian : laplacians_.all())
-          if (k == l || (!laplacian.is_fixed[at(face.nodes[k].value)] &&
-                         !laplacian.is_fixed[at(face.nodes[l].value)]))
+          if (k == l ||
+              (!laplacian.is_fixed[at(nodes[k].value)] && !laplacian.is_fixed[at(nodes[l].value)]))
             laplacian.values[static_cast<std::size_t>(entry)] +=
                 values(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l));
       }
     }
-  }
+  };
+  for (const FaceStiffness& face : terms.tension) add(face.nodes, face.values);
+  for (const FaceElasticity& face : terms.elasticity) add(face.nodes, face.mean_of_components());
 }
 
 void ProductJacobian::assemble_divergence(const StokesProblem& problem,

@@ -98,9 +98,6 @@ void add_power(const StokesProblem& problem, const StokesState& state, const Sto
     power.dissipation += viscous.momentum[i].dot(state.v[i]);
     power.body_force -= body.momentum[i].dot(state.v[i]);
   }
-  if (product.inertia() != nullptr)
-    power.kinetic_rate =
-        product.inertia()->kinetic_rate(numbers(state.v), owned_counts(problem).num_nodes);
 }
 
 }  // namespace
@@ -109,14 +106,17 @@ StokesResidual residual(const StokesProblem& problem, const StokesState& state,
                         const StokesProduct* product) {
   MENISCUS_ASSERT(product != nullptr || !problem.inertia, "inertia without a product");
   StokesResidual result = residual_of_nothing(problem);
+  const bool is_by_cells = product == nullptr || problem.is_generalised();
   with_element(problem.space, problem.positions, [&](auto& element) {
-    if (product == nullptr)
+    if (is_by_cells)
       add_residual(problem, state, element, result);
     else
       subtract_body_force(problem, element, result);
   });
-  if (product != nullptr)
+  if (!is_by_cells)
     product->add(numbers(state.v), state.p, numbers(result.momentum), result.continuity);
+  else if (problem.inertia)
+    product->inertia()->add(numbers(state.v), numbers(result.momentum));
   if (problem.inertia) product->inertia()->subtract_given(numbers(result.momentum));
   for (const NodeId i : problem.force.ids()) result.momentum[i] -= problem.force[i];
   return result;
@@ -145,12 +145,15 @@ StokesPower power(const StokesProblem& problem, const StokesState& state,
     return power(problem, state, &own);
   }
   StokesPower power;
-  if (product != nullptr) {
+  if (product != nullptr && !problem.is_generalised()) {
     add_power(problem, state, *product, power);
   } else {
     with_element(problem.space, problem.positions,
                  [&](auto& element) { add_cell_power(problem, state, element, power); });
   }
+  if (product != nullptr && product->inertia() != nullptr)
+    power.kinetic_rate =
+        product->inertia()->kinetic_rate(numbers(state.v), owned_counts(problem).num_nodes);
   const std::int32_t num_nodes = owned_counts(problem).num_nodes;
   for (const NodeId i : ids<NodeId>(num_nodes)) power.force += problem.force[i].dot(state.v[i]);
   const StokesResidual reaction = residual(problem, state, product);

@@ -13,7 +13,8 @@ struct StokesResidual {
   std::vector<double> continuity;  ///< [G R0³]
 };
 /// By `product`, the problem's own, where it is given; with inertia it must be, and counts the
-/// convection by the velocity that it was told, if any.
+/// convection by the velocity that it was told, if any. Where viscosities depend on the rate of
+/// shear it gives what inertia adds, and nothing else.
 [[nodiscard]] StokesResidual residual(const StokesProblem& problem, const StokesState& state,
                                       const StokesProduct* product = nullptr);
 /// Euclidean norm of what a solution must make zero: the residual without its fixed components. The

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "meniscus/core/log.hpp"
-#include "meniscus/flow/fem/constants.hpp"
 #include "meniscus/flow/fem/region_pressures.hpp"
+#include "meniscus/flow/fem/solver_steps.hpp"
 #include "meniscus/flow/fem/stokes_residual.hpp"
 
 namespace meniscus::fem {
@@ -36,74 +36,11 @@ std::vector<LinearSolver> solvers_in_order(LinearSolver first, const StokesProbl
   return order;
 }
 
-/// Adds iterations and times of one linear solve to the report.
-void add_cost(StokesReport& report, const linear::LinearReport& linear_report) {
-  report.iterations += linear_report.iterations;
-  report.setup_seconds += linear_report.setup_seconds;
-  report.krylov_seconds += linear_report.solve_seconds;
-}
-
-/// −R with the fixed components zero, in the frames of the unknowns.
-std::vector<double> right_hand_side(const StokesResidual& residual, const StokesProblem& problem) {
-  const OwnedCounts owned = owned_counts(problem);
-  std::vector<double> values;
-  values.reserve(3 * static_cast<std::size_t>(owned.num_nodes) +
-                 static_cast<std::size_t>(owned.num_pressures));
-  for (const NodeId i : ids<NodeId>(owned.num_nodes)) {
-    const Vec3& r = residual.momentum[i];
-    values.insert(values.end(), {-r[0], -r[1], -r[2]});
-  }
-  for (std::size_t i = 0; i < static_cast<std::size_t>(owned.num_pressures); ++i)
-    values.push_back(-residual.continuity[i]);
-  for (const NodeConstraint& constraint : problem.constraints.all()) {
-    if (constraint.node.value >= owned.num_nodes) continue;
-    const Vec3 local = constraint.frame.transpose() * residual.momentum[constraint.node];
-    for (std::size_t k = 0; k < 3; ++k)
-      values[3 * static_cast<std::size_t>(constraint.node.value) + k] =
-          constraint.is_fixed[k] ? 0.0 : -local[static_cast<Eigen::Index>(k)];
-  }
-  return values;
-}
-
-/// Adds δ, given in the frames of the owned unknowns, to the local state. Collective.
-void add_step(StokesState& state, const StokesProblem& problem,
-              std::span<const double> owned_step) {
-  std::vector<double> local;
-  if (problem.partition != nullptr) local = with_ghosts(owned_step, *problem.partition);
-  const std::span<const double> step = problem.partition != nullptr ? local : owned_step;
-  const Constraints& constraints = problem.constraints;
-  const auto step_at = [&](NodeId i) {
-    const std::size_t k = 3 * static_cast<std::size_t>(i.value);
-    return Vec3(step[k], step[k + 1], step[k + 2]);
-  };
-  for (const NodeId i : state.v.ids()) {
-    const NodeConstraint* constraint = constraints.find(i);
-    if (constraint == nullptr) state.v[i] += step_at(i);
-    if (constraint == nullptr) continue;
-    const Vec3 moved = constraint->frame * step_at(i);
-    state.v[i] += moved - constraint->fixed_part(moved);
-  }
-  const std::size_t first = 3 * static_cast<std::size_t>(state.v.size());
-  for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] += step[first + i];
-}
-
-/// The residual of a velocity without pressure, once the fixed velocities are imposed.
-double residual_at(const StokesProblem& problem, const StokesProduct* product,
-                   Field<NodeId, Vec3> v) {
-  StokesState state{std::move(v), std::vector<double>(problem.space.pressure.vertex.size(), 0.0)};
-  problem.constraints.impose(state.v);
-  return free_norm(residual(problem, state, product), problem);
-}
-
-/// The residual that the data alone cause where all else rests. A boundary far away has the most of
-/// it, in proportion to its distance squared: what counts is what the drops cause, the residual of
-/// the undisturbed flow, of which a boundary at 10 R0 has some 30 to 100 times as much, one at 100
-/// R0 ten thousand times. Of a product that was not told what convects.
-double reference_residual(const StokesProblem& problem, const StokesProduct* product) {
-  const double at_rest = residual_at(problem, product, state_at_rest(problem.space).v);
-  if (problem.undisturbed.empty()) return at_rest;
-  const double undisturbed = residual_at(problem, product, problem.undisturbed);
-  return std::clamp(kMostOfDisturbance * undisturbed, kLeastOfRest * at_rest, at_rest);
+/// The problem of liquids that keep the viscosity which they have at rest.
+StokesProblem with_own_viscosities(const StokesProblem& problem) {
+  StokesProblem result = problem;
+  result.laws = {};
+  return result;
 }
 
 linear::SaddleSolver make_linear_solver(LinearSolver which, const Options& options) {
@@ -185,6 +122,8 @@ StokesPower StokesSolver::power(const StokesProblem& problem, const StokesState&
 
 StokesReport StokesSolver::solve_local(const StokesProblem& problem, StokesState& state,
                                        linear::Preconditioner preconditioner, PhaseTimes& times) {
+  if (problem.is_generalised() && problem.inertia)
+    return solve_generalised_with_inertia(problem, state, preconditioner, times);
   double reference = 0.0;
   {
     const PhaseTimer timer(times, "assemble");
@@ -247,6 +186,8 @@ StokesReport StokesSolver::project(const StokesProblem& problem, Field<NodeId, V
 /// One step from the velocity given, where only the continuity leaves a residual.
 StokesReport StokesSolver::project_local(const StokesProblem& problem, StokesState& state,
                                          linear::Preconditioner preconditioner, PhaseTimes& times) {
+  if (problem.is_generalised())
+    return project_local(with_own_viscosities(problem), state, preconditioner, times);
   StokesReport report;
   report.solver = options_.linear;
   std::optional<linear::SaddleSystem> system;

@@ -37,7 +37,7 @@ struct [[nodiscard]] StokesReport : Report {
 /// Solves R(u) = 0 by Newton's method, J δ = −R (eq. 13 of hooper2001), on one space, which
 /// must outlive it. The positions of the nodes may change between solves. Stokes flow takes one
 /// step, and another where a linear solver's own norm was content too early; generalised-Newtonian
-/// liquids take several, as docs/generalised-newtonian.md says.
+/// liquids take several, as docs/generalised-newtonian.md says. With inertia these are Picard's.
 class StokesSolver {
  public:
   /// With several processes all calls are collective: each process gives the same global space and
@@ -82,6 +82,9 @@ class StokesSolver {
                           PhaseTimes& times);
   StokesReport solve_generalised(const StokesProblem& problem, StokesState& state, double reference,
                                  PhaseTimes& times);
+  StokesReport solve_generalised_with_inertia(const StokesProblem& problem, StokesState& state,
+                                              linear::Preconditioner preconditioner,
+                                              PhaseTimes& times);
   /// One step of a generalised solve: linearises, solves to `rtol`, gives δ without the fixed
   /// components.
   [[nodiscard]] bool linear_step(const StokesProblem& problem, const StokesResidual& now,

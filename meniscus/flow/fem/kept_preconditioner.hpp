@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+
+#include "meniscus/core/archive.hpp"
+#include "meniscus/flow/fem/stokes_solver.hpp"
+
+namespace meniscus::fem {
+
+/// What is known of the preconditioner that the next solve on the same connectivity will keep.
+struct KeptPreconditioner {
+  /// Where the nodes were when it was made; none when the next solve is to make its own.
+  std::optional<NodePositions> at;
+  int iterations = 0;     ///< of the first solve with it; 0 where none was yet
+  double duration = 0.0;  ///< of the stage then [1/G]; 0 without inertia
+
+  /// Drops one made for a stage more than twice or less than half as long, which is of no use:
+  /// seven times the length took 2000 iterations.
+  void drop_unless_of_stage(double stage_duration);
+  /// After a solve: keeps it while it saves more than it costs. To make one takes as long as three
+  /// or four iterations (docs/benchmark-stokes.md).
+  void decide(const StokesProblem& problem, const StokesReport& report, bool is_kept);
+
+  void save(Archive& archive) const;
+};
+/// The one that the saved run had, if any. Throws InvalidInput when arrays are missing.
+[[nodiscard]] KeptPreconditioner load_preconditioner(const Archive& archive);
+
+}  // namespace meniscus::fem
