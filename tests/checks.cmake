@@ -13,6 +13,11 @@ foreach(CHECK layers citations)
     ${PROJECT_SOURCE_DIR})
   meniscus_static_check(${CHECK}_check Python3::Interpreter -B ${FOLDER}/check_${CHECK}_test.py)
 endforeach()
+# A report: its table says how long the sentences of each page are, and no length makes it fail.
+set(FOLDER ${CMAKE_CURRENT_SOURCE_DIR}/words)
+meniscus_static_check(sentence_lengths Python3::Interpreter ${FOLDER}/sentence_lengths.py
+  ${PROJECT_SOURCE_DIR})
+meniscus_static_check(sentence_lengths_check Python3::Interpreter -B ${FOLDER}/sentence_lengths_test.py)
 
 meniscus_static_check(links Python3::Interpreter -B ${PROJECT_SOURCE_DIR}/site/build.py --check)
 
