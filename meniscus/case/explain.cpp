@@ -1,5 +1,7 @@
 #include "meniscus/case/explain.hpp"
 
+#include <algorithm>
+#include <map>
 #include <vector>
 
 #include "meniscus/case/schema.hpp"
@@ -13,15 +15,12 @@ using schema::Table;
 using schema::Type;
 
 constexpr std::string_view kOverrides =
-    "Any key can be set on the command line, as in `--set time.end=5`. A key of an array of tables "
-    "takes the number of its table, counted from 0: `--set 'drop[1].nodes=200'`; it may be left "
-    "out where there is one: `--set drop.nodes=200`. An array in an array has a number of its own: "
-    "`--set 'scalar[0].drop[1].partition=2'`. The number after the last adds a table, "
-    "provided that all it requires is set. Values are as in the file, but words and texts need "
-    "no quotes of their own unless they could be read as a number, true, false or a list. What "
-    "holds blanks, brackets or quotes is quoted as a whole for the shell: "
-    "`--set 'title=Two drops'`, `--set 'title=\"7\"'`, `--set 'drop[0].center=[0, 0, 1]'`. Tables "
-    "are set key by key.";
+    "Any key can be set on the command line: `--set time.end=5`. Arrays of tables count from 0: "
+    "`--set 'drop[1].nodes=200'`, `--set 'scalar[0].drop[1].partition=2'`. Where there is one "
+    "table its number may be left out: `--set drop.nodes=200`. The number after the last adds a "
+    "table. Words and texts need quotes of their own only where they could be read as a number, "
+    "true, false or a list: `--set 'title=Two drops'`, `--set 'title=\"7\"'`, "
+    "`--set 'drop[0].center=[0, 0, 1]'`.";
 
 std::string allowed_values(const Key& key) {
   if (key.type == Type::word) return schema::quoted_list(key.words);
@@ -57,11 +56,50 @@ std::string explanation(const Key& key) {
   return text;
 }
 
-std::string table_row(const Key& key) {
-  std::string sentence(key.sentence);
-  if (!key.applies.empty()) sentence += fmt::format(" Applies {}.", key.applies);
-  return fmt::format("| `{}` | {} | {} | {} | {} |\n", schema::leaf(key.path), allowed_values(key),
-                     unit_text(key), default_text(key), sentence);
+/// The type as the page has it.
+std::string_view short_description(Type type) {
+  switch (type) {
+    case Type::number:
+      return "number";
+    case Type::whole:
+      return "whole number";
+    case Type::text:
+      return "text";
+    case Type::path:
+      return "file name";
+    case Type::vector:
+      return "[x, y, z]";
+    case Type::matrix:
+      return "[[…], […], […]]";
+    case Type::velocity:
+      return "\"flow\" or [vx, vy, vz]";
+    default:
+      return schema::description(type);
+  }
+}
+
+/// "number > 0, R0; default 1.0; with inertia": what the page says of a key besides its sentence.
+std::string value_text(const Key& key) {
+  std::string text = key.type == Type::word ? schema::quoted_list(key.words)
+                                            : std::string(short_description(key.type));
+  if (const std::string range = schema::range_text(key.range); !range.empty()) text += " " + range;
+  if (key.dimension != schema::Dimension::none)
+    text += fmt::format(", {}", schema::unit(key.dimension));
+  const bool is_required = key.default_note.starts_with("required");
+  text += fmt::format("; {}{}", is_required ? "" : "default ", default_text(key));
+  if (!key.applies.empty() && !key.default_note.ends_with(key.applies))
+    text += fmt::format("; {}", key.applies);
+  return text;
+}
+
+std::string entry(const Key& key) {
+  return fmt::format("- `{}` ({}): {}\n", schema::leaf(key.path), value_text(key), key.sentence);
+}
+
+/// The first key that has the same name and entry as this one; this one where there is none before.
+const Key& first_alike(const Key& key) {
+  return *std::ranges::find_if(schema::keys(),
+                               [&](const Key& other) { return entry(other) == entry(key); });
 }
 
 std::vector<const Key*> keys_of(const Table& table) {
@@ -70,6 +108,23 @@ std::vector<const Key*> keys_of(const Table& table) {
     if (schema::parent_path(key.path) == table.path) result.push_back(&key);
   MENISCUS_ASSERT(!result.empty(), "table {} has no keys", table.path);
   return result;
+}
+
+/// The entries of a table's keys, and at the end the names of those that other tables explain.
+std::string entries(const Table& table) {
+  std::string text;
+  std::map<std::string, std::vector<std::string>> explained;  // by the header of the other table
+  for (const Key* key : keys_of(table)) {
+    const Key& first = first_alike(*key);
+    if (&first == key)
+      text += entry(*key);
+    else
+      explained[header(*schema::find_table(schema::parent_path(first.path)))].push_back(
+          fmt::format("`{}`", schema::leaf(key->path)));
+  }
+  for (const auto& [other, names] : explained)
+    text += fmt::format("- {}: as in `{}`.\n", fmt::join(names, ", "), other);
+  return text;
 }
 
 }  // namespace
@@ -107,19 +162,17 @@ std::string explain() {
 std::string reference_page() {
   std::string page =
       "# The case file\n\n"
-      "Made from the schema table in `meniscus/case/schema_*.cpp`; change it there.\n\n"
-      "A case is a TOML file. Every key has a default except the flow's kind and each drop's "
-      "shape. "
-      "Values are dimensionless unless the case has a `[scale]` table. A key that would have no "
-      "effect is refused, and so is one that is not listed here. With `[scale]`, ranges of keys "
-      "with a unit hold for the dimensionless value.\n\n";
+      "Which keys does a case have? This page is made from `meniscus/case/schema_*.cpp`.\n\n"
+      "A case is a TOML file. Only the flow's kind and each drop's shape have no default. Unknown "
+      "keys and keys without effect are refused. Values are dimensionless, in the units below. "
+      "With a `[scale]` table they are in SI units, and ranges hold for the dimensionless "
+      "value. In brackets: value and unit; default; when the key applies.\n\n";
   page += fmt::format("{}\n", kOverrides);
   for (const Table& table : schema::tables()) {
     const std::string heading =
         table.path.empty() ? "Top level" : fmt::format("`{}`", header(table));
     page += fmt::format("\n## {}\n\n{}\n\n", heading, table.sentence);
-    page += "| key | value | unit | default | meaning |\n|---|---|---|---|---|\n";
-    for (const Key* key : keys_of(table)) page += table_row(*key);
+    page += entries(table);
   }
   return page;
 }

@@ -19,8 +19,8 @@ const std::vector<Key> kDomainKeys{
      .words = words::list(words::domain_shapes),
      .value = "box"s,
      .applies = "without surface",
-     .sentence = "Shape of the outer boundary; a cylinder lies along x. \"unbounded\", with "
-                 "method = \"boundary-integral\" and only there: no boundary."},
+     .sentence = "Outer boundary; a cylinder lies along x. \"unbounded\" goes with method = "
+                 "\"boundary-integral\" and only with it."},
     {.path = "domain.half-width",
      .dimension = Dimension::length,
      .range = kLength,
@@ -33,87 +33,80 @@ const std::vector<Key> kDomainKeys{
      .range = kLength,
      .default_note = "half-width in every direction",
      .applies = "with shape = \"box\"",
-     .sentence = "The same for the x-, y- and z-faces."},
+     .sentence = "The same for x-, y- and z-faces."},
     {.path = "domain.radius",
      .dimension = Dimension::length,
      .range = kLength,
      .value = 10.0,
      .applies = "with shape = \"sphere\" or \"cylinder\"",
-     .sentence = "Radius of the sphere or cylinder."},
+     .sentence = "Radius of sphere or cylinder."},
     {.path = "domain.half-length",
      .dimension = Dimension::length,
      .range = kLength,
      .value = 10.0,
      .applies = "with shape = \"cylinder\"",
-     .sentence = "Half the length of the cylinder."},
+     .sentence = "Half the cylinder's length."},
     {.path = "domain.surface",
      .type = path,
      .default_note = "none: the boundary is a shape",
-     .sentence = "A closed triangulated surface in one piece, faces outward, as the outer boundary "
-                 "(stl, ply, obj, off, vtp). Its faces have tags: in vtp the whole numbers of the "
-                 "cell array `patch`; in obj the groups (g), numbered 0, 1, 2, … in the order in "
-                 "which they first get a face, whatever their names; in ascii stl the solids, "
-                 "numbered 0, 1, 2, … as they stand in the file; in any other file all are 0."},
+     .sentence =
+         "A closed triangulated surface in one piece, faces outward (stl, ply, obj, off, "
+         "vtp). Tags of faces: in vtp the cell array `patch`; in obj the groups (g) by "
+         "first face; in ascii stl the solids; both numbered from 0. In other files all are 0."},
     {.path = "domain.nodes",
      .type = whole,
      .range = kBoundaryNodes,
      .value = std::int64_t{507},
      .applies = "without surface",
-     .sentence = "About how many vertices the outer boundary has."},
+     .sentence = "Approximate number of its vertices."},
     {.path = "domain.grading",
      .type = word,
      .words = words::list(words::gradings),
      .value = "linear"s,
      .applies = kWithElements,
-     .sentence =
-         "How element size passes from one surface's resolution to another's (P2-P1 elements "
-         "take gaussian unless told otherwise)."},
+     .sentence = "How element size passes from surface to surface (P2-P1: gaussian unless set)."},
     {.path = "domain.cell-volume",
      .type = number,
      .range = {.min = 0.1, .max = 100.0},
      .default_note = "2.0; 1.5 with P2-P1 elements",
      .applies = kWithElements,
-     .sentence =
-         "A tetrahedron is divided while its volume exceeds this many times that of the regular "
-         "one of the wanted edge: halving it doubles the nodes between the surfaces."},
+     .sentence = "Tetrahedra are divided above this many regular ones of the wanted edge. Half "
+                 "doubles the nodes."},
     {.path = "domain.interior-growth",
      .range = {.min = 0.0, .max = 10.0},
      .value = 0.5,
      .applies = kWithElements,
-     .sentence = "How fast the size of tetrahedra grows with the distance from the surface, inside "
-                 "a drop and wherever no farther surface bounds the liquid; 0: not at all."},
+     .sentence = "Growth of tetrahedra with distance from the surface, inside drops and where no "
+                 "farther surface bounds the liquid."},
     {.path = "domain.radius-edge",
      .range = {.min = 1.1, .max = 10.0},
      .value = 1.4,
      .applies = kWithElements,
-     .sentence = "TetGen's bound on a tetrahedron's circumradius over its shortest edge: lower "
-                 "bounds give rounder tetrahedra and more of them."},
+     .sentence =
+         "TetGen's bound on circumradius over shortest edge; lower: rounder and more tetrahedra."},
     {.path = "domain.frame",
      .type = word,
      .words = words::list(words::domain_frames),
      .value = "fixed"s,
-     .sentence = "drops: the domain and the imposed flow move along with the drops, whose common "
-                 "centroid stays where it was at the start, as experiments hold a drop at a "
-                 "stagnation point; an extensional flow carries it away otherwise."},
+     .sentence = "drops: domain and imposed flow move along with the drops' common centroid, which "
+                 "stays at its first place."},
 
     {.path = "domain.patch[].name",
      .type = text,
      .default_note = "required for a shape; a label for a tag",
-     .sentence = "The patch of the shape, as listed above."},
+     .sentence = "The patch of the shape, as above."},
     {.path = "domain.patch[].tag",
      .type = whole,
      .range = {.min = 0, .max = 1e9},
      .default_note = "required for a surface",
      .applies = "with domain.surface",
-     .sentence =
-         "The tag of the patch's faces in the surface file: a number, as said at domain.surface."},
+     .sentence = "The faces' tag, as in domain.surface."},
     {.path = "domain.patch[].condition",
      .type = word,
      .words = words::list(words::conditions),
      .value = "velocity"s,
-     .sentence = "velocity: v is given; symmetry (of a flat patch): no flow through it and no "
-                 "tangential traction; "
-                 "open: the traction is given."},
+     .sentence = "velocity: v is given; symmetry (flat patches): neither flow through it nor "
+                 "tangential traction; open: traction is given."},
     {.path = "domain.patch[].velocity",
      .type = velocity,
      .dimension = Dimension::velocity,
@@ -121,18 +114,14 @@ const std::vector<Key> kDomainKeys{
      .words = {"flow"},
      .value = "flow"s,
      .applies = "with condition = \"velocity\"",
-     .sentence =
-         "\"flow\": v = G·x of the imposed flow, schedule included; or a constant velocity, "
-         "[0, 0, 0] for a wall."},
+     .sentence = "\"flow\": v = G·x with its schedule; else constant, [0, 0, 0] for a wall."},
     {.path = "domain.patch[].profile",
      .type = word,
      .words = words::list(words::profiles),
      .value = "uniform"s,
      .applies = "with a velocity of three numbers",
-     .sentence =
-         "parabolic: velocity · max(0, 1 - d²/a²), d the distance from profile-center and a "
-         "the profile-radius: the fully developed flow in a round pipe, velocity its "
-         "peak."},
+     .sentence = "parabolic: velocity · max(0, 1 - d²/a²), d the distance from profile-center, a "
+                 "the profile-radius, as in a round pipe."},
     {.path = "domain.patch[].profile-center",
      .type = vector,
      .dimension = Dimension::length,
@@ -145,14 +134,14 @@ const std::vector<Key> kDomainKeys{
      .range = kLength,
      .default_note = "the patch's largest distance from there",
      .applies = "with profile = \"parabolic\"",
-     .sentence = "Distance from its centre at which the parabola is zero."},
+     .sentence = "Where the parabola is zero."},
     {.path = "domain.patch[].traction",
      .type = vector,
      .dimension = Dimension::stress,
      .range = kFinite,
      .value = Vec3(Vec3::Zero()),
      .applies = "with condition = \"open\"",
-     .sentence = "T·n on an open patch, n out of the domain; a pressure p is -p n."},
+     .sentence = "T·n, n out of the domain; a pressure p is -p n."},
 };
 
 }  // namespace

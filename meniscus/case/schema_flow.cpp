@@ -12,53 +12,47 @@ const std::vector<Key> kFlowKeys{
     {.path = "title",
      .type = text,
      .value = ""s,
-     .sentence = "What the case is, for the report and the progress display. On the command line: "
-                 "--set 'title=Two drops'."},
+     .sentence = "What the case is, for page and progress."},
 
     {.path = "flow.kind",
      .type = word,
      .words = words::list(words::flow_kinds),
      .default_note = "required, or gradient",
-     .sentence = "The imposed flow: v = (y, 0, 0), (x, -y/2, -z/2), (x, -y, 0) or 0. It decides, "
-                 "whatever a schedule does later, how L, B and W are measured and the default "
-                 "conditions on a box."},
+     .sentence = "Imposed flow: v = (y, 0, 0), (x, -y/2, -z/2), (x, -y, 0) or 0. It decides how L, "
+                 "B and W are measured and a box's default conditions."},
     {.path = "flow.gradient",
      .type = matrix,
      .dimension = Dimension::rate,
      .range = kFinite,
      .default_note = "required, or kind",
-     .sentence = "The velocity gradient G of a general flow v = G·x, row by row; its trace is 0."},
+     .sentence = "Velocity gradient G of v = G·x, row by row, trace 0."},
     {.path = "flow.capillary-number",
      .range = {.min = 0.0, .open_min = true, .infinity = true},
      .value = 1.0,
      .applies = "without [scale]",
-     .sentence =
-         "Ca = mu_out G R0/sigma; inf: no surface tension. 1 or inf where neither the flow nor "
-         "a patch sets a rate: then times are in mu_out R0/sigma."},
+     .sentence = "Ca = mu_out G R0/sigma; inf: no tension. 1 or inf where neither flow nor patch "
+                 "sets a rate."},
 
     {.path = "flow.reynolds-number",
      .range = kNotNegative,
      .value = 0.0,
      .applies = "without [scale]",
-     .sentence = "Re = rho_out G R0²/mu_out, the matrix's inertia over its viscosity; where times "
-                 "are in mu_out R0/sigma it is the Laplace number rho_out sigma R0/mu_out². 0: "
-                 "Stokes flow."},
+     .sentence = "Re = rho_out G R0²/mu_out, in a quiescent flow the Laplace number rho_out sigma "
+                 "R0/mu_out²; 0: Stokes flow."},
     {.path = "flow.gravity",
      .type = vector,
      .dimension = Dimension::gravity,
      .range = kFinite,
      .value = Vec3(Vec3::Zero()),
      .applies = "with drop.density-ratio",
-     .sentence =
-         "The Bond number rho_out g R0²/sigma by components. Pressures are those beyond the "
-         "matrix's hydrostatic one, so that it acts on differences of density alone. With [scale] "
-         "it needs scale.density."},
+     .sentence = "Bond number rho_out g R0²/sigma by components. Pressures are beyond the matrix's "
+                 "hydrostatic one. In SI units it needs scale.density."},
 
     {.path = "flow.schedule[].time",
      .dimension = Dimension::time,
      .range = kNotNegative,
      .default_note = "required",
-     .sentence = "When the entry begins to hold."},
+     .sentence = "When the entry begins."},
     {.path = "flow.schedule[].kind",
      .type = word,
      .words = words::list(words::flow_kinds),
@@ -69,16 +63,16 @@ const std::vector<Key> kFlowKeys{
      .dimension = Dimension::rate,
      .range = kFinite,
      .default_note = "the flow the case begins with",
-     .sentence = "Its velocity gradient, instead of a kind; trace 0."},
+     .sentence = "Its velocity gradient, trace 0."},
     {.path = "flow.schedule[].factor",
      .range = kFinite,
      .value = 1.0,
-     .sentence = "Multiplies the gradient: 0 stops, -1 reverses the flow."},
+     .sentence = "Multiplies the gradient: 0 stops, -1 reverses."},
     {.path = "flow.schedule[].ramp",
      .dimension = Dimension::time,
      .range = kNotNegative,
      .value = 0.0,
-     .sentence = "Time over which the gradient passes linearly from the one before; 0: at once."},
+     .sentence = "Time of a linear change from the gradient before; 0: at once."},
 };
 
 }  // namespace

@@ -20,18 +20,15 @@ constexpr std::string_view kWithLaw = "with viscosity-law = \"carreau-yasuda\" o
 constexpr std::string_view kWithCarreau = "with viscosity-law = \"carreau-yasuda\"";
 constexpr std::string_view kWithPowerLaw = "with viscosity-law = \"power-law\"";
 constexpr std::string_view kLawSentence =
-    "How the viscosity depends on the rate of shear g = sqrt(2 D:D): it is the liquid's own "
-    "(viscosity-ratio of a drop, 1 of the matrix) times 1, or r + (1 - r) (1 + (t g)^a)^((n - "
-    "1)/a), or g^(n - 1) between a floor and a ceiling.";
+    "Viscosity by the rate of shear g = sqrt(2 D:D): the liquid's own times 1, or r + (1 - r) (1 + "
+    "(t g)^a)^((n - 1)/a), or g^(n - 1) between floor and ceiling.";
 constexpr std::string_view kIndexSentence =
-    "n: below 1 the liquid thins with shear, above 1 it "
-    "thickens.";
-constexpr std::string_view kConstantSentence = "t: the liquid begins to thin at rates about 1/t.";
+    "n: below 1 the liquid thins with shear, above 1 it thickens.";
+constexpr std::string_view kConstantSentence = "t: thinning begins at rates about 1/t.";
 constexpr std::string_view kYasudaSentence = "a: how sharply; 2 is Carreau's law.";
 constexpr std::string_view kInfiniteSentence = "r: viscosity at infinite rate over that at rest.";
-constexpr std::string_view kFloorSentence =
-    "The least that the power law may multiply the liquid's viscosity by.";
-constexpr std::string_view kCeilingSentence = "The most: what a thinning liquid has at rest.";
+constexpr std::string_view kFloorSentence = "Least factor of the power law.";
+constexpr std::string_view kCeilingSentence = "Largest factor: a thinning liquid's at rest.";
 
 constexpr std::string_view kShapeRequired = "required: one of radius, axes, surface, from-run";
 
@@ -41,8 +38,7 @@ const std::vector<Key> kLiquidKeys{
      .dimension = Dimension::force_density,
      .range = kFinite,
      .value = Vec3(Vec3::Zero()),
-     .sentence = "Uniform force per volume on the liquid around the drops. Only its difference "
-                 "from that of a drop moves anything."},
+     .sentence = "Force per volume on the matrix. Only differences between liquids matter."},
     {.path = "matrix.viscosity-law",
      .type = word,
      .words = words::list(words::viscosity_laws),
@@ -85,8 +81,7 @@ const std::vector<Key> kLiquidKeys{
      .dimension = Dimension::length,
      .range = kPlace,
      .value = Vec3(Vec3::Zero()),
-     .sentence = "Centre of the sphere or ellipsoid; a surface from a file or a run is shifted by "
-                 "it."},
+     .sentence = "Centre of a sphere or ellipsoid; shift of a surface."},
     {.path = "drop[].radius",
      .dimension = Dimension::length,
      .range = kLength,
@@ -97,34 +92,33 @@ const std::vector<Key> kLiquidKeys{
      .dimension = Dimension::length,
      .range = kLength,
      .default_note = kShapeRequired,
-     .sentence = "Half-axes of an ellipsoid, along x, y and z; the longest at most 1000 times the "
+     .sentence = "Half-axes of an ellipsoid along x, y and z; the longest at most 1000 times the "
                  "shortest."},
     {.path = "drop[].surface",
      .type = path,
      .default_note = kShapeRequired,
      .sentence = "A closed triangulated surface in one piece, faces outward (stl, ply, obj, off, "
-                 "vtp); from the "
-                 "case file's folder if relative."},
+                 "vtp), relative to the case file."},
     {.path = "drop[].from-run",
      .type = path,
      .default_note = kShapeRequired,
-     .sentence = "The folder of another run: the shape in its newest checkpoint."},
+     .sentence = "Another run's folder: the shape in its newest checkpoint."},
     {.path = "drop[].from-drop",
      .type = whole,
      .range = {.min = 0, .max = 1e9},
      .default_note = "the only drop of that run",
      .applies = "with from-run",
-     .sentence = "Which drop of the other run, by its id in drops.csv."},
+     .sentence = "Which drop of that run, by its id in drops.csv."},
     {.path = "drop[].viscosity-ratio",
      .range = kPositive,
      .value = 1.0,
-     .sentence = "lambda: the drop's viscosity over the matrix's; where one depends on the rate of "
-                 "shear, that at rest (carreau-yasuda) or at the rate G (power-law)."},
+     .sentence = "lambda: viscosity over the matrix's; shear-dependent: at rest (carreau-yasuda), "
+                 "at the rate G (power-law)."},
     {.path = "drop[].density-ratio",
      .range = kPositive,
      .value = 1.0,
      .applies = "with inertia (reynolds-number, scale.density) or gravity",
-     .sentence = "The drop's density over the matrix's."},
+     .sentence = "Density over the matrix's."},
     {.path = "drop[].viscosity-law",
      .type = word,
      .words = words::list(words::viscosity_laws),
@@ -164,26 +158,26 @@ const std::vector<Key> kLiquidKeys{
     {.path = "drop[].tension-ratio",
      .range = kNotNegative,
      .value = 1.0,
-     .sentence = "This drop's surface tension over the case's."},
+     .sentence = "Surface tension over the case's."},
     {.path = "drop[].nodes",
      .type = whole,
      .range = kDropNodes,
      .value = std::int64_t{110},
-     .sentence = "N0, the vertices on the drop were it a sphere: sets C0 = N0/4π; any other shape "
-                 "gets C0 ∮κ_rms² dS vertices."},
+     .sentence =
+         "N0, vertices on the drop as a sphere: C0 = N0/4π; other shapes get C0 ∮κ_rms² dS."},
     {.path = "drop[].body-force",
      .type = vector,
      .dimension = Dimension::force_density,
      .range = kFinite,
      .value = Vec3(Vec3::Zero()),
-     .sentence = "Uniform force per volume on the liquid of the drop: makes it rise or settle."},
+     .sentence = "Force per volume on the drop: it rises or settles."},
 
     {.path = "drop[].surfactant.equation-of-state",
      .type = word,
      .words = words::list(words::equations_of_state),
      .value = "linear"s,
-     .sentence = "Tension over that at Gamma = 1: 1 - beta (Gamma - 1), or [1 + E ln(1 - X Gamma)]"
-                 "/[1 + E ln(1 - X)]."},
+     .sentence = "Tension over that at Gamma = 1: 1 - beta (Gamma - 1), or [1 + E ln(1 - X "
+                 "Gamma)]/[1 + E ln(1 - X)]."},
     {.path = "drop[].surfactant.elasticity",
      .range = kNotNegative,
      .default_note = "required",
@@ -192,19 +186,19 @@ const std::vector<Key> kLiquidKeys{
      .range = {.min = 0.0, .max = 1.0, .open_min = true, .open_max = true},
      .default_note = "required with langmuir",
      .applies = "with equation-of-state = \"langmuir\"",
-     .sentence = "X: the initial concentration over that of close packing."},
+     .sentence = "X: initial concentration over close packing."},
     {.path = "drop[].surfactant.peclet",
      .range = {.min = 0.0, .open_min = true, .infinity = true},
      .value = std::numeric_limits<double>::infinity(),
-     .sentence = "Pe_s = G R0²/D_s, in quiescent cases sigma R0/(mu_out D_s): convection along the "
-                 "surface over diffusion; inf: no diffusion."},
+     .sentence =
+         "Pe_s = G R0²/D_s, in quiescent cases sigma R0/(mu_out D_s); inf: no surface diffusion."},
     {.path = "drop[].surfactant.species",
      .type = text,
      .value = ""s,
      .applies = "with method = \"finite-element\"",
-     .sentence = "The [[scalar]] of kind \"species\" that the surfactant is in the liquid outside; "
-                 "empty: it is insoluble. Per area and time j = Bi [K c (1 - X Gamma) - Gamma] is "
-                 "added to Gamma, and delta j taken from the liquid."},
+     .sentence = "The [[scalar]] of kind \"species\" that it is in the liquid outside; empty: "
+                 "insoluble. Gamma gains j = Bi [K c (1 - X Gamma) - Gamma] per area and time, the "
+                 "liquid loses delta j."},
     {.path = "drop[].surfactant.biot",
      .range = kPositive,
      .default_note = "required with species",
@@ -214,12 +208,12 @@ const std::vector<Key> kLiquidKeys{
      .range = kPositive,
      .default_note = "required with species",
      .applies = "with species",
-     .sentence = "K: Gamma over c in equilibrium where Gamma is small."},
+     .sentence = "K: Gamma over c in equilibrium at small Gamma."},
     {.path = "drop[].surfactant.depth",
      .range = kPositive,
      .default_note = "required with species",
      .applies = "with species",
-     .sentence = "delta: the unit of Gamma over that of c and R0."},
+     .sentence = "delta: unit of Gamma over that of c and R0."},
 };
 
 }  // namespace

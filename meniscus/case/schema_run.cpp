@@ -18,113 +18,101 @@ const std::vector<Key> kRunKeys{
      .words = words::list(words::capillary_forms),
      .value = "weak"s,
      .applies = kWithElements,
-     .sentence = "Form of the capillary force: weak (integrated by parts, the paper's eq. 15), "
-                 "nodal (curvature of a paraboloid fit, eqs 16-17), balanced (no flow for constant "
-                 "curvature)."},
+     .sentence = "Capillary force: weak (by parts, the paper's eq. 15), nodal (curvature of a "
+                 "paraboloid, eqs 16-17), balanced (no flow for constant curvature)."},
     {.path = "interface.motion-normal",
      .type = word,
      .words = words::list(words::motion_normals),
      .value = "area-vector"s,
-     .sentence = "Normal along which vertices move: area-vector keeps the volume's rate of change "
-                 "at round-off, fit is the paper's paraboloid, smooth that of the fitted surface "
-                 "(boundary integrals take it unless told otherwise), faces the same with speeds "
-                 "that follow the liquid in the mean over curved faces (P2-P1 elements do)."},
+     .sentence = "Normal of the vertices' motion: area-vector (volume's rate at round-off), fit "
+                 "(the paper's paraboloid), smooth (fitted surface; boundary integrals), faces "
+                 "(speeds in the mean over curved faces; P2-P1)."},
     {.path = "interface.volume-motion",
      .type = word,
      .words = words::list(words::volume_motions),
      .value = "spines"s,
      .applies = kWithElements,
-     .sentence = "How the vertices between the surfaces follow: along rays from the drop's centre "
-                 "(harmonic where a drop is not star-shaped or there are several), with the "
-                 "liquid, or by harmonic extension."},
+     .sentence = "How inner vertices follow: along rays from the drop's centre (harmonic if not "
+                 "star-shaped or several drops), with the liquid, or by harmonic extension."},
     {.path = "interface.remesh-every",
      .type = whole,
      .range = kCountOrNone,
      .default_note = "0; 1 with time.control = \"paper\"",
-     .sentence =
-         "Steps from one remeshing of the interfaces to the next: 3 remeshes at the end of steps "
-         "3, 6, 9; in between vertices only move, and volumes are restored. 0 remeshes when edges "
-         "or the density of vertices leave their range, and keeps the tetrahedra until then."},
+     .sentence = "Steps between remeshings of the interfaces. 0: where edges or the density of "
+                 "vertices leave their range; tetrahedra are kept until then."},
     {.path = "interface.equilibrium",
      .range = {.min = 0.0, .max = 0.99},
      .value = 0.0,
-     .sentence = "Remeshing slides the vertices over the surface until each is within this "
-                 "fraction of its wanted edge of where springs would have it; 0: 0.006, less above "
-                 "1000 nodes; with 0.9 next to none slides."},
+     .sentence = "Remeshing slides vertices until within this fraction of an edge from where "
+                 "springs rest; 0: 0.006, less above 1000 nodes."},
     {.path = "interface.edge-floor",
      .dimension = Dimension::length,
      .range = {.min = 0.0, .max = 1e6},
      .default_note = "half of topology.breakup-radius",
      .sentence =
-         "No interface edge is asked to be shorter, however curved the interface. A floor above "
-         "half the edge length with which a drop has 42 vertices is lowered to that, for "
-         "this drop."},
+         "Shortest edge asked for; at most half of that with which a drop has 42 vertices."},
     {.path = "interface.neck-edges",
      .type = whole,
      .range = {.min = 0, .max = 100},
      .default_note = "15 with P2-P1; 0 without",
-     .sentence = "Edges asked for around a neck or a thread, however thin, down to the edge floor; "
-                 "0: as many as nodes gives."},
+     .sentence = "Edges around a neck or thread, down to the edge floor; 0: as nodes gives."},
     {.path = "interface.gap-layers",
      .type = whole,
      .range = {.min = 0, .max = 100},
      .value = std::int64_t{3},
      .sentence =
-         "Layers of tetrahedra asked for where an interface is close to another one, to the outer "
-         "boundary or to a sheet of its own, down to the edge floor; 0: gaps are not refined."},
+         "Layers of tetrahedra in narrow gaps, down to the edge floor; 0: gaps are not refined."},
 
     {.path = "topology.breakup-radius",
      .dimension = Dimension::length,
      .range = kNotNegative,
      .value = 0.01,
-     .sentence = "A thinning neck below this radius (its perimeter over 2 pi) is cut; 0: never."},
+     .sentence = "A thinning neck below this radius (perimeter over 2 pi) is cut; 0: never."},
     {.path = "topology.coalescence",
      .type = word,
      .words = words::list(words::on_off),
      .value = "on"s,
-     .sentence = "Whether interfaces that come close merge, and liquid films rupture; off refuses "
-                 "any step that would make drops touch."},
+     .sentence = "Whether close interfaces merge and films rupture; off refuses steps that make "
+                 "drops touch."},
     {.path = "topology.coalescence-gap",
      .dimension = Dimension::length,
      .range = kNotNegative,
      .value = 0.01,
-     .sentence = "The gap below which interfaces that approach each other merge; 0: never. Twice "
-                 "the edge floor or more."},
+     .sentence =
+         "Gap below which approaching interfaces merge; 0: never. At least twice the edge floor."},
 
     {.path = "solver.method",
      .type = word,
      .words = words::list(words::methods),
      .value = "finite-element"s,
-     .sentence = "How the Stokes flow is found: by elements that fill the domain, or by integrals "
-                 "over the interfaces alone, in an unbounded domain."},
+     .sentence =
+         "Elements that fill the domain, or integrals over the interfaces of an unbounded one."},
     {.path = "solver.threads",
      .type = whole,
      .range = kCount,
      .value = std::int64_t{1},
      .applies = kWithIntegrals,
-     .sentence = "Threads that share the sums; the results do not depend on it."},
+     .sentence = "Threads that share the sums, with the same results."},
     {.path = "solver.elements",
      .type = word,
      .words = words::list(words::elements),
      .default_note =
          "\"P2-P1\"; \"P1-P1\" with surface-tension = \"nodal\" or linear = \"paper-gmres\"",
      .applies = kWithElements,
-     .sentence =
-         "P2-P1: quadratic velocity, linear pressure, curved at interfaces and round walls; a "
-         "drop's volume is then that of the curved surface. P1-P1: linear velocity and pressure, "
-         "pressure-stabilised, as in the paper."},
+     .sentence = "P2-P1: quadratic velocity, linear pressure, curved at interfaces and round "
+                 "walls. P1-P1: both linear, pressure-stabilised, as in the paper."},
     {.path = "solver.linear",
      .type = word,
      .words = words::list(words::linear_solvers),
      .value = "block"s,
      .applies = kWithElements,
-     .sentence = "Linear solver: block-preconditioned FGMRES, the paper's scaled GMRES, "
-                 "block-diagonal MINRES, or direct."},
+     .sentence = "Block-preconditioned FGMRES, the paper's scaled GMRES, block-diagonal MINRES, or "
+                 "direct."},
     {.path = "solver.rtol",
      .range = {.min = 0.0, .max = 0.1, .open_min = true},
      .value = 1e-6,
-     .sentence = "Relative residual of the linear solve, however far the walls are; 1e-6 leaves "
-                 "2.5e-5 in the rate of deformation."},
+     .sentence =
+         "Relative residual of the linear solve; 1e-6 leaves 2.5e-5 in the rate of deformation."},
     {.path = "solver.max-iterations",
      .type = whole,
      .range = kCount,
@@ -134,43 +122,36 @@ const std::vector<Key> kRunKeys{
      .type = text,
      .value = ""s,
      .applies = kWithElements,
-     .sentence = "Further options for PETSc, as on its command line: \"-name value -name …\"."},
+     .sentence = "Further options: \"-name value -name …\"."},
 
     {.path = "time.scheme",
      .type = word,
      .words = words::list(words::time_schemes),
      .default_note = "\"semi-implicit\"; \"rk2\" with control = \"paper\"; \"implicit\" with "
                      "inertia",
-     .sentence =
-         "Midpoint Runge-Kutta (the paper's eq. 22), explicit Euler (eq. 21); the midpoint "
-         "rule with surface tension damped so that long steps are stable; or "
-         "Runge-Kutta-Chebyshev: of second order too, with as many solves of "
-         "the flow, 3 to 24, as make the step stable. Liquids with inertia have a scheme of "
-         "their own."},
+     .sentence = "Midpoint rule (the paper's eq. 22), explicit Euler (eq. 21), midpoint rule with "
+                 "damped tension, Runge-Kutta-Chebyshev with 3 to 24 solves, or that of inertia."},
     {.path = "time.end",
      .dimension = Dimension::time,
      .range = kNotNegative,
      .value = 10.0,
-     .sentence = "The run stops at the first step at or past this time."},
+     .sentence = "The run stops at the first step there or beyond."},
     {.path = "time.control",
      .type = word,
      .words = words::list(words::step_controls),
      .default_note = "\"paper\" with step-factor, step-edges or \"euler\", else \"error\"",
-     .sentence =
-         "What sets the length of steps: the paper's rule, or an estimate of the error with "
-         "bounds from stability, from the flow along the interface, from the motion of "
-         "vertices and from necks."},
+     .sentence = "What sets steps: the paper's rule, or an estimate of the error with bounds from "
+                 "stability, motion and necks."},
     {.path = "time.tolerance",
      .range = {.min = 0.0, .max = 1.0, .open_min = true},
      .value = kDefaultTolerance,
      .applies = "with control = \"error\"",
-     .sentence = "Largest estimated error of a step at any vertex, over the shortest edge there. "
-                 "The error at a given time is proportional to it, and far smaller."},
+     .sentence = "Largest estimated error of a step at a vertex, over the shortest edge there."},
     {.path = "time.step-factor",
      .range = {.min = 0.0, .max = 10.0, .open_min = true},
      .value = 0.5,
      .applies = "with control = \"paper\"",
-     .sentence = "dt = step-factor · min(1, Ca) · (shortest edge): the paper's eq. 27."},
+     .sentence = "dt = step-factor · min(1, Ca) · (shortest edge), the paper's eq. 27."},
     {.path = "time.step-edges",
      .type = word,
      .words = words::list(words::step_edges),
@@ -182,35 +163,33 @@ const std::vector<Key> kRunKeys{
      .range = kPositive,
      .default_note = "1; 0.1 with control = \"paper\"; 0.07 La^(1/2) in quiescent cases with "
                      "inertia, if longer",
-     .sentence = "No step is longer."},
+     .sentence = "Longest step."},
     {.path = "time.min-step",
      .dimension = Dimension::time,
      .range = kPositive,
      .value = 1e-6,
-     .sentence = "A step that fails at this size ends the run; at most max-step."},
+     .sentence = "A step that fails at this length ends the run; at most max-step."},
 
     {.path = "output.interval",
      .dimension = Dimension::time,
      .range = kPositive,
      .value = 0.2,
-     .sentence = "Time between two surfaces written for viewing (at the first step past each "
-                 "multiple)."},
+     .sentence = "Time between surfaces for viewing."},
     {.path = "output.volume",
      .type = flag,
      .value = true,
-     .sentence = "Whether volume meshes with velocity and pressure are written too, where there "
-                 "are any."},
+     .sentence = "Whether volume meshes with velocity and pressure are written."},
     {.path = "output.volume-interval",
      .dimension = Dimension::time,
      .range = kPositive,
      .default_note = "output.interval",
      .applies = "with volume = true, where there are volume meshes",
-     .sentence = "Time between two volume meshes."},
+     .sentence = "Time between volume meshes."},
     {.path = "output.checkpoint-every",
      .type = whole,
      .range = kCount,
      .value = std::int64_t{10},
-     .sentence = "Steps from one checkpoint to the next; the last two are kept."},
+     .sentence = "Steps between checkpoints; the last two are kept."},
 
     {.path = "scale.length",
      .range = kPositive,
@@ -232,7 +211,7 @@ const std::vector<Key> kRunKeys{
      .range = kPositive,
      .default_note = "required with [scale]; surface-tension/(viscosity · length) in a quiescent "
                      "flow",
-     .sentence = "G per second, the rate of shear or strain; a kind of flow has this rate."},
+     .sentence = "G per second: the rate of a flow given by kind."},
 };
 
 }  // namespace

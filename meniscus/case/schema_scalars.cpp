@@ -14,27 +14,25 @@ constexpr std::string_view kWithHistory = "with peclet > 0";
 constexpr std::string_view kWithSpot = "with peclet > 0 and a spot-height other than 0";
 constexpr std::string_view kWithValue = "with condition = \"value\"";
 constexpr std::string_view kSpotSentence =
-    "Height of a Gaussian spot added to it: spot-height exp(-d²/(2 spot-width²)), d the distance "
-    "from spot-center.";
+    "Adds spot-height exp(-d²/(2 spot-width²)), d the distance from spot-center.";
 
 const std::vector<Key> kScalarKeys{
     {.path = "scalar[].name",
      .type = text,
      .default_note = "required",
-     .sentence = "What frames and tables call it: a letter, then letters, digits and _. Names that "
-                 "they already use are refused."},
+     .sentence =
+         "Its name in frames and tables: a letter, then letters, digits and _; not one in use."},
     {.path = "scalar[].kind",
      .type = word,
      .words = words::list(words::scalar_kinds),
      .value = "heat"s,
-     .sentence = "heat: T is the temperature, continuous at interfaces. species: T is what the "
-                 "matrix would hold in equilibrium; the concentration is partition · T."},
+     .sentence = "heat: T is the temperature. species: T is the matrix's concentration in "
+                 "equilibrium; the liquid's is partition · T."},
     {.path = "scalar[].peclet",
      .range = {.min = 0.0, .infinity = true},
      .default_note = "required",
-     .sentence =
-         "Pe = G R0²/D of the matrix; in a flow at rest sigma R0/(mu_out D). 0: conducts at "
-         "once, without history; a patch must then give its value. inf: does not conduct."},
+     .sentence = "Pe = G R0²/D of the matrix, in a flow at rest sigma R0/(mu_out D). 0: conducts "
+                 "at once; a patch must give its value. inf: never."},
     {.path = "scalar[].convection",
      .type = flag,
      .value = true,
@@ -44,13 +42,12 @@ const std::vector<Key> kScalarKeys{
      .range = kNotNegative,
      .value = 0.0,
      .applies = kOfHeat,
-     .sentence =
-         "Br = mu_out (G R0)²/(k_out · unit of T): heating by viscous dissipation; k_out is "
-         "the matrix's conductivity."},
+     .sentence = "Br = mu_out (G R0)²/(k_out · unit of T), heating by dissipation; k_out: the "
+                 "matrix's conductivity."},
     {.path = "scalar[].initial",
      .value = 0.0,
      .applies = kWithHistory,
-     .sentence = "Its value in the matrix at the start, at the origin."},
+     .sentence = "First value in the matrix, at the origin."},
     {.path = "scalar[].initial-gradient",
      .type = vector,
      .value = Vec3(Vec3::Zero()),
@@ -65,7 +62,7 @@ const std::vector<Key> kScalarKeys{
      .range = kPlace,
      .value = Vec3(Vec3::Zero()),
      .applies = kWithSpot,
-     .sentence = "Centre of the spot, in R0."},
+     .sentence = "Centre of the spot from the origin, in R0."},
     {.path = "scalar[].spot-width",
      .range = kPositive,
      .value = 1.0,
@@ -76,37 +73,36 @@ const std::vector<Key> kScalarKeys{
      .sentence = "q in the matrix: amount per volume and time, in G. 0 with peclet = 0."},
     {.path = "scalar[].reference",
      .value = 0.0,
-     .sentence = "The value at which it has no effect on the flow."},
+     .sentence = "The value without effect on the flow."},
     {.path = "scalar[].tension-slope",
      .value = 0.0,
-     .sentence = "Surface tension is multiplied by 1 + tension-slope (T - reference)."},
+     .sentence = "Surface tension times 1 + tension-slope (T - reference)."},
     {.path = "scalar[].buoyancy",
      .type = vector,
      .value = Vec3(Vec3::Zero()),
-     .sentence = "Force per volume on every liquid by T - reference, in mu_out G/R0."},
+     .sentence = "Force per volume by T - reference, in mu_out G/R0."},
     {.path = "scalar[].viscosity-exponent",
      .value = 0.0,
-     .sentence = "Viscosities are multiplied by exp(-viscosity-exponent (T - reference))."},
+     .sentence = "Viscosities times exp(-viscosity-exponent (T - reference))."},
 
     {.path = "scalar[].drop[].conductivity-ratio",
      .range = kPositive,
      .value = 1.0,
      .applies = kOfHeat,
-     .sentence = "The drop's conductivity over the matrix's."},
+     .sentence = "Conductivity over the matrix's."},
     {.path = "scalar[].drop[].diffusivity-ratio",
      .range = kPositive,
      .value = 1.0,
-     .sentence = "The drop's diffusivity over the matrix's; of heat, conductivity over capacity."},
+     .sentence = "Diffusivity over the matrix's; of heat, conductivity over capacity."},
     {.path = "scalar[].drop[].partition",
      .range = kPositive,
      .value = 1.0,
      .applies = kOfSpecies,
-     .sentence = "Concentration in the drop over that in the matrix, in equilibrium."},
+     .sentence = "Concentration over the matrix's, in equilibrium."},
     {.path = "scalar[].drop[].initial",
      .value = 0.0,
      .applies = kWithHistory,
-     .sentence = "Its value in the drop at the start, at the origin; of a species the "
-                 "concentration."},
+     .sentence = "First value in the drop, at the origin; of a species the concentration."},
     {.path = "scalar[].drop[].initial-gradient",
      .type = vector,
      .value = Vec3(Vec3::Zero()),
@@ -121,33 +117,30 @@ const std::vector<Key> kScalarKeys{
      .range = kPlace,
      .value = Vec3(Vec3::Zero()),
      .applies = kWithSpot,
-     .sentence = "Centre of the spot, in R0, from the origin."},
+     .sentence = "Centre of the spot from the origin, in R0."},
     {.path = "scalar[].drop[].spot-width",
      .range = kPositive,
      .value = 1.0,
      .applies = kWithSpot,
      .sentence = "Width of the spot, in R0."},
-    {.path = "scalar[].drop[].source",
-     .value = 0.0,
-     .sentence = "q in the drop: amount per volume and time, in G. 0 with peclet = 0."},
+    {.path = "scalar[].drop[].source", .value = 0.0, .sentence = "q in the drop, likewise."},
 
     {.path = "scalar[].patch[].name",
      .type = text,
      .default_note = "required for a shape; a label for a tag",
-     .sentence = "The patch of the shape, as at [[domain.patch]]."},
+     .sentence = "The patch, as at [[domain.patch]]."},
     {.path = "scalar[].patch[].tag",
      .type = whole,
      .range = {.min = 0, .max = 1e9},
      .default_note = "required for a surface",
      .applies = "with domain.surface",
-     .sentence = "The tag of the patch's faces, as at [[domain.patch]]."},
+     .sentence = "The faces' tag, as in domain.surface."},
     {.path = "scalar[].patch[].condition",
      .type = word,
      .words = words::list(words::scalar_conditions),
      .default_note = "required",
-     .sentence =
-         "none: nothing is conducted through it; value: T is given; flux: what is conducted "
-         "in is given."},
+     .sentence = "none: nothing is conducted through it; value: T is given; flux: the conduction "
+                 "inwards is given."},
     {.path = "scalar[].patch[].value",
      .value = 0.0,
      .applies = kWithValue,
@@ -160,7 +153,7 @@ const std::vector<Key> kScalarKeys{
     {.path = "scalar[].patch[].flux",
      .value = 0.0,
      .applies = "with condition = \"flux\"",
-     .sentence = "K dT/dn, n out of the domain: what is conducted in, per R0."},
+     .sentence = "K dT/dn, n out of the domain, per R0."},
 };
 
 }  // namespace

@@ -8,62 +8,45 @@ namespace {
 const std::vector<Table> kTables{
     {"", false, "The case as a whole."},
     {"flow", false,
-     "The imposed linear flow v = G·x. Lengths are in the drop's radius R0, times in 1/G with G "
-     "the "
-     "rate of shear or strain, stresses in mu_out G. In a quiescent flow the unit of time is "
-     "mu_out R0/sigma, which makes the capillary number 1."},
+     "The imposed linear flow v = G·x. Units are R0, 1/G and mu_out G, with G the rate of shear or "
+     "strain. In a quiescent flow the unit of time is mu_out R0/sigma, and Ca is 1."},
     {"flow.schedule[]", true,
-     "A change of the flow at a time: stop, start, reverse, ramp. An entry holds from its time on, "
-     "until the next. Entries stand in rising order of time, and a ramp ends before the next entry "
-     "begins. An entry needs a kind, a gradient or a factor."},
+     "A change of the flow: stop, start, reverse, ramp. An entry holds until the next, in rising "
+     "order of time; a ramp ends before. It needs a kind, a gradient or a factor."},
     {"matrix", false, "The liquid around the drops; its viscosity is the unit."},
     {"drop[]", true,
-     "A drop. Its shape is one of radius, axes, surface, from-run. Drops may lie in one another; "
-     "the liquid between is the outer drop's."},
+     "A drop: one of radius, axes, surface, from-run. Drops may lie in one another."},
     {"drop[].surfactant", false,
-     "An insoluble surfactant on the drop, spread evenly at first. Concentrations Gamma are over "
-     "that initial one, and tension-ratio and the capillary number mean the tension at Gamma = 1."},
+     "A surfactant on the drop, spread evenly at first. Gamma is over that initial concentration; "
+     "tension-ratio and Ca mean the tension at Gamma = 1."},
     {"domain", false,
-     "The outer boundary, centred at the origin; its triangulation never changes. By default the "
-     "imposed flow v = G·x holds on all of it, except that the z-faces of a box in a simple shear "
-     "are symmetry-like. With a surface from a file every tag needs a [[domain.patch]]."},
+     "The outer boundary, centred at the origin. The imposed flow holds on it; the z-faces of a "
+     "box in simple shear are symmetry-like. With a surface every tag needs a [[domain.patch]]."},
     {"domain.patch[]", true,
-     "The condition on a part of the outer boundary. Patches of a box are named x-, x+, y-, y+, "
-     "z-, "
-     "z+; of a cylinder side, x-, x+, and ends for both; of a sphere all. Those of a surface from "
-     "a "
-     "file are its tags, which are numbers."},
+     "The condition on a part of the outer boundary: x-, x+, y-, y+, z-, z+ of a box; side, x-, x+ "
+     "and ends of a cylinder; all of a sphere; the tags of a surface."},
     {"scalar[]", true,
-     "A quantity T that the liquids conduct and carry along: a temperature, or a dissolved "
-     "species. "
-     "Pe (C dT/dt + C v·grad T - q) = div(K grad T) + Br 2 mu D:D, with the capacity C and the "
-     "conductivity K over the matrix's. Its keys are dimensionless, with [scale] too: lengths are "
-     "in "
-     "R0, times in 1/G. It needs method = \"finite-element\"."},
+     "A temperature or dissolved species T, with finite elements: Pe (C dT/dt + C v·grad T - q) = "
+     "div(K grad T) + Br 2 mu D:D. C and K are over the matrix's. All keys are dimensionless, with "
+     "[scale] too."},
     {"scalar[].drop[]", true,
-     "What the scalar meets in a drop: the first table is about the first [[drop]], and so on. "
-     "Drops "
-     "beyond the last table take the defaults."},
+     "What the scalar meets in the drops, in their order. Drops beyond the last table take the "
+     "defaults."},
     {"scalar[].patch[]", true,
-     "The condition on the scalar at a part of the outer boundary, called as in [[domain.patch]]. "
-     "A "
-     "patch without a table has condition = \"none\". One through which the imposed velocity "
-     "enters "
-     "needs a value, unless peclet = 0 or convection = false."},
+     "The condition on the scalar at a patch of [[domain.patch]]; \"none\" without a table. Where "
+     "the flow enters, a value is needed, unless peclet = 0 or convection = false."},
     {"interface", false, "How interfaces are represented, moved and remeshed."},
     {"topology", false, "Breakup and coalescence."},
     {"solver", false, "How the flow is solved."},
     {"time", false,
-     "Time stepping. Steps are never clipped to the end or to output times. A step that fails, or "
-     "that changes the interfaces' energy as the flow does not, is tried again at half its "
-     "length."},
+     "Steps are never clipped to the end or to output times. A failed step, or one of wrong "
+     "energy, is tried again at half its length."},
     {"output", false, "What a run writes, and when."},
     {"scale", false,
-     "With this table every key that has a unit is given in SI units, coordinates in surface files "
-     "included, and is converted once, when the case is read: lengths by `length` (R0), times by "
-     "1/`rate` (1/G), the capillary number is viscosity · rate · length / surface-tension, the "
-     "Reynolds number density · rate · length² / viscosity. All results stay dimensionless. The "
-     "run of a from-run is dimensionless already."},
+     "With this table every key that has a unit is in SI units, coordinates in surface files too. "
+     "It is converted once: lengths by `length`, times by 1/`rate`. Ca is viscosity · rate · "
+     "length / surface-tension, Re density · rate · length² / viscosity. Results stay "
+     "dimensionless, and so is a from-run."},
 };
 
 std::vector<Key> all_keys() {

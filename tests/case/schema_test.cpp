@@ -98,12 +98,13 @@ TEST(Explain, TakesIndicesBareNamesAndTables) {
   EXPECT_NE(explain("nodes").find("domain.nodes"), std::string::npos);
   EXPECT_NE(explain("nodes").find("drop.nodes"), std::string::npos);
   EXPECT_NE(explain("time").find("time.step-factor"), std::string::npos);
-  EXPECT_EQ(explain("drop.viscosity-ratio"),
-            "drop.viscosity-ratio\n"
-            "  lambda: the drop's viscosity over the matrix's; where one depends on the rate of "
-            "shear, that at rest (carreau-yasuda) or at the rate G (power-law).\n"
-            "  value:   a number, > 0\n"
-            "  default: 1.0\n");
+  EXPECT_EQ(
+      explain("drop.viscosity-ratio"),
+      "drop.viscosity-ratio\n"
+      "  lambda: viscosity over the matrix's; shear-dependent: at rest (carreau-yasuda), at the "
+      "rate G (power-law).\n"
+      "  value:   a number, > 0\n"
+      "  default: 1.0\n");
 }
 
 TEST(Explain, UnknownKeysAreSuggested) {

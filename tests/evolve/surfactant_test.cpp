@@ -18,7 +18,7 @@ double amount(const Evolution& evolution) {
   return sum;
 }
 
-// Table of docs/surfactant.md: rates by another program, for l = 2, λ = 1, E0 = 0.5, Pe_s = 10.
+// The modes of docs/surfactant.md, rates by another program: l = 2, λ = 1, E0 = 0.5, Pe_s = 10.
 TEST(Surfactant, HasTheModesOfTheory) {
   const auto [slow, fast] = modes(2, 1.0, 0.5, 10.0);
   EXPECT_NEAR(slow.rate, 0.4432776750, 1e-9);
