@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that are missing for one purpose and does nothing when none is.
 #   scripts/setup.sh bare|run|test|long|coverage
-# `bare` is `run` without node and npm: the report is the plain page then.
+# `bare` is `run` without node and npm, whose report is the plain page, and without the Python module.
 set -euo pipefail
 
 build=(make g++ cmake ninja-build pkgconf git ca-certificates python3 libpetsc-real-dev openmpi-bin
@@ -11,7 +11,9 @@ build=(make g++ cmake ninja-build pkgconf git ca-certificates python3 libpetsc-r
 # The page that moves. Where node came from elsewhere, Debian's npm conflicts with it.
 page=()
 command -v npm >/dev/null || page=(nodejs npm)
-test=(libgtest-dev clang-format-14)
+# The Python module.
+python=(python3-dev python3-numpy pybind11-dev)
+test=(libgtest-dev clang-format-14 python3-matplotlib mypy)
 browser=(chromium)
 # clang 14, Debian's default, cannot read the ranges of libstdc++ 12.
 long=(clang-tidy-16 libbenchmark-dev)
@@ -19,9 +21,9 @@ coverage=(gcovr)
 
 case "${1:-}" in
   bare) wanted=("${build[@]}") ;;
-  run) wanted=("${build[@]}" "${page[@]}") ;;
-  test) wanted=("${build[@]}" "${page[@]}" "${test[@]}" "${browser[@]}") ;;
-  long) wanted=("${build[@]}" "${page[@]}" "${test[@]}" "${browser[@]}" "${long[@]}") ;;
+  run) wanted=("${build[@]}" "${page[@]}" "${python[@]}") ;;
+  test) wanted=("${build[@]}" "${page[@]}" "${python[@]}" "${test[@]}" "${browser[@]}") ;;
+  long) wanted=("${build[@]}" "${page[@]}" "${python[@]}" "${test[@]}" "${browser[@]}" "${long[@]}") ;;
   coverage) wanted=("${build[@]}" "${test[@]}" "${coverage[@]}") ;;
   *) echo "usage: $0 bare|run|test|long|coverage" >&2; exit 2 ;;
 esac
