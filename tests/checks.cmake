@@ -32,8 +32,11 @@ set_tests_properties(end_to_end PROPERTIES TIMEOUT 900)
 
 # An instrumented library asks its flags of whoever links it; the plain builds carry this test.
 if(NOT MENISCUS_SANITIZE AND NOT MENISCUS_COVERAGE)
+  if(MENISCUS_HAS_PYTHON)
+    set(PACKAGED_PYTHON -DPYTHON=${Python_EXECUTABLE} -DPYTHON_DIR=${MENISCUS_PYTHON_DIR})
+  endif()
   add_test(NAME package COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR}
-    -DWORK=${CMAKE_CURRENT_BINARY_DIR}/package -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/package
+    -DWORK=${CMAKE_CURRENT_BINARY_DIR}/package -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/package ${PACKAGED_PYTHON}
     -P ${CMAKE_CURRENT_SOURCE_DIR}/package/run.cmake)
   set_tests_properties(package PROPERTIES TIMEOUT 900)
 endif()
@@ -119,6 +122,23 @@ set_tests_properties(inertia PROPERTIES TIMEOUT 900)
 add_test(NAME scalars COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/scalars.py
   $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/scalars)
 set_tests_properties(scalars PROPERTIES TIMEOUT 600 LABELS end_to_end)
+
+# The Python module by Debian's interpreter. An instrumented one needs the sanitizer loaded first.
+if(MENISCUS_HAS_PYTHON)
+  set(PYTHON_ENVIRONMENT PYTHONPATH=${PROJECT_BINARY_DIR}/python MENISCUS_PROGRAM=$<TARGET_FILE:meniscus_program>
+    MENISCUS_MPIEXEC=${MPIEXEC_EXECUTABLE} PYTHONDONTWRITEBYTECODE=1 MPLBACKEND=Agg
+    ${MENISCUS_RANKS_ENVIRONMENT})
+  if(MENISCUS_SANITIZE)
+    execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=libasan.so
+      OUTPUT_VARIABLE ASAN_LIBRARY OUTPUT_STRIP_TRAILING_WHITESPACE)
+    execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=libstdc++.so
+      OUTPUT_VARIABLE STDCXX_LIBRARY OUTPUT_STRIP_TRAILING_WHITESPACE)
+    list(APPEND PYTHON_ENVIRONMENT "LD_PRELOAD=${ASAN_LIBRARY} ${STDCXX_LIBRARY}" ASAN_OPTIONS=detect_leaks=0)
+  endif()
+  add_test(NAME python COMMAND ${Python_EXECUTABLE} -m unittest discover -s ${PROJECT_SOURCE_DIR}/python/tests)
+  set_tests_properties(python PROPERTIES TIMEOUT 300 LABELS mpi PROCESSORS 2
+    ENVIRONMENT "${PYTHON_ENVIRONMENT}")
+endif()
 
 # A program of one's own that puts fields on a run.
 meniscus_program_of_tests(passive_scalar ${PROJECT_SOURCE_DIR}/examples/programs/passive_scalar.cpp app)

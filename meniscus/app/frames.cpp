@@ -106,17 +106,15 @@ void check_field_names(const Evolution& evolution) {
   check_names(evolution.state().mesh->fields().on_cells, in_volume);
 }
 
-void write_surface_frame(const std::filesystem::path& path, const Evolution& evolution) {
+io::MeshData surface_arrays(const Evolution& evolution) {
   const Scene& scene = evolution.scene();
   const auto& velocity = evolution.flow().velocity;
   MENISCUS_ASSERT(velocity.empty() || velocity.size() == scene.interfaces.size(),
                   "{} velocities of {} interfaces", velocity.size(), scene.interfaces.size());
   io::NamedArray curvature{"curvature", 1, {}}, normal_velocity{"normal_velocity", 1, {}},
       velocities{"velocity", 3, {}}, density{"node_density", 1, {}}, drop{"drop", 1, {}};
-  std::vector<const SurfaceMesh*> surfaces;
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
     const SurfaceMesh& mesh = scene.interfaces[i].mesh;
-    surfaces.push_back(&mesh);
     const VertexField<VertexCurvature> fit = fitted_curvature(mesh, SurfaceTopology(mesh));
     const VertexField<double> area = vertex_areas(mesh);
     for (const VertexId v : mesh.x.ids()) {
@@ -143,11 +141,18 @@ void write_surface_frame(const std::filesystem::path& path, const Evolution& evo
     std::ranges::move(scalars_on_interfaces(scene, evolution.state().mesh->tetrahedra(),
                                             evolution.state().scalars),
                       std::back_inserter(data.on_vertices));
-  io::write_vtp(path, surfaces, data, evolution.t());
+  return data;
 }
 
-void write_volume_frame(const std::filesystem::path& path, const Evolution& evolution) {
-  MENISCUS_ASSERT(evolution.state().mesh.has_value(), "there is no volume mesh to write");
+void write_surface_frame(const std::filesystem::path& path, const Evolution& evolution) {
+  std::vector<const SurfaceMesh*> surfaces;
+  for (const Interface& interface : evolution.scene().interfaces)
+    surfaces.push_back(&interface.mesh);
+  io::write_vtp(path, surfaces, surface_arrays(evolution), evolution.t());
+}
+
+VolumeArrays volume_arrays(const Evolution& evolution) {
+  MENISCUS_ASSERT(evolution.state().mesh.has_value(), "there is no volume mesh");
   const TetMesh& mesh = evolution.state().mesh->tetrahedra();
   io::NamedArray velocity{"velocity", 3, {}}, region{"region", 1, {}},
       dihedral{"min_dihedral_deg", 1, {}};
@@ -166,7 +171,13 @@ void write_volume_frame(const std::filesystem::path& path, const Evolution& evol
   std::vector<io::NamedArray> corners;
   if (!flow.corner_pressure.empty()) corners.push_back({"pressure", 1, flow.corner_pressure});
   std::ranges::move(scalars.on_corners, std::back_inserter(corners));
-  io::write_vtu(path, mesh, data, evolution.t(), corners);
+  return {std::move(data), std::move(corners)};
+}
+
+void write_volume_frame(const std::filesystem::path& path, const Evolution& evolution) {
+  const VolumeArrays arrays = volume_arrays(evolution);
+  io::write_vtu(path, evolution.state().mesh->tetrahedra(), arrays.data, evolution.t(),
+                arrays.on_corners);
 }
 
 }  // namespace meniscus

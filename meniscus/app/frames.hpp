@@ -1,14 +1,25 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "meniscus/evolve/evolution.hpp"
+#include "meniscus/io/vtk_file.hpp"
 
 namespace meniscus {
 
 /// Throws InvalidInput when a bulk scalar or a field has the name of an array that frames always
 /// hold, or a field that of a scalar.
 void check_field_names(const Evolution& evolution);
+
+/// The arrays of a surface frame: on vertices and faces of all interfaces, one after the other.
+[[nodiscard]] io::MeshData surface_arrays(const Evolution& evolution);
+/// The arrays of a volume frame.
+struct VolumeArrays {
+  io::MeshData data;
+  std::vector<io::NamedArray> on_corners;  ///< by cell corner: what is double valued on interfaces
+};
+[[nodiscard]] VolumeArrays volume_arrays(const Evolution& evolution);
 
 /// Writes all interfaces with curvature κ, normal velocity, velocity, vertex density, pressure jump
 /// p_out − p_in (where the solver has a pressure), drop id, carried fields and bulk scalars.

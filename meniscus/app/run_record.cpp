@@ -64,9 +64,18 @@ void RunRecord::go_on_from(const std::filesystem::path& run_json) {
   case_file_ = before.value("case_file", case_file_);
   case_text_ = before.value("case_text", case_text_);
   wall_before_ = before.value("wall_seconds", 0.0);
+  if (before.contains("changes")) changes_json_ = before["changes"].dump();
   if (!before.contains("seconds")) return;
   for (const auto& [phase, seconds] : before["seconds"].items())
     seconds_before_.emplace_back(phase, seconds);
+}
+
+void RunRecord::change_case(const Case& c, std::int64_t step, double t,
+                            const std::vector<std::string>& settings) {
+  Json changes = changes_json_.empty() ? Json::array() : Json::parse(changes_json_);
+  changes.push_back({{"step", step}, {"t", t}, {"set", settings}});
+  changes_json_ = changes.dump();
+  case_json_ = case_json(c);
 }
 
 void RunRecord::write(const Simulation& simulation, const std::string& status) const {
@@ -82,26 +91,27 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
   const FieldExcess& excess = simulation.evolution().state().field_excess;
-  const Json record{{"program", "meniscus"},
-                    {"version", version_string},
-                    {"commit", commit_string},
-                    {"title", title_},
-                    {"status", status},
-                    {"case_file", case_file_},
-                    {"case_text", case_text_},
-                    {"case", Json::parse(case_json_)},
-                    {"constants", constants()},
-                    {"host", host_name()},
-                    {"ranks", num_ranks()},
-                    {"started", started_},
-                    {"finished", now_utc()},
-                    {"wall_seconds", wall_before_ + wall},
-                    {"seconds", seconds},
-                    {"steps", simulation.evolution().step()},
-                    {"t", simulation.evolution().t()},
-                    {"field_excess", {{"above", excess.above}, {"below", excess.below}}},
-                    {"volume_correction_sum", corrections.value_or(0.0)},
-                    {"warnings", warnings}};
+  Json record{{"program", "meniscus"},
+              {"version", version_string},
+              {"commit", commit_string},
+              {"title", title_},
+              {"status", status},
+              {"case_file", case_file_},
+              {"case_text", case_text_},
+              {"case", Json::parse(case_json_)},
+              {"constants", constants()},
+              {"host", host_name()},
+              {"ranks", num_ranks()},
+              {"started", started_},
+              {"finished", now_utc()},
+              {"wall_seconds", wall_before_ + wall},
+              {"seconds", seconds},
+              {"steps", simulation.evolution().step()},
+              {"t", simulation.evolution().t()},
+              {"field_excess", {{"above", excess.above}, {"below", excess.below}}},
+              {"volume_correction_sum", corrections.value_or(0.0)},
+              {"warnings", warnings}};
+  if (!changes_json_.empty()) record["changes"] = Json::parse(changes_json_);
   simulation.directory().write_text(io::RunFiles::record, record.dump(2) + "\n");
 }
 

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "meniscus/app/simulation.hpp"
 #include "meniscus/case/case.hpp"
@@ -17,10 +18,14 @@ class RunRecord {
 
   /// Adds the seconds and steps of an earlier part of the run, read from its run.json.
   void go_on_from(const std::filesystem::path& run_json);
+  /// The case as it was changed after a step: the keys that were set, each as "key=value".
+  void change_case(const Case& c, std::int64_t step, double t,
+                   const std::vector<std::string>& settings);
   void write(const Simulation& simulation, const std::string& status) const;
 
  private:
   std::string case_file_, case_text_, case_json_, title_;
+  std::string changes_json_;  // an array; empty: the case was never changed
   std::string started_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::vector<std::pair<std::string, double>> seconds_before_;

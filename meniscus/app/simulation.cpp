@@ -10,6 +10,7 @@
 #include "meniscus/app/wording.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
+#include "meniscus/io/archive_file.hpp"
 
 namespace meniscus {
 namespace {
@@ -23,7 +24,7 @@ double next_multiple(double interval, double t) {
 }  // namespace
 
 Simulation::Simulation(Evolution evolution, std::optional<RunDirectory> directory,
-                       const OutputOptions& output, std::function<void(Archive&)> describe)
+                       const OutputOptions& output, Description describe)
     : evolution_(std::move(evolution)),
       directory_(std::move(directory)),
       output_(output),
@@ -41,78 +42,106 @@ void Simulation::load_schedule(const Archive& archive) {
 }
 
 Outcome Simulation::run(Progress& progress) {
-  bool is_after_event = false;
-  for (bool is_first = true;; is_first = false) {
-    const bool is_last = evolution_.is_finished(),
-               is_stopped = !is_last && any_rank(is_interrupted());
-    const Archive state = is_first_rank() ? state_before_solve() : Archive();
-    if (is_first || is_last || is_stopped || is_after_event ||
-        evolution_.step() % output_.checkpoint_every == 0)
-      write_checkpoint(state);
-    if (is_stopped) return Outcome::stopped;
-    if (const Report solved = evolution_.solve(); !solved.ok()) {
-      write_checkpoint(state);
-      throw RunFailure(fmt::format("the flow at t = {:.6g} could not be solved: {}", evolution_.t(),
-                                   solved.text()));
+  for (;;) {
+    if (!evolution_.is_finished() && any_rank(is_interrupted())) {
+      keep_state();
+      write_checkpoint();
+      return Outcome::stopped;
     }
-    on_first_rank([&] { record(progress, is_last); });
-    if (is_last) return Outcome::done;
-    const FieldExcess excess = evolution_.state().field_excess;
-    if (const Report advanced = evolution_.advance(); !advanced.ok()) {
-      write_checkpoint(state);
-      throw RunFailure(advanced.text());
-    }
-    for (const TopologyEvent& event : evolution_.events())
-      log::info("{}", text_of(event, evolution_.t()));
-    log_growth(excess, evolution_.state().field_excess, evolution_.t());
-    // Checkpoints are written around an event: before its step and after it.
-    is_after_event = !evolution_.events().empty();
-    if (is_after_event) write_checkpoint(state);
+    record_state([&](const HistoryRow& history, const std::vector<DropRow>& drops) {
+      progress.show(history, drops);
+    });
+    if (evolution_.is_finished()) return Outcome::done;
+    advance();
   }
 }
 
-Archive Simulation::state_before_solve() {
-  const PhaseTimer timer(output_times_, "output");
-  Archive archive;
-  evolution_.save(archive);
-  archive.reals["output/next"] = {next_surface_frame_, next_volume_frame_};
-  describe_(archive);
-  return archive;
+void Simulation::record_state(const RowObserver& show) {
+  keep_state();
+  if (!is_begun_ || evolution_.is_finished() || is_after_event_ ||
+      evolution_.step() % output_.checkpoint_every == 0)
+    write_checkpoint();
+  is_begun_ = true;
+  solve();
+  on_first_rank([&] { record(show); });
 }
 
-void Simulation::write_checkpoint(const Archive& state) {
+void Simulation::solve() {
+  const Report solved = evolution_.solve();
+  if (solved.ok()) return;
+  write_checkpoint();
+  throw RunFailure(
+      fmt::format("the flow at t = {:.6g} could not be solved: {}", evolution_.t(), solved.text()));
+}
+
+void Simulation::advance() {
+  const FieldExcess excess = evolution_.state().field_excess;
+  if (const Report advanced = evolution_.advance(); !advanced.ok()) {
+    write_checkpoint();
+    throw RunFailure(advanced.text());
+  }
+  for (const TopologyEvent& event : evolution_.events())
+    log::info("{}", text_of(event, evolution_.t()));
+  log_growth(excess, evolution_.state().field_excess, evolution_.t());
+  // Checkpoints are written around an event: before its step and after it.
+  is_after_event_ = !evolution_.events().empty();
+  if (is_after_event_) write_checkpoint();
+}
+
+void Simulation::set_surroundings(const Scene& surroundings, Description describe) {
+  evolution_.set_surroundings(surroundings);
+  describe_ = std::move(describe);
+  if (is_first_rank()) describe_(state_);
+  solve();
+}
+
+void Simulation::keep_state() {
+  if (!is_first_rank()) return;
+  const PhaseTimer timer(output_times_, "output");
+  state_ = {};
+  evolution_.save(state_);
+  state_.reals["output/next"] = {next_surface_frame_, next_volume_frame_};
+  describe_(state_);
+}
+
+void Simulation::write_checkpoint() {
   on_first_rank([&] {
+    if (!directory_) return;
     const PhaseTimer timer(output_times_, "output");
-    directory_->write_checkpoint(state, state.integers.at("evolution/step").front());
+    directory_->write_checkpoint(state_, state_.integers.at("evolution/step").front());
   });
 }
 
-void Simulation::record(Progress& progress, bool is_last) {
-  MENISCUS_ASSERT(directory_.has_value(), "a rank without the run's folder records");
+void Simulation::write_checkpoint(const std::filesystem::path& file) {
+  on_first_rank([&] { io::write_archive(file, state_); });
+}
+
+void Simulation::record(const RowObserver& show) {
   const auto [history, drops] = evolution_.rows();
   {
     const PhaseTimer timer(output_times_, "output");
     const double t = evolution_.t();
+    const bool is_last = evolution_.is_finished();
     if (t >= next_surface_frame_ || is_last) {
-      directory_->add_surface_frame(evolution_);
+      if (directory_) directory_->add_surface_frame(evolution_);
       next_surface_frame_ = next_multiple(output_.interval, t);
     }
     if (t >= next_volume_frame_ || is_last) {
-      directory_->add_volume_frame(evolution_);
+      if (directory_) directory_->add_volume_frame(evolution_);
       next_volume_frame_ = output_.volume ? next_multiple(output_.volume_interval, t) : HUGE_VAL;
     }
-    directory_->add_rows(history, drops);
-    directory_->add_events(history, evolution_.events());
+    if (directory_) directory_->add_rows(history, drops);
+    if (directory_) directory_->add_events(history, evolution_.events());
   }
-  if (observer_) time_phase(output_times_, "output", [&] { observer_(*directory_); });
+  if (observer_) time_phase(output_times_, "output", [&] { observer_(directory()); });
   const auto now = seconds();
   auto spent = now;
   MENISCUS_ASSERT(spent.size() == timed_.size(), "{} phases, {} before", spent.size(),
                   timed_.size());
   for (std::size_t i = 0; i < spent.size(); ++i) spent[i].second -= timed_[i].second;
   timed_ = now;
-  directory_->add_timing(history.step, history.t, spent);
-  progress.show(history, drops);
+  if (directory_) directory_->add_timing(history.step, history.t, spent);
+  if (show) show(history, drops);
 }
 
 double Simulation::seconds_in(const std::string& phase) const {

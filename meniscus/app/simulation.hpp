@@ -16,13 +16,17 @@ namespace meniscus {
 enum class Outcome { done, stopped };
 
 /// Runs an evolution from its present state to the end: solve, record, advance. Output that depends
-/// on the state alone is the same whether or not the run was resumed in between.
+/// on the state alone is the same whether or not the run was resumed in between. `run` does all of
+/// it; a caller with a loop of its own calls `record_state`, `advance`, `record_state`, …
 class Simulation {
  public:
+  using Description = std::function<void(Archive&)>;
+  using RowObserver = std::function<void(const HistoryRow&, const std::vector<DropRow>&)>;
+
   /// `describe` adds to a checkpoint what is needed to rebuild the evolution. Only rank 0 passes a
-  /// directory.
+  /// directory. A run without one writes nothing.
   Simulation(Evolution evolution, std::optional<RunDirectory> directory,
-             const OutputOptions& output, std::function<void(Archive&)> describe);
+             const OutputOptions& output, Description describe);
 
   /// Reads the times of the next frames from the checkpoint of the evolution.
   void load_schedule(const Archive& archive);
@@ -32,6 +36,20 @@ class Simulation {
   }
   /// Throws RunFailure when the run cannot go on; the last checkpoint stays. Collective.
   Outcome run(Progress& progress);
+
+  /// Solves the flow at t_k and records the state: rows, and frames and checkpoint where due.
+  /// `show` gets the rows, on rank 0. Throws RunFailure when there is no flow. Collective.
+  void record_state(const RowObserver& show = {});
+  /// Takes the step from the recorded state at t_k to t_{k+1}. Throws RunFailure when none can be
+  /// taken; the state is the recorded one then, and its checkpoint is written. Collective.
+  void advance();
+  /// Writes the checkpoint of the recorded state, which a run goes on from bit for bit. Collective.
+  void write_checkpoint();
+  /// As above, to a file of any name.
+  void write_checkpoint(const std::filesystem::path& file);
+  /// Replaces the imposed flow and the outer boundary's conditions from t_k on and solves again.
+  /// `describe` is that of the new case. Throws RunFailure when there is no flow. Collective.
+  void set_surroundings(const Scene& surroundings, Description describe);
 
   [[nodiscard]] const Evolution& evolution() const { return evolution_; }
   /// The run's folder. Rank 0 only.
@@ -43,17 +61,19 @@ class Simulation {
   [[nodiscard]] PhaseSeconds seconds() const;
 
  private:
-  [[nodiscard]] Archive state_before_solve();
-  void write_checkpoint(const Archive& state);
-  void record(Progress& progress, bool is_last);
+  void keep_state();
+  void solve();
+  void record(const RowObserver& show);
   [[nodiscard]] double seconds_in(const std::string& phase) const;
 
   Evolution evolution_;
   std::optional<RunDirectory> directory_;
   OutputOptions output_;
-  std::function<void(Archive&)> describe_;
+  Description describe_;
   std::function<void(const RunDirectory&)> observer_;
   double next_surface_frame_ = 0.0, next_volume_frame_ = 0.0;
+  Archive state_;  // at t_k before its solve; rank 0 only
+  bool is_begun_ = false, is_after_event_ = false;
   PhaseTimes output_times_;
   PhaseSeconds timed_;  // seconds when the previous row was written
 };

@@ -528,6 +528,14 @@ void Evolution::set_bulk_fields(VolumeFields fields) {
   state_.mesh->set_fields(std::move(fields));
 }
 
+void Evolution::set_surroundings(const Scene& surroundings) {
+  MENISCUS_ASSERT(surroundings.boundary.mesh == state_.scene.boundary.mesh,
+                  "another outer boundary of {} vertices",
+                  surroundings.boundary.mesh.num_vertices());
+  state_.scene.flow = surroundings.flow;
+  state_.scene.boundary.patches = surroundings.boundary.patches;
+}
+
 void Evolution::save(Archive& archive) const {
   meniscus::save(state_, archive);
   solver_->save(archive, state_.domain());

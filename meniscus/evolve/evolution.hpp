@@ -72,6 +72,10 @@ class Evolution {
   void set_interface_fields(std::vector<SurfaceFields> fields);
   void set_bulk_fields(VolumeFields fields);
 
+  /// Replaces the imposed flow and the conditions on the outer boundary by those of a scene with
+  /// the same boundary. A solve must follow.
+  void set_surroundings(const Scene& surroundings);
+
   /// Saves the state before the solve at t_k, bit for bit.
   void save(Archive& archive) const;
   void load(const Archive& archive);

@@ -1,5 +1,6 @@
 # Installs the build into a folder of its own, then configures, builds and runs the consumer against it.
-#   cmake -DBUILD=<build tree> -DWORK=<folder to use> -DSOURCE=<this folder> -P run.cmake
+#   cmake -DBUILD=<build tree> -DWORK=<folder to use> -DSOURCE=<this folder>
+#     [-DPYTHON=<interpreter> -DPYTHON_DIR=<where the package lies below the prefix>] -P run.cmake
 function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
@@ -11,3 +12,7 @@ run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja -DCMAKE_BUILD_TYPE=R
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
 run(${WORK}/prefix/bin/meniscus --version)
+if(PYTHON)
+  run(${CMAKE_COMMAND} -E env PYTHONPATH=${WORK}/prefix/${PYTHON_DIR} PYTHONDONTWRITEBYTECODE=1 ${PYTHON} -c
+      "import meniscus; print(meniscus.__file__, meniscus.explain('drop.nodes'))")
+endif()

@@ -1,0 +1,148 @@
+#include "meniscus/app/run_parts.hpp"
+
+#include <fmt/format.h>
+
+#include "meniscus/app/ranks.hpp"
+#include "meniscus/app/wording.hpp"
+#include "meniscus/core/error.hpp"
+#include "meniscus/io/archive_file.hpp"
+#include "meniscus/io/atomic_file.hpp"
+#include "meniscus/io/run_files.hpp"
+#include "meniscus/report/report.hpp"
+
+namespace meniscus {
+namespace {
+
+namespace fs = std::filesystem;
+
+Evolution make_evolution(const Case& c, Scene scene) {
+  Evolution evolution(std::move(scene), c.evolution, make_flow_solver(c), make_moving_mesh(c),
+                      make_scalar_solver(c));
+  evolution.set_listener(log_notice);
+  return evolution;
+}
+
+/// Throws InvalidInput when the smallest step of the case is too long for its initial shapes.
+void require_first_step(const Evolution& evolution, const Case& c) {
+  if (evolution.step_length() >= c.evolution.min_step || evolution.is_finished()) return;
+  reject_input(
+      "{}: time.min-step = {:g}: the first step would be {:.3g}, for the shortest edge and the "
+      "tension",
+      c.settings.source("time.min-step"), c.evolution.min_step, evolution.step_length());
+}
+
+/// Copies reference.csv of the case into the run's folder, where the page reads it. Removes the one
+/// of a replaced run.
+void copy_reference(const fs::path& case_folder, const fs::path& run_folder) {
+  const fs::path source = case_folder / io::RunFiles::reference,
+                 target = run_folder / io::RunFiles::reference;
+  std::error_code ignored;
+  if (fs::equivalent(fs::absolute(case_folder / "."), run_folder, ignored)) return;
+  if (fs::exists(source, ignored))
+    io::write_file(target, io::read_file(source));
+  else
+    fs::remove(target, ignored);
+}
+
+}  // namespace
+
+Case shared_case(Case c) {
+  c.evolution.processes = linear::Processes::all;
+  c.flow_solver.processes = linear::Processes::all;
+  c.boundary_integral.processes = linear::Processes::all;
+  return c;
+}
+
+Evolution begun_evolution(const Case& c, Scene scene) {
+  Evolution evolution = make_evolution(c, std::move(scene));
+  if (const Report prepared = evolution.prepare(); !prepared.ok())
+    throw RunFailure(fmt::format("{}: the initial mesh could not be made: {}",
+                                 source_of_surface(c, evolution.scene(), prepared.fault->position),
+                                 prepared.text()));
+  require_first_step(evolution, c);
+  return evolution;
+}
+
+Evolution resumed_evolution(const Case& c, const Archive& archive, const fs::path& checkpoint) {
+  Evolution evolution = make_evolution(c, build_surroundings(c));
+  try {
+    evolution.load(archive);
+  } catch (const InvalidInput& damage) {
+    reject_input("{}: {}", checkpoint.string(), damage.what());
+  }
+  return evolution;
+}
+
+Simulation::Description case_description(const Case& c, const fs::path& folder) {
+  return [text = case_toml(c),
+          folder = fs::absolute(folder / ".").lexically_normal().string()](Archive& archive) {
+    archive.texts["case/toml"] = text;
+    archive.texts["case/folder"] = folder;
+  };
+}
+
+Case case_of_checkpoint(const Archive& archive, const fs::path& checkpoint,
+                        std::span<const std::string> overrides) {
+  const auto text = archive.texts.find("case/toml"), folder = archive.texts.find("case/folder");
+  if (text == archive.texts.end() || folder == archive.texts.end())
+    reject_input("{}: not the checkpoint of a run", checkpoint.string());
+  return shared_case(parse_case(text->second, checkpoint.string(), folder->second, overrides));
+}
+
+void require_changeable(std::span<const std::string> overrides) {
+  for (const std::string& override : overrides)
+    for (const char* of_the_start : {"drop", "domain", "scale", "scalar"})
+      if (override.starts_with(of_the_start))
+        reject_input(
+            "--set {}: drops, domain, scale and scalars are those of the checkpoint; what may be "
+            "changed is in [flow], [interface], [time], [solver], [topology] and [output]",
+            override);
+}
+
+std::optional<RunDirectory> new_directory(const fs::path& folder, bool is_overwrite,
+                                          const Evolution& evolution, const fs::path& case_folder) {
+  std::optional<RunDirectory> directory;
+  on_first_rank([&] {
+    directory = RunDirectory::create(folder, is_overwrite, physics_of(evolution.scene()));
+    try {
+      copy_reference(case_folder, folder);
+    } catch (const std::exception&) {
+      remove_unbegun_run(folder);
+      throw;
+    }
+  });
+  return directory;
+}
+
+void copy_run(const fs::path& from, const fs::path& to) {
+  (void)RunDirectory::create(to, false);
+  try {
+    for (const char* name : io::RunFiles::taken_along)
+      if (fs::exists(from / name))
+        fs::copy(from / name, to / name,
+                 fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  } catch (const fs::filesystem_error& error) {
+    remove_run(to);
+    throw RunFailure(error.what());
+  }
+}
+
+void require_same_run(const Archive& archive, const fs::path& checkpoint, const fs::path& run) {
+  const fs::path own = newest_checkpoint(run);
+  const auto case_of = [](const Archive& a) {
+    const auto text = a.texts.find("case/toml");
+    return text == a.texts.end() ? std::string() : text->second;
+  };
+  if (case_of(archive) != case_of(io::read_archive(own)))
+    reject_input("{}: not a checkpoint of the run in {}: its case differs", checkpoint.string(),
+                 run.string());
+}
+
+void finish(const Simulation& simulation, const RunRecord& record, const std::string& status) {
+  on_first_rank([&] {
+    record.write(simulation, status);
+    write_report(simulation.directory().path());
+  });
+}
+
+}  // namespace meniscus

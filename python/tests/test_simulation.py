@@ -1,0 +1,298 @@
+import gc
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+import unittest
+
+import numpy as np
+
+from common import BOUNDED, SHEAR, UNLIKE, FolderCase, enclosed, program
+from meniscus import Case, Run, Simulation
+
+
+class RunTest(FolderCase):
+    def run_program(self, case, name="program"):
+        file = self.folder / "case.toml"
+        file.write_text(case.to_toml(), encoding="utf-8")
+        program("run", file, "-o", self.folder / name, "-q")
+        return file, self.folder / name
+
+    def status(self, folder):
+        return json.loads((folder / "run.json").read_text(encoding="utf-8"))["status"]
+
+    def test_the_same_bytes_as_the_program_by_either_solver(self):
+        for tables in (SHEAR, BOUNDED):
+            with self.subTest(tables["flow"]["kind"]):
+                file, whole = self.run_program(Case.from_dict(tables), tables["flow"]["kind"])
+                stepped = self.folder / (tables["flow"]["kind"] + "-stepped")
+                with Simulation(file, stepped) as simulation:
+                    while not simulation.is_finished:
+                        simulation.step()
+                    in_memory = simulation.history(), simulation.drops()
+                self.assertSameRun(whole, stepped)
+                for kept, name in zip(in_memory, ("history", "drops")):
+                    read = getattr(Run(whole), name)()
+                    self.assertEqual(list(kept), list(read))
+                    for column in read:
+                        np.testing.assert_array_equal(kept[column], read[column], column)
+                        self.assertEqual(kept[column].dtype.kind, read[column].dtype.kind)
+                one, other = (json.loads((folder / "run.json").read_text()) for folder in (whole, stepped))
+                for key in ("case", "case_text", "status", "steps", "t", "constants"):
+                    self.assertEqual(one[key], other[key], key)
+                self.assertEqual(list(one), list(other))
+
+    def test_a_run_goes_on_where_it_was_closed(self):
+        file, whole = self.run_program(Case.from_dict(SHEAR))
+        folder = self.folder / "parts"
+        with Simulation(file, folder) as simulation:
+            simulation.run(until=0.05)
+            self.assertGreaterEqual(simulation.t, 0.05)
+        self.assertEqual(self.status(folder), "stopped")
+        with Simulation.resume(folder) as simulation:
+            self.assertGreater(len(simulation.history()["t"]), 2)
+            simulation.step()
+        program("resume", folder, "-q")
+        self.assertSameRun(whole, folder)
+        with Simulation.resume(folder, until=0.25) as simulation:
+            simulation.run()
+            self.assertGreaterEqual(simulation.t, 0.25)
+            history = simulation.history()
+        self.assertEqual(list(history["step"]), list(range(len(history["step"]))))
+        self.assertEqual(self.status(folder), "done")
+
+    def test_a_checkpoint_goes_on_elsewhere(self):
+        case = Case.from_dict(SHEAR)
+        simulation = Simulation(case)
+        simulation.run(until=0.1)
+        simulation.checkpoint(self.folder / "middle.h5")
+        simulation.run()
+        alone = Simulation.resume(self.folder / "middle.h5")
+        alone.run()
+        np.testing.assert_array_equal(alone.interfaces[0].points, simulation.interfaces[0].points)
+        self.assertEqual(alone.drops()["D"][-1], simulation.drops()["D"][-1])
+        with Simulation.resume(self.folder / "middle.h5", self.folder / "new",
+                               settings={"time.end": 0.15}) as other:
+            other.run()
+        self.assertEqual(self.status(self.folder / "new"), "done")
+        with self.assertRaisesRegex(ValueError, "drop"):
+            Simulation.resume(self.folder / "middle.h5", settings={"drop.nodes": 60})
+        with self.assertRaisesRegex(ValueError, "output"):
+            Simulation.resume(self.folder / "new", settings={"time.end": 0.3})
+        with self.assertRaisesRegex(ValueError, "none.h5"):
+            Simulation.resume(self.folder / "none.h5")
+
+    def test_without_folder_nothing_is_written(self):
+        before = set(os.listdir("."))
+        with Simulation(Case.from_dict(SHEAR)) as simulation:
+            simulation.run(until=0.05)
+            self.assertIsNone(simulation.output)
+            self.assertEqual(simulation.drops()["t"][-1], simulation.t)
+        self.assertEqual(set(os.listdir(".")), before)
+
+    def test_callbacks_come_after_each_step_and_may_pause(self):
+        simulation, seen = Simulation(Case.from_dict(SHEAR)), []
+        simulation.run(callback=lambda s: seen.append((s.step_number, s.t)) or len(seen) == 3)
+        self.assertEqual([number for number, _ in seen], [1, 2, 3])
+        self.assertEqual(seen[-1], (simulation.step_number, simulation.t))
+
+        def fails(_):
+            raise LookupError("mine")
+        with self.assertRaisesRegex(LookupError, "mine"):
+            simulation.run(callback=fails)
+        self.assertEqual(simulation.step_number, 4)
+        simulation.run()
+        self.assertTrue(simulation.is_finished)
+        simulation.run()
+        with self.assertRaisesRegex(RuntimeError, "end"):
+            simulation.step()
+
+    def test_a_run_that_cannot_go_on_says_so_with_the_line_of_the_program(self):
+        case = Case.from_dict(UNLIKE)
+        file = self.folder / "unlike.toml"
+        file.write_text(case.to_toml(), encoding="utf-8")
+        said = program("run", file, "-o", self.folder / "run", "-q", status=1)
+        simulation = Simulation(file, self.folder / "stepped")
+        with self.assertRaises(RuntimeError) as caught:
+            simulation.run()
+        self.assertIn(str(caught.exception), said)
+        with self.assertRaisesRegex(RuntimeError, "has failed"):
+            simulation.step()
+        self.assertEqual(len(simulation.interfaces), 2)
+        simulation.close()
+        self.assertSameRun(self.folder / "run", self.folder / "stepped")
+        self.assertTrue(self.status(self.folder / "stepped").startswith("failed: "))
+
+    def test_closed_simulations_and_wrong_arguments_are_refused(self):
+        simulation = Simulation(Case.from_dict(SHEAR), self.folder / "run")
+        with self.assertRaisesRegex(ValueError, "end of the case"):
+            simulation.run(until=5)
+        for wrong in ("soon", float("nan"), [1, 2]):
+            with self.assertRaisesRegex(ValueError, "until"):
+                simulation.run(until=wrong)
+        with self.assertRaisesRegex(ValueError, "is being written by"):
+            Simulation(Case.from_dict(SHEAR), self.folder / "run", overwrite=True)
+        simulation.close()
+        simulation.close()
+        self.assertTrue(simulation.is_closed)
+        for use in (simulation.step, simulation.run, simulation.history, lambda: simulation.t,
+                    lambda: simulation.interfaces, lambda: simulation.checkpoint("x.h5"),
+                    lambda: simulation.set_flow("quiescent")):
+            with self.assertRaisesRegex(ValueError, "closed"):
+                use()
+        with self.assertRaisesRegex(ValueError, "holds a run already"):
+            Simulation(Case.from_dict(SHEAR), self.folder / "run")
+        Simulation(Case.from_dict(SHEAR), self.folder / "run", overwrite=True).close()
+
+    def test_a_simulation_that_is_let_go_leaves_a_run_to_resume(self):
+        folder = self.folder / "run"
+        file, whole = self.run_program(Case.from_dict(SHEAR))
+        simulation = Simulation(file, folder)
+        simulation.step()
+        del simulation
+        gc.collect()
+        self.assertEqual(self.status(folder), "stopped")
+        code = (f"import meniscus\ns = meniscus.Simulation.resume({str(folder)!r})\ns.step()\n")
+        subprocess.run([sys.executable, "-c", code], check=True)
+        self.assertEqual(self.status(folder), "stopped")
+        program("resume", folder, "-q")
+        self.assertSameRun(whole, folder)
+
+    def test_ctrl_c_acts_between_steps(self):
+        folder = self.folder / "run"
+        simulation = Simulation(Case.from_dict(SHEAR | {"time": {"end": 50.0, "max-step": 0.02}}), folder)
+        timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            simulation.run()
+        timer.join()
+        self.assertEqual(self.status(folder), "stopped")
+        steps = simulation.step_number
+        self.assertEqual(len(simulation.history()["t"]), steps + 1)
+        simulation.step()
+        self.assertEqual(simulation.step_number, steps + 1)
+
+    def test_other_threads_go_on_and_may_not_step_too(self):
+        simulation = Simulation(Case.from_dict(SHEAR))
+        refused, beats, is_over = [], [], threading.Event()
+
+        def intrude():
+            while not is_over.is_set():
+                beats.append(1)
+                try:
+                    simulation.t
+                except ValueError as error:
+                    refused.append(str(error))
+        thread = threading.Thread(target=intrude)
+        thread.start()
+        simulation.run()
+        is_over.set()
+        thread.join()
+        self.assertTrue(simulation.is_finished)
+        self.assertGreater(len(beats), 10)
+        self.assertTrue(all("another thread" in line for line in refused))
+
+
+class ArrayTest(FolderCase):
+    def test_arrays_are_views_that_outlive_steps_and_the_simulation(self):
+        tables = SHEAR | {"interface": {"remesh-every": 1}}
+        simulation = Simulation(Case.from_dict(tables))
+        drop = simulation.interfaces[0]
+        taken = {"points": drop.points, "triangles": drop.triangles, **drop.fields, **drop.face_fields}
+        copies = {name: array.copy() for name, array in taken.items()}
+        self.assertFalse(drop.points.flags.owndata or drop.points.flags.writeable)
+        with self.assertRaises(ValueError):
+            drop.points[0] = 0.0
+        self.assertTrue(np.shares_memory(drop.points, simulation.interfaces[0].points))
+        simulation.run()
+        self.assertFalse(np.array_equal(simulation.interfaces[0].points, copies["points"]))
+        simulation.close()
+        del simulation, drop
+        gc.collect()
+        junk = [np.full(1000, np.nan) for _ in range(1000)]  # takes memory that was given back
+        for name, array in taken.items():
+            np.testing.assert_array_equal(array, copies[name], name)
+        del junk
+
+    def test_interfaces_have_the_shape_and_fields_of_the_frames(self):
+        folder = self.folder / "run"
+        with Simulation(Case.from_dict(SHEAR), folder) as simulation:
+            simulation.run()
+            drop = simulation.interfaces[0]
+        shape = Run(folder).shape(simulation_end := 9.0)
+        self.assertLess(shape.t, simulation_end)
+        np.testing.assert_array_equal(drop.triangles, shape.triangles)
+        np.testing.assert_allclose(drop.points, shape.points, rtol=1e-6)
+        self.assertEqual(set(drop.fields), set(shape.fields))
+        for name, values in drop.fields.items():
+            np.testing.assert_allclose(values, shape.fields[name], rtol=1e-5, atol=1e-5)
+        self.assertEqual((drop.drop, drop.parent), (0, -1))
+        self.assertEqual(drop.points.dtype, np.float64)
+        self.assertEqual(drop.triangles.max(), len(drop.points) - 1)
+
+    def test_volume_meshes_hold_the_flow(self):
+        simulation = Simulation(Case.from_dict(BOUNDED))
+        simulation.step()
+        mesh = simulation.volume_mesh
+        x, cells = mesh.points, mesh.tetrahedra
+        edges = x[cells[:, 1:]] - x[cells[:, :1]]
+        volumes = np.linalg.det(edges) / 6.0
+        self.assertGreater(volumes.min(), 0.0)
+        drop = simulation.interfaces[0]
+        self.assertAlmostEqual(volumes[mesh.region == 1].sum(), enclosed(drop.points, drop.triangles))
+        self.assertEqual(mesh.velocity.shape, x.shape)
+        self.assertEqual(mesh.pressure.shape, cells.shape)
+        outer = np.linalg.norm(x, axis=1) > 2.999  # the imposed flow (x, -y, 0) on the boundary
+        np.testing.assert_allclose(mesh.velocity[outer], x[outer] * [1, -1, 0], atol=1e-6)
+        kept, copy = mesh.velocity, mesh.velocity.copy()
+        del mesh
+        simulation.close()
+        gc.collect()
+        np.testing.assert_array_equal(kept, copy)
+        self.assertIsNone(Simulation(Case.from_dict(SHEAR)).volume_mesh)
+
+
+class FlowTest(FolderCase):
+    def test_the_flow_changes_while_it_runs_and_the_change_is_recorded(self):
+        folder = self.folder / "run"
+        with Simulation(Case.from_dict(SHEAR), folder) as simulation:
+            simulation.run(until=0.1)
+            t, step = simulation.t, simulation.step_number
+            before = np.abs(simulation.interfaces[0].fields["velocity"]).max()
+            simulation.set_flow("planar-extension")
+            simulation.set_flow("quiescent")  # takes its place
+            self.assertLess(np.abs(simulation.interfaces[0].fields["velocity"]).max(), 0.5 * before)
+            self.assertEqual(simulation.case["flow.schedule[0].time"], t)
+            self.assertEqual(simulation.case["flow.schedule[0].kind"], "quiescent")
+            simulation.run(until=0.15)
+            simulation.set_flow(gradient=[[0, -1, 0], [0, 0, 0], [0, 0, 0]], ramp=0.01)
+            with self.assertRaisesRegex(ValueError, "trace"):
+                simulation.set_flow(gradient=np.eye(3))
+            with self.assertRaisesRegex(ValueError, "kind"):
+                simulation.set_flow("sheer")
+            simulation.step()
+        record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+        self.assertEqual(record["changes"][1]["step"], step)
+        self.assertEqual(len(record["case"]["flow"]["schedule"]), 2)
+        program("resume", folder, "-q")
+        again = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+        self.assertEqual(again["changes"], record["changes"])
+        self.assertEqual(again["status"], "done")
+
+    def test_a_change_does_what_the_schedule_of_a_case_does(self):
+        end = {"time": {"end": 0.3, "max-step": 0.02}}
+        changed = Simulation(Case.from_dict(SHEAR | end))
+        changed.run(until=0.1)
+        t = changed.t
+        changed.set_flow(factor=0)
+        changed.run()
+        flow = SHEAR["flow"] | {"schedule": [{"time": t, "factor": 0.0}]}
+        planned = Simulation(Case.from_dict(SHEAR | end | {"flow": flow}))
+        planned.run()
+        self.assertAlmostEqual(changed.drops()["D"][-1], planned.drops()["D"][-1], delta=2e-5)
+
+
+if __name__ == "__main__":
+    unittest.main()
