@@ -1,20 +1,19 @@
-# Installs the build into a folder of its own, then configures, builds and runs the consumer and the
-# lessons of examples/programs against it.
+# Installs the build into a folder of its own, then configures, builds and runs the consumer against it,
+# and of the lessons of examples/programs, which are a project as well, the one that links most rooms.
 #   cmake -DBUILD=<build tree> -DWORK=<folder to use> -DSOURCE=<this folder> -P run.cmake
 function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-function(build SOURCES FOLDER)
+function(build SOURCES FOLDER PROGRAM)
   run(${CMAKE_COMMAND} -S ${SOURCES} -B ${FOLDER} -G Ninja -DCMAKE_BUILD_TYPE=Release
       -DCMAKE_PREFIX_PATH=${WORK}/prefix)
-  run(${CMAKE_COMMAND} --build ${FOLDER})
+  run(${CMAKE_COMMAND} --build ${FOLDER} --target ${PROGRAM})
+  run(${CMAKE_COMMAND} -E chdir ${FOLDER} ./${PROGRAM})
 endfunction()
 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
-build(${SOURCE} ${WORK}/build)
-run(${WORK}/build/consumer)
+build(${SOURCE} ${WORK}/build consumer)
 run(${WORK}/prefix/bin/meniscus --version)
-build(${SOURCE}/../../examples/programs ${WORK}/lessons)
-run(${CMAKE_COMMAND} -E chdir ${WORK}/lessons ./mesh_scene)
+build(${SOURCE}/../../examples/programs ${WORK}/lessons own_flow)
