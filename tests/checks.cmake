@@ -7,6 +7,8 @@ function(meniscus_static_check NAME)
 endfunction()
 
 meniscus_static_check(format ${PROJECT_SOURCE_DIR}/scripts/check_format.sh)
+meniscus_static_check(run_tutorial_check Python3::Interpreter -B
+  ${CMAKE_CURRENT_SOURCE_DIR}/tutorial/run_tutorial_test.py)
 foreach(CHECK layers citations)
   set(FOLDER ${CMAKE_CURRENT_SOURCE_DIR}/${CHECK})
   meniscus_static_check(${CHECK} Python3::Interpreter ${FOLDER}/check_${CHECK}.py
@@ -21,9 +23,13 @@ meniscus_static_check(sentence_lengths_check Python3::Interpreter -B ${FOLDER}/s
 
 meniscus_static_check(links Python3::Interpreter -B ${PROJECT_SOURCE_DIR}/site/build.py --check)
 
-function(meniscus_program_of_tests TARGET SOURCE ROOM)
+# A program that links the rooms named after its source.
+function(meniscus_program_of_tests TARGET SOURCE)
   add_executable(${TARGET} ${SOURCE} ${MENISCUS_PROGRAM_SOURCES})
-  target_link_libraries(${TARGET} PRIVATE meniscus_options meniscus_${ROOM})
+  target_link_libraries(${TARGET} PRIVATE meniscus_options)
+  foreach(ROOM ${ARGN})
+    target_link_libraries(${TARGET} PRIVATE meniscus_${ROOM})
+  endforeach()
 endfunction()
 
 add_test(NAME end_to_end COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/run.py
@@ -148,6 +154,29 @@ add_test(NAME fields COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/en
   ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/fields ${MPIEXEC_EXECUTABLE})
 set_tests_properties(fields PROPERTIES TIMEOUT 900 LABELS mpi PROCESSORS 3
   ENVIRONMENT "${MENISCUS_RANKS_ENVIRONMENT}")
+
+# Pages whose commands are run and whose quotations are held to what they print.
+function(meniscus_page_test NAME PROGRAMS PAGES)
+  add_test(NAME ${NAME} COMMAND Python3::Interpreter -B
+    ${CMAKE_CURRENT_SOURCE_DIR}/tutorial/run_tutorial.py ${CMAKE_CURRENT_BINARY_DIR}/${NAME}
+    --programs ${PROGRAMS} --pages ${PAGES})
+  set_tests_properties(${NAME} PROPERTIES TIMEOUT 900)
+endfunction()
+
+file(GLOB TUTORIAL_PAGES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/tutorial/*.md)
+meniscus_page_test(tutorial $<TARGET_FILE:meniscus_program> "${TUTORIAL_PAGES}")
+
+# The lessons of examples/programs: each fails where its figures miss the theory.
+function(meniscus_lesson NAME)
+  meniscus_program_of_tests(${NAME} ${PROJECT_SOURCE_DIR}/examples/programs/${NAME}.cpp ${ARGN})
+endfunction()
+meniscus_lesson(remesh_surface solids io)
+meniscus_lesson(mesh_scene volume io)
+meniscus_lesson(one_solve flow_fem flow_bem)
+meniscus_lesson(own_flow evolve io)
+meniscus_page_test(library_tutorial
+  "$<TARGET_FILE:remesh_surface>;$<TARGET_FILE:mesh_scene>;$<TARGET_FILE:one_solve>;$<TARGET_FILE:own_flow>"
+  ${PROJECT_SOURCE_DIR}/docs/library-tutorial.md)
 
 # Dynamics against independent references, all runs but those made once: an hour or more.
 if(MENISCUS_LONG_TESTS)
