@@ -12,6 +12,7 @@
 #include "meniscus/app/wording.hpp"
 #include "meniscus/core/version.hpp"
 #include "meniscus/evolve/constants.hpp"
+#include "meniscus/evolve/stop_rules.hpp"
 #include "meniscus/flow/fem/constants.hpp"
 #include "meniscus/io/run_files.hpp"
 #include "meniscus/report/volume_corrections.hpp"
@@ -44,6 +45,7 @@ Json constants() {
   add("topology", kTopologyConstants);
   add("flow/fem", fem::kConstants);
   add("evolve", kEvolveConstants);
+  add("evolve", kStopConstants);
   return rooms;
 }
 
@@ -82,26 +84,27 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
   const FieldExcess& excess = simulation.evolution().state().field_excess;
-  const Json record{{"program", "meniscus"},
-                    {"version", version_string},
-                    {"commit", commit_string},
-                    {"title", title_},
-                    {"status", status},
-                    {"case_file", case_file_},
-                    {"case_text", case_text_},
-                    {"case", Json::parse(case_json_)},
-                    {"constants", constants()},
-                    {"host", host_name()},
-                    {"ranks", num_ranks()},
-                    {"started", started_},
-                    {"finished", now_utc()},
-                    {"wall_seconds", wall_before_ + wall},
-                    {"seconds", seconds},
-                    {"steps", simulation.evolution().step()},
-                    {"t", simulation.evolution().t()},
-                    {"field_excess", {{"above", excess.above}, {"below", excess.below}}},
-                    {"volume_correction_sum", corrections.value_or(0.0)},
-                    {"warnings", warnings}};
+  Json record{{"program", "meniscus"},
+              {"version", version_string},
+              {"commit", commit_string},
+              {"title", title_},
+              {"status", status},
+              {"case_file", case_file_},
+              {"case_text", case_text_},
+              {"case", Json::parse(case_json_)},
+              {"constants", constants()},
+              {"host", host_name()},
+              {"ranks", num_ranks()},
+              {"started", started_},
+              {"finished", now_utc()},
+              {"wall_seconds", wall_before_ + wall},
+              {"seconds", seconds},
+              {"steps", simulation.evolution().step()},
+              {"t", simulation.evolution().t()},
+              {"field_excess", {{"above", excess.above}, {"below", excess.below}}},
+              {"volume_correction_sum", corrections.value_or(0.0)},
+              {"warnings", warnings}};
+  if (simulation.end()) record["ended"] = word_for(simulation.end()->ending);
   simulation.directory().write_text(io::RunFiles::record, record.dump(2) + "\n");
 }
 

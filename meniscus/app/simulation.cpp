@@ -10,6 +10,7 @@
 #include "meniscus/app/wording.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
+#include "meniscus/io/run_files.hpp"
 
 namespace meniscus {
 namespace {
@@ -18,6 +19,20 @@ namespace {
 double next_multiple(double interval, double t) {
   MENISCUS_ASSERT(interval > 0.0, "an interval of {:g}", interval);
   return interval * (std::floor(t / interval) + 1.0);
+}
+
+/// Gives a judge the rows of drops.csv.
+void judge_past(StopJudge& judge, const std::filesystem::path& file) {
+  const io::Table table = io::read_table(file);
+  const std::vector<double> t = table.column("t"), drop = table.column("drop"),
+                            L = table.column("L");
+  std::vector<DropLength> drops;
+  for (std::size_t row = 0; row < t.size(); ++row) {
+    drops.push_back({static_cast<int>(std::lround(drop[row])), L[row]});
+    if (row + 1 < t.size() && t[row + 1] == t[row]) continue;
+    judge.add(t[row], std::move(drops));
+    drops.clear();
+  }
 }
 
 }  // namespace
@@ -57,6 +72,10 @@ Outcome Simulation::run(Progress& progress) {
     }
     on_first_rank([&] { record(progress, is_last); });
     if (is_last) return Outcome::done;
+    if (judge_ && any_rank(end_.has_value())) {
+      write_checkpoint(state);
+      return Outcome::done;
+    }
     const FieldExcess excess = evolution_.state().field_excess;
     if (const Report advanced = evolution_.advance(); !advanced.ok()) {
       write_checkpoint(state);
@@ -87,9 +106,18 @@ void Simulation::write_checkpoint(const Archive& state) {
   });
 }
 
+void Simulation::stop_when(const StopRules& rules) {
+  if (!rules.any()) return;
+  judge_.emplace(rules);
+  on_first_rank([&] { judge_past(*judge_, directory_->path() / io::RunFiles::drops); });
+}
+
 void Simulation::record(Progress& progress, bool is_last) {
   MENISCUS_ASSERT(directory_.has_value(), "a rank without the run's folder records");
   const auto [history, drops] = evolution_.rows();
+  if (judge_) end_ = judge_->judge(history.t, drops, evolution_.events(), evolution_.scene());
+  if (is_last && !end_) end_ = RunEnd{Ending::time, ""};
+  is_last = end_.has_value();
   {
     const PhaseTimer timer(output_times_, "output");
     const double t = evolution_.t();
