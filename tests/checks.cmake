@@ -72,6 +72,10 @@ add_test(NAME fuzz COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/end_
   $<TARGET_FILE:meniscus_program> ${CMAKE_CURRENT_BINARY_DIR}/fuzz 200)
 set_tests_properties(fuzz PROPERTIES TIMEOUT 900)
 
+add_test(NAME study COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/study.py
+  $<TARGET_FILE:meniscus_program> ${CMAKE_CURRENT_BINARY_DIR}/study)
+set_tests_properties(study PROPERTIES TIMEOUT 300)
+
 add_test(NAME refusals COMMAND Python3::Interpreter
   ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/refusals.py
   $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/refusals)

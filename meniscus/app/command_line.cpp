@@ -8,6 +8,7 @@
 
 #include "meniscus/app/commands.hpp"
 #include "meniscus/app/interrupt.hpp"
+#include "meniscus/app/study_command.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
 #include "meniscus/core/version.hpp"
@@ -169,6 +170,26 @@ void add_check(CLI::App& app, Action& action) {
       [&action, arguments] { action = [arguments] { return check_command(*arguments); }; });
 }
 
+void add_study(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<StudyArguments>();
+  CLI::App* command = app.add_subcommand(
+      "study", "Run a case over values of its keys, or search for a critical value");
+  command->add_option("study", arguments->study_file, "Study file (TOML)")->required();
+  command->add_option("-o,--output", arguments->output,
+                      "Folder for the results [the study file's name]");
+  command->add_option("-j,--jobs", arguments->jobs, "Runs at a time")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--overwrite", arguments->is_overwrite,
+                    "Replace runs of another case or version in that folder");
+  command->add_flag("-q,--quiet", arguments->is_quiet, "Print nothing but errors");
+  command->footer(
+      "A finished run of the same program and case is not made again, an unfinished one is taken\n"
+      "up. Exit status 1 when a run failed or the study was interrupted.");
+  command->callback(
+      [&action, arguments] { action = [arguments] { return study_command(*arguments); }; });
+}
+
 void add_explain(CLI::App& app, Action& action) {
   auto key = std::make_shared<std::string>();
   CLI::App* command =
@@ -203,8 +224,8 @@ int run_command_line(int argc, char** argv, const SetUp& set_up) {
   ignore_write_signals();
   Action action;
   add_run(app, action, set_up);
-  for (const auto add : {add_resume, add_mesh, add_remesh, add_check, add_report, add_compare,
-                         add_explain, add_examples})
+  for (const auto add : {add_resume, add_mesh, add_remesh, add_check, add_study, add_report,
+                         add_compare, add_explain, add_examples})
     add(app, action);
   try {
     app.parse(argc, argv);

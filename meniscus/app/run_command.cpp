@@ -12,6 +12,7 @@
 #include "meniscus/app/run_record.hpp"
 #include "meniscus/app/simulation.hpp"
 #include "meniscus/case/case.hpp"
+#include "meniscus/case/case_stop_rules.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
 #include "meniscus/io/archive_file.hpp"
@@ -73,8 +74,10 @@ int simulate(Simulation& simulation, const RunRecord& record, Progress& progress
     if (!folder.empty()) remove_unbegun_run(folder);
     throw;
   }
-  progress.say(fmt::format("done: {} steps to t = {:g}; see {}/{}", simulation.evolution().step(),
-                           simulation.evolution().t(), folder, io::RunFiles::page));
+  const std::string why = simulation.end() ? simulation.end()->text : "";
+  progress.say(fmt::format("done: {} steps to t = {:g}{}{}; see {}/{}",
+                           simulation.evolution().step(), simulation.evolution().t(),
+                           why.empty() ? "" : ": ", why, folder, io::RunFiles::page));
   return 0;
 }
 
@@ -95,6 +98,7 @@ int run(const RunArguments& arguments) {
       new_directory(folder, arguments.is_overwrite, evolution, file.parent_path());
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, file.parent_path()));
+  simulation.stop_when(stop_rules_of(c));
   Progress progress(0.0, c.evolution.end, arguments.is_quiet);
   return simulate(simulation, RunRecord(c, arguments.case_file, text), progress, view.get());
 }
@@ -131,6 +135,7 @@ int resume(const ResumeArguments& arguments) {
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, archive.texts.at("case/folder")));
   simulation.load_schedule(archive);
+  simulation.stop_when(stop_rules_of(c));
   return simulate(simulation, record, progress, view.get());
 }
 

@@ -12,6 +12,7 @@
 #include "meniscus/app/wording.hpp"
 #include "meniscus/core/version.hpp"
 #include "meniscus/evolve/constants.hpp"
+#include "meniscus/evolve/stop_rules.hpp"
 #include "meniscus/flow/fem/constants.hpp"
 #include "meniscus/io/run_files.hpp"
 #include "meniscus/report/volume_corrections.hpp"
@@ -44,6 +45,7 @@ Json constants() {
   add("topology", kTopologyConstants);
   add("flow/fem", fem::kConstants);
   add("evolve", kEvolveConstants);
+  add("evolve", kStopConstants);
   return rooms;
 }
 
@@ -111,6 +113,7 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
               {"field_excess", {{"above", excess.above}, {"below", excess.below}}},
               {"volume_correction_sum", corrections.value_or(0.0)},
               {"warnings", warnings}};
+  if (simulation.end()) record["ended"] = word_for(simulation.end()->ending);
   if (!changes_json_.empty()) record["changes"] = Json::parse(changes_json_);
   simulation.directory().write_text(io::RunFiles::record, record.dump(2) + "\n");
 }

@@ -11,6 +11,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
 #include "meniscus/io/archive_file.hpp"
+#include "meniscus/io/run_files.hpp"
 
 namespace meniscus {
 namespace {
@@ -19,6 +20,20 @@ namespace {
 double next_multiple(double interval, double t) {
   MENISCUS_ASSERT(interval > 0.0, "an interval of {:g}", interval);
   return interval * (std::floor(t / interval) + 1.0);
+}
+
+/// Gives a judge the rows of drops.csv.
+void judge_past(StopJudge& judge, const std::filesystem::path& file) {
+  const io::Table table = io::read_table(file);
+  const std::vector<double> t = table.column("t"), drop = table.column("drop"),
+                            L = table.column("L");
+  std::vector<DropLength> drops;
+  for (std::size_t row = 0; row < t.size(); ++row) {
+    drops.push_back({static_cast<int>(std::lround(drop[row])), L[row]});
+    if (row + 1 < t.size() && t[row + 1] == t[row]) continue;
+    judge.add(t[row], std::move(drops));
+    drops.clear();
+  }
 }
 
 }  // namespace
@@ -51,7 +66,7 @@ Outcome Simulation::run(Progress& progress) {
     record_state([&](const HistoryRow& history, const std::vector<DropRow>& drops) {
       progress.show(history, drops);
     });
-    if (evolution_.is_finished()) return Outcome::done;
+    if (has_ended()) return Outcome::done;
     advance();
   }
 }
@@ -64,6 +79,10 @@ void Simulation::record_state(const RowObserver& show) {
   is_begun_ = true;
   solve();
   on_first_rank([&] { record(show); });
+  has_ended_ = evolution_.is_finished();
+  if (!judge_ || has_ended_) return;
+  has_ended_ = any_rank(end_.has_value());
+  if (has_ended_) write_checkpoint();
 }
 
 void Simulation::solve() {
@@ -116,12 +135,22 @@ void Simulation::write_checkpoint(const std::filesystem::path& file) {
   on_first_rank([&] { io::write_archive(file, state_); });
 }
 
+void Simulation::stop_when(const StopRules& rules) {
+  if (!rules.any()) return;
+  judge_.emplace(rules);
+  on_first_rank([&] {
+    if (directory_) judge_past(*judge_, directory_->path() / io::RunFiles::drops);
+  });
+}
+
 void Simulation::record(const RowObserver& show) {
   const auto [history, drops] = evolution_.rows();
+  if (judge_) end_ = judge_->judge(history.t, drops, evolution_.events(), evolution_.scene());
+  if (evolution_.is_finished() && !end_) end_ = RunEnd{Ending::time, ""};
   {
     const PhaseTimer timer(output_times_, "output");
     const double t = evolution_.t();
-    const bool is_last = evolution_.is_finished();
+    const bool is_last = end_.has_value();
     if (t >= next_surface_frame_ || is_last) {
       if (directory_) directory_->add_surface_frame(evolution_);
       next_surface_frame_ = next_multiple(output_.interval, t);

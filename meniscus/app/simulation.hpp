@@ -8,6 +8,7 @@
 #include "meniscus/case/case.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/evolve/evolution.hpp"
+#include "meniscus/evolve/stop_rules.hpp"
 
 namespace meniscus {
 
@@ -30,6 +31,9 @@ class Simulation {
 
   /// Reads the times of the next frames from the checkpoint of the evolution.
   void load_schedule(const Archive& archive);
+  /// Ends the run at the first step that meets a rule. Reads what rules look back to from the rows
+  /// that the folder holds. Collective.
+  void stop_when(const StopRules& rules);
   /// Sets a function to call after each row, when its files are complete.
   void set_observer(std::function<void(const RunDirectory&)> observer) {
     observer_ = std::move(observer);
@@ -51,7 +55,11 @@ class Simulation {
   /// `describe` is that of the new case. Throws RunFailure when there is no flow. Collective.
   void set_surroundings(const Scene& surroundings, Description describe);
 
+  /// Whether the recorded state is the last one: its time is the end's, or a rule was met.
+  [[nodiscard]] bool has_ended() const { return has_ended_; }
   [[nodiscard]] const Evolution& evolution() const { return evolution_; }
+  /// Why the run ended; none while it goes on or when it stopped. Rank 0 only.
+  [[nodiscard]] const std::optional<RunEnd>& end() const { return end_; }
   /// The run's folder. Rank 0 only.
   [[nodiscard]] const RunDirectory& directory() const {
     MENISCUS_ASSERT(directory_, "a rank without the run's folder");
@@ -71,9 +79,11 @@ class Simulation {
   OutputOptions output_;
   Description describe_;
   std::function<void(const RunDirectory&)> observer_;
+  std::optional<StopJudge> judge_;  // none where no rule ends the run
+  std::optional<RunEnd> end_;
   double next_surface_frame_ = 0.0, next_volume_frame_ = 0.0;
   Archive state_;  // at t_k before its solve; rank 0 only
-  bool is_begun_ = false, is_after_event_ = false;
+  bool has_ended_ = false, is_begun_ = false, is_after_event_ = false;
   PhaseTimes output_times_;
   PhaseSeconds timed_;  // seconds when the previous row was written
 };

@@ -2,32 +2,17 @@
 
 #include <algorithm>
 #include <optional>
-#include <sstream>
 #include <vector>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include "meniscus/case/schema.hpp"
+#include "meniscus/case/table_reader.hpp"
 #include "meniscus/core/error.hpp"
 
 namespace meniscus::schema {
 namespace {
-
-std::string toml_text(const toml::node& node) {
-  if (const toml::array* array = node.as_array()) {
-    std::string text = "[";
-    for (const toml::node& element : *array)
-      text += (text.size() > 1 ? ", " : "") + toml_text(element);
-    return text + "]";
-  }
-  if (node.is_table()) return "a table";
-  if (const auto text = node.value_exact<std::string>()) return to_toml(*text);
-  if (const auto real = node.value_exact<double>()) return to_toml(*real);
-  std::ostringstream stream;
-  node.visit([&](const auto& value) { stream << value; });
-  return stream.str();
-}
 
 /// What the user wrote, shortened to fit into a message.
 std::string excerpt(const toml::node& node) {

@@ -41,6 +41,9 @@ const std::vector<Table> kTables{
     {"time", false,
      "Steps are never clipped to the end or to output times. A failed step, or one of wrong "
      "energy, is tried again at half its length."},
+    {"time.stop-when", false,
+     "When a run ends before time.end: at the first step that meets one of these. `run.json` says "
+     "which, as `ended`."},
     {"output", false, "What a run writes, and when."},
     {"scale", false,
      "With this table every key that has a unit is in SI units, coordinates in surface files too. "

@@ -9,6 +9,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/atomic_file.hpp"
+#include "meniscus/io/csv_line.hpp"
 
 namespace meniscus::io {
 namespace {
@@ -130,6 +131,14 @@ std::string rows_before(const fs::path& path, const std::vector<std::string>& co
 
 }  // namespace
 
+std::string csv_line(const std::vector<Cell>& row) {
+  MENISCUS_ASSERT(!row.empty(), "a row without cells");
+  std::string line;
+  for (const Cell& cell : row) line += std::visit(CellText{}, cell) + ',';
+  line.back() = '\n';
+  return line;
+}
+
 TableWriter::TableWriter(fs::path path, const std::vector<std::string>& columns)
     : path_(std::move(path)), num_columns_(columns.size()), file_(path_, std::ios::binary) {
   append(header_line(columns));
@@ -144,10 +153,7 @@ TableWriter::TableWriter(fs::path path, const std::vector<std::string>& columns,
 
 void TableWriter::add(const std::vector<Cell>& row) {
   MENISCUS_ASSERT(row.size() == num_columns_, "{} cells for {} columns", row.size(), num_columns_);
-  std::string line;
-  for (const Cell& cell : row) line += std::visit(CellText{}, cell) + ',';
-  line.back() = '\n';
-  append(line);
+  append(csv_line(row));
 }
 
 void TableWriter::append(const std::string& line) {

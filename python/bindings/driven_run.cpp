@@ -5,6 +5,7 @@
 #include "meniscus/app/ranks.hpp"
 #include "meniscus/app/run_parts.hpp"
 #include "meniscus/app/run_tables.hpp"
+#include "meniscus/case/case_stop_rules.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
 #include "meniscus/io/archive_file.hpp"
@@ -46,6 +47,7 @@ std::unique_ptr<DrivenRun> DrivenRun::begin(PythonCase given, const std::optiona
   if (folder) directory = new_directory(*folder, is_overwrite, evolution, given.folder());
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, given.folder()));
+  simulation.stop_when(stop_rules_of(c));
   RunRecord record(c, given.file(), given.text());
   std::unique_ptr<DrivenRun> run(
       new DrivenRun(std::move(given), folder, std::move(simulation), std::move(record)));
@@ -85,6 +87,7 @@ std::unique_ptr<DrivenRun> DrivenRun::resume(const fs::path& source,
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, given.folder()));
   simulation.load_schedule(archive);
+  simulation.stop_when(stop_rules_of(c));
   std::unique_ptr<DrivenRun> run(
       new DrivenRun(std::move(given), folder, std::move(simulation), std::move(record)));
   if (is_run) run->read_earlier_rows();
@@ -120,7 +123,7 @@ void DrivenRun::record_state() {
     const auto [history, drops] = evolution().rows();
     add_rows(history, drops);
   }
-  if (evolution().is_finished()) end("done");
+  if (simulation_.has_ended()) end("done");
 }
 
 void DrivenRun::add_rows(const HistoryRow& history, const std::vector<DropRow>& drops) {
@@ -133,7 +136,7 @@ void DrivenRun::add_rows(const HistoryRow& history, const std::vector<DropRow>& 
 
 void DrivenRun::require_going() const {
   if (has_failed()) throw RunFailure("the run has failed: " + failure_);
-  if (evolution().is_finished())
+  if (simulation_.has_ended())
     throw RunFailure(fmt::format("the run is at its end, t = {:g}", evolution().t()));
 }
 
@@ -149,7 +152,7 @@ void DrivenRun::step() {
 }
 
 void DrivenRun::stop() {
-  if (has_failed() || evolution().is_finished()) return;
+  if (has_failed() || simulation_.has_ended()) return;
   simulation_.write_checkpoint();
   end("stopped");
 }

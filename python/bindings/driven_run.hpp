@@ -52,6 +52,7 @@ class DrivenRun {
   void set_flow(const std::vector<std::string>& settings);
 
   [[nodiscard]] const Evolution& evolution() const { return simulation_.evolution(); }
+  [[nodiscard]] bool has_ended() const { return simulation_.has_ended(); }
   [[nodiscard]] bool has_failed() const { return !failure_.empty(); }
   [[nodiscard]] const PythonCase& given() const { return case_; }
   [[nodiscard]] const std::optional<std::filesystem::path>& folder() const { return folder_; }

@@ -292,8 +292,7 @@ void bind_simulation(py::module_& m) {
       .def_property_readonly("dt", [](Handle& self) { return self.run().evolution().state().dt; })
       .def_property_readonly("step_number",
                              [](Handle& self) { return self.run().evolution().step(); })
-      .def_property_readonly("is_finished",
-                             [](Handle& self) { return self.run().evolution().is_finished(); })
+      .def_property_readonly("is_finished", [](Handle& self) { return self.run().has_ended(); })
       .def_property_readonly("has_failed", [](Handle& self) { return self.run().has_failed(); })
       .def_property_readonly("end",
                              [](Handle& self) { return self.run().given().parsed().evolution.end; })

@@ -45,6 +45,7 @@ TEST(CommandLine, RefusesWhatItDoesNotKnowInOneLine) {
   expect_refusal({"remesh", "a.stl", "--nodes", "100", "--edge-length", "0.1"}, "--nodes");
   expect_refusal({"resume", "folder", "--from", "a.h5"}, "--output");
   expect_refusal({"compare", "one"}, "directories");
+  expect_refusal({"study", "study.toml", "--jobs", "0"}, "--jobs");
 }
 
 TEST(CommandLine, RefusesFilesThatAreNotThere) {
@@ -55,6 +56,7 @@ TEST(CommandLine, RefusesFilesThatAreNotThere) {
   expect_refusal({"resume", folder.path().string()}, "holds no checkpoint");
   expect_refusal({"report", missing}, missing);
   expect_refusal({"check", missing}, "it holds no check.toml");
+  expect_refusal({"study", missing + ".toml"}, missing);
   expect_refusal({"check", "--all", "--cases", missing}, "no folder here holds a check.toml");
 }
 

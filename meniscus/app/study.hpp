@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "meniscus/app/bracket.hpp"
+#include "meniscus/app/study_run.hpp"
+#include "meniscus/report/study_page.hpp"
+
+namespace meniscus {
+
+/// What the runs at a point of a study came to.
+struct StudyPointResult {
+  std::optional<Bracket> bracket;  ///< of a bisection
+  /// By value of the bisection's key; without a bisection the one run has the key 0.
+  std::map<double, StudyRunResult> runs;
+};
+
+/// The runs of a study, in processes beside this one. What they come to does not depend on how
+/// many run at a time.
+class Study {
+ public:
+  explicit Study(StudyFolders folders);
+
+  /// Makes the runs that are wanted, `jobs` at a time, and calls `say` with a line for each.
+  /// Returns false when it was interrupted; runs then stop after their step, to be taken up again.
+  bool run(int jobs, const std::function<void(const std::string&)>& say);
+
+  [[nodiscard]] const StudyFolders& folders() const { return folders_; }
+  [[nodiscard]] const std::vector<StudyPointResult>& results() const { return results_; }
+  [[nodiscard]] int num_failed() const;
+
+ private:
+  /// The runs that may start now, in order.
+  [[nodiscard]] std::vector<StudyRun> wanted() const;
+  void add(const StudyRun& run, const StudyRunResult& result);
+
+  StudyFolders folders_;
+  std::vector<StudyPointResult> results_;  // by point
+};
+
+/// study.csv: one row for each point whose runs are done, in the order of the axes.
+[[nodiscard]] std::string study_table(const Study& study);
+/// The page of a study: curves against the axes, shapes at the end, links to the runs.
+[[nodiscard]] report::StudyPage study_page(const Study& study);
+
+}  // namespace meniscus

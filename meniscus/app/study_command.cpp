@@ -1,0 +1,60 @@
+#include "meniscus/app/study_command.hpp"
+
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "meniscus/app/folder_lock.hpp"
+#include "meniscus/app/study.hpp"
+#include "meniscus/case/study_file.hpp"
+#include "meniscus/core/error.hpp"
+#include "meniscus/io/atomic_file.hpp"
+
+namespace meniscus {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kTable = "study.csv", *kPage = "study.html";
+
+fs::path output_of(const StudyArguments& arguments) {
+  return arguments.output.empty() ? fs::path(arguments.study_file).stem()
+                                  : fs::path(arguments.output);
+}
+
+void write_results(const Study& study) {
+  io::write_file(study.folders().output() / kTable, study_table(study));
+}
+
+}  // namespace
+
+int study_command(const StudyArguments& arguments) {
+  if (arguments.jobs < 1) reject_input("--jobs {}: must be 1 or more", arguments.jobs);
+  const StudyFile file = read_study_file(arguments.study_file);
+  require_valid_cases(file);
+  Study study(StudyFolders(file, output_of(arguments), arguments.is_overwrite));
+  const fs::path output = study.folders().output();
+  std::error_code error;
+  fs::create_directories(output / "runs", error);
+  if (error) reject_input("output folder {} cannot be made: {}", output.string(), error.message());
+  const FolderLock lock(output);
+  const auto say = [&](const std::string& line) {
+    write_results(study);
+    if (arguments.is_quiet) return;
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  };
+  const bool is_done = study.run(arguments.jobs, say);
+  write_results(study);
+  report::write_study_page(study_page(study), output / kPage);
+  const int failed = study.num_failed();
+  if (!is_done)
+    say("stopped; the same command goes on");
+  else
+    say(fmt::format("done{}; see {}", failed > 0 ? fmt::format(", {} runs failed", failed) : "",
+                    (output / kPage).string()));
+  return is_done && failed == 0 ? 0 : 1;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,198 @@
+#!/usr/bin/env python3
+"""A study gives the same table whether it runs one job at a time or two, left alone or killed; a run
+that fails does not keep the others from theirs; a bisection finds its bracket.
+
+    study.py PROGRAM WORK
+"""
+import csv
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+CASE = """
+[flow]
+kind = "uniaxial-extension"
+capillary-number = 0.1
+[[drop]]
+radius = 1
+nodes = 42
+[domain]
+shape = "unbounded"
+frame = "drops"
+[solver]
+method = "boundary-integral"
+[time]
+end = {end}
+[time.stop-when]
+steady-rate = 0.02
+broken = true
+broken-length = 2
+[output]
+interval = 100
+checkpoint-every = 3
+"""
+# One iteration is not enough where the viscosities differ: those runs fail.
+AXES = """
+[study]
+title = "Two axes"
+case = "short.toml"
+[[axis]]
+key = "solver.max-iterations"
+values = [1, 100]
+[[axis]]
+key = "drop.viscosity-ratio"
+from = 1
+to = 4
+count = 2
+spacing = "log"
+"""
+BISECTION = """
+[study]
+case = "long.toml"
+[bisection]
+key = "flow.capillary-number"
+from = 0.05
+to = 0.2
+tolerance = 0.3
+"""
+
+
+def study(program, file, output, *more):
+    return subprocess.Popen([program, "study", str(file), "-o", str(output), *more],
+                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+
+def finish(process, what, status):
+    output, _ = process.communicate()
+    print(f"{what} -> {process.returncode}\n{output.strip()}", flush=True)
+    if process.returncode != status:
+        sys.exit(f"expected status {status}")
+    return output
+
+
+def rows(output):
+    with open(output / "study.csv", encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def check(is_held, what):
+    if not is_held:
+        sys.exit(what)
+
+
+def same_bytes(one, other, what):
+    check((one / "study.csv").read_bytes() == (other / "study.csv").read_bytes(),
+          f"{what}: study.csv differs")
+    print(f"{what}: the same bytes", flush=True)
+
+
+def kill_when(process, is_due, what):
+    """SIGKILL at the first moment at which `is_due()`; the study must not have ended before."""
+    while not is_due():
+        check(process.poll() is None, f"{what}: the study ended before it could be killed")
+        time.sleep(0.002)
+    process.send_signal(signal.SIGKILL)
+    process.communicate()
+
+
+def writers_of(output):
+    """The processes whose command line names the folder."""
+    found = []
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            words = (folder / "cmdline").read_bytes().split(b"\0")
+        except OSError:
+            continue
+        if any(word.startswith(f"{output}/".encode()) for word in words):
+            found.append(folder.name)
+    return found
+
+
+def check_that_runs_ended(output):
+    """Runs end with their study."""
+    for _ in range(500):
+        if not writers_of(output):
+            return
+        time.sleep(0.01)
+    sys.exit(f"runs outlive their study: {writers_of(output)}")
+
+
+def checkpoints(output):
+    return list(output.glob("runs/*/checkpoint-*.h5"))
+
+
+def check_axes(program, work):
+    file = work / "axes.toml"
+    file.write_text(AXES, encoding="utf-8")
+    one, two, killed = work / "axes-1", work / "axes-2", work / "axes-killed"
+    finish(study(program, file, one), "one job", 1)
+    table = rows(one)
+    outcomes = [(row["solver.max-iterations"], row["drop.viscosity-ratio"], row["outcome"])
+                for row in table]
+    check(outcomes == [("1", "1", "done"), ("1", "4", "failed"), ("100", "1", "done"),
+                       ("100", "4", "done")], f"not these outcomes: {outcomes}")
+    check("could not be solved" in table[1]["why"], f"not the reason: {table[1]['why']}")
+    check(all(row["ended"] == "time" and float(row["L"]) > 1.05
+              for row in table if row["outcome"] == "done"), "not the ends of these runs")
+    check("viscosity-ratio=4/report.html" in (one / "study.html").read_text(encoding="utf-8"),
+          "the page has no link to a run")
+    finish(study(program, file, two, "--jobs", "2"), "two jobs", 1)
+    same_bytes(one, two, "two jobs")
+
+    process = study(program, file, killed, "--jobs", "2")
+    kill_when(process, lambda: len(checkpoints(killed)) > 1, "killed at once")
+    check_that_runs_ended(killed)
+    process = study(program, file, killed, "--jobs", "2")
+    kill_when(process, lambda: (killed / "study.csv").exists() and len(rows(killed)) > 1,
+              "killed later")
+    check_that_runs_ended(killed)
+    finish(study(program, file, killed, "--jobs", "2"), "killed twice", 1)
+    same_bytes(one, killed, "killed twice")
+
+
+def check_bisection(program, work):
+    file = work / "bisection.toml"
+    file.write_text(BISECTION, encoding="utf-8")
+    one, two = work / "bisection-1", work / "bisection-2"
+    process = study(program, file, one)
+    kill_when(process, lambda: len(checkpoints(one)) > 3, "the bisection")
+    check_that_runs_ended(one)
+    finish(study(program, file, one), "a bisection, killed", 0)
+    finish(study(program, file, two, "--jobs", "2"), "a bisection, two jobs", 0)
+    same_bytes(one, two, "a bisection")
+    row = rows(one)[0]
+    check(row["outcome"] == "critical" and row["ended"] == "steady", f"not a bracket: {row}")
+    steady, broken = (float(row[f"{side} flow.capillary-number"]) for side in ("steady", "broken"))
+    check(0.05 <= steady < broken <= 0.2 and float(row["width"]) <= 0.3, f"not a bracket: {row}")
+
+
+def check_interrupt(program, work):
+    """Ctrl-C stops the runs after their step; the same command goes on."""
+    file, output = work / "axes.toml", work / "interrupted"
+    process = study(program, file, output)
+    while process.poll() is None and not checkpoints(output):
+        time.sleep(0.002)
+    process.send_signal(signal.SIGINT)
+    said = finish(process, "interrupted", 1)
+    check("the same command goes on" in said, "it does not say how to go on")
+    check_that_runs_ended(output)
+    finish(study(program, file, output, "-q"), "gone on with", 1)
+    same_bytes(work / "axes-1", output, "interrupted")
+
+
+def main():
+    program, work = sys.argv[1], Path(sys.argv[2])
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir(parents=True)
+    (work / "short.toml").write_text(CASE.format(end=0.5), encoding="utf-8")
+    (work / "long.toml").write_text(CASE.format(end=20), encoding="utf-8")
+    check_axes(program, work)
+    check_interrupt(program, work)
+    check_bisection(program, work)
+
+
+if __name__ == "__main__":
+    main()
