@@ -7,7 +7,7 @@ function(meniscus_static_check NAME)
 endfunction()
 
 meniscus_static_check(format ${PROJECT_SOURCE_DIR}/scripts/check_format.sh)
-foreach(CHECK layers citations)
+foreach(CHECK layers citations metadata)
   set(FOLDER ${CMAKE_CURRENT_SOURCE_DIR}/${CHECK})
   meniscus_static_check(${CHECK} Python3::Interpreter ${FOLDER}/check_${CHECK}.py
     ${PROJECT_SOURCE_DIR})
