@@ -8,6 +8,7 @@
 #include "meniscus/app/interrupt.hpp"
 #include "meniscus/app/live_view.hpp"
 #include "meniscus/app/ranks.hpp"
+#include "meniscus/app/run_crate.hpp"
 #include "meniscus/app/run_record.hpp"
 #include "meniscus/app/simulation.hpp"
 #include "meniscus/app/wording.hpp"
@@ -60,6 +61,7 @@ void finish(const Simulation& simulation, const RunRecord& record, const std::st
   on_first_rank([&] {
     record.write(simulation, status);
     write_report(simulation.directory().path());
+    write_run_crate(simulation.directory().path());
   });
 }
 
@@ -107,7 +109,8 @@ int simulate(Simulation& simulation, const RunRecord& record, Progress& progress
     try {
       finish(simulation, record, fmt::format("failed: {}", failure.what()));
     } catch (const std::exception&) {
-      log::warning("neither run.json nor the report could be brought up to date");
+      log::warning(
+          "run.json, the report and ro-crate-metadata.json could not all be brought up to date");
     }
     if (view != nullptr) view->end("failed");
     if (!folder.empty()) remove_unbegun_run(folder);
