@@ -61,6 +61,11 @@ add_test(NAME refusals COMMAND Python3::Interpreter
   $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/refusals)
 set_tests_properties(refusals PROPERTIES TIMEOUT 300)
 
+add_test(NAME benchmark COMMAND Python3::Interpreter
+  ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/benchmark.py
+  $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/benchmark)
+set_tests_properties(benchmark PROPERTIES TIMEOUT 300)
+
 add_test(NAME remesh COMMAND Python3::Interpreter
   ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/remesh.py
   $<TARGET_FILE:meniscus_program> ${CMAKE_CURRENT_BINARY_DIR}/remesh)
