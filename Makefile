@@ -42,11 +42,12 @@ test: ## install what is missing, build, run every test and a short case
 	@ctest --preset test -j $(JOBS)
 
 .PHONY: check
-check: ## format, layers and citations only; nothing is compiled
+check: ## format, layers, citations and metadata only; nothing is compiled
 	@scripts/setup.sh test
 	@scripts/check_format.sh
 	@python3 -B tests/layers/check_layers.py .
 	@python3 -B tests/citations/check_citations.py .
+	@python3 -B tests/metadata/check_metadata.py .
 
 .PHONY: check-long
 check-long: ## clang-tidy, benchmarks built, the long suites, every test and 10,000 broken inputs under the sanitizers

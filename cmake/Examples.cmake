@@ -1,11 +1,15 @@
-# The case files of examples/ become part of the program: `meniscus examples` writes them out.
-file(GLOB EXAMPLE_FILES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/*.toml)
-set(EXAMPLE_ENTRIES "")
-foreach(FILE ${EXAMPLE_FILES})
-  get_filename_component(NAME ${FILE} NAME_WE)
-  file(READ ${FILE} TEXT)
-  string(APPEND EXAMPLE_ENTRIES "{\"${NAME}\", R\"toml(${TEXT})toml\"},\n")
-endforeach()
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${EXAMPLE_FILES})
-file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/meniscus/case/examples_generated.inc
-     CONTENT "@EXAMPLE_ENTRIES@" @ONLY)
+# The case files of examples/ and the tables of benchmark/ become part of the program: `meniscus examples`
+# writes the ones out, `meniscus check NAME --against FILE` compares with the others.
+function(meniscus_embed_files FOLDER EXTENSION OUTPUT)
+  file(GLOB FILES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${FOLDER}/*.${EXTENSION})
+  set(ENTRIES "")
+  foreach(FILE ${FILES})
+    get_filename_component(NAME ${FILE} NAME_WE)
+    file(READ ${FILE} TEXT)
+    string(APPEND ENTRIES "{\"${NAME}\", R\"text(${TEXT})text\"},\n")
+  endforeach()
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${FILES})
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/meniscus/case/${OUTPUT} CONTENT "@ENTRIES@" @ONLY)
+endfunction()
+meniscus_embed_files(examples toml examples_generated.inc)
+meniscus_embed_files(benchmark csv benchmarks_generated.inc)

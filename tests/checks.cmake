@@ -9,7 +9,7 @@ endfunction()
 meniscus_static_check(format ${PROJECT_SOURCE_DIR}/scripts/check_format.sh)
 meniscus_static_check(run_tutorial_check Python3::Interpreter -B
   ${CMAKE_CURRENT_SOURCE_DIR}/tutorial/run_tutorial_test.py)
-foreach(CHECK layers citations)
+foreach(CHECK layers citations metadata)
   set(FOLDER ${CMAKE_CURRENT_SOURCE_DIR}/${CHECK})
   meniscus_static_check(${CHECK} Python3::Interpreter ${FOLDER}/check_${CHECK}.py
     ${PROJECT_SOURCE_DIR})
@@ -80,6 +80,11 @@ add_test(NAME refusals COMMAND Python3::Interpreter
   ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/refusals.py
   $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/refusals)
 set_tests_properties(refusals PROPERTIES TIMEOUT 300)
+
+add_test(NAME benchmark COMMAND Python3::Interpreter
+  ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/benchmark.py
+  $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/benchmark)
+set_tests_properties(benchmark PROPERTIES TIMEOUT 300)
 
 add_test(NAME remesh COMMAND Python3::Interpreter
   ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/remesh.py

@@ -4,13 +4,16 @@
 
 #include <fmt/format.h>
 
+#include "meniscus/app/benchmark_comparison.hpp"
 #include "meniscus/app/check_results.hpp"
 #include "meniscus/app/commands.hpp"
+#include "meniscus/app/output_file.hpp"
 #include "meniscus/app/run_comparison.hpp"
 #include "meniscus/case/case.hpp"
 #include "meniscus/case/check_file.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/version.hpp"
+#include "meniscus/io/atomic_file.hpp"
 #include "meniscus/io/run_files.hpp"
 #include "meniscus/report/check_page.hpp"
 
@@ -33,6 +36,11 @@ std::vector<fs::path> all_cases(const fs::path& cases) {
   return folders;
 }
 
+bool is_benchmark(const std::string& name) {
+  return std::ranges::find(benchmark_files(), name, &BenchmarkFile::name) !=
+         benchmark_files().end();
+}
+
 std::vector<fs::path> chosen_cases(const CheckArguments& arguments) {
   if (arguments.is_all) return all_cases(arguments.cases);
   std::vector<fs::path> folders;
@@ -40,7 +48,8 @@ std::vector<fs::path> chosen_cases(const CheckArguments& arguments) {
     fs::path folder = fs::path(name).lexically_normal();
     if (!folder.has_filename()) folder = folder.parent_path();
     if (!fs::exists(folder / "check.toml"))
-      reject_input("{}: no validation case: it holds no check.toml", name);
+      reject_input("{}: no validation case: it holds no check.toml{}", name,
+                   is_benchmark(name) ? "; to use the benchmark, give --against FILE.csv" : "");
     folders.push_back(folder);
   }
   if (folders.empty()) reject_input("check: name the folder of a case, or give --all");
@@ -151,9 +160,27 @@ std::vector<CheckRow> check_case(const fs::path& folder, const CheckArguments& a
   return rows;
 }
 
-}  // namespace
+int list_benchmarks() {
+  for (const BenchmarkFile& file : benchmark_files()) {
+    const Benchmark each = read_benchmark(std::string(file.name), file.text);
+    fmt::print("{:<30} {}\n", each.name, each.title);
+  }
+  return 0;
+}
 
-int check_command(const CheckArguments& arguments) {
+int check_against_benchmark(const CheckArguments& arguments) {
+  if (arguments.directories.size() != 1)
+    reject_input("check --against: name one benchmark; meniscus check --benchmarks lists them");
+  const Benchmark reference = benchmark(arguments.directories[0]);
+  if (!arguments.output.empty()) require_writable(arguments.output);
+  const BenchmarkComparison comparison = compare_with_benchmark(
+      reference, io::read_commented_table(arguments.against), arguments.against, arguments.columns);
+  if (!arguments.output.empty()) io::write_file(arguments.output, comparison_csv(comparison));
+  fmt::print("{}", comparison_text(reference, comparison, arguments.against));
+  return std::ranges::all_of(comparison.columns, &ColumnDifference::is_within) ? 0 : 1;
+}
+
+int check_cases(const CheckArguments& arguments) {
   if (arguments.is_recorded && arguments.is_record)
     reject_input("--record writes what --recorded reads: only one of them");
   std::vector<CheckLine> lines;
@@ -175,6 +202,15 @@ int check_command(const CheckArguments& arguments) {
                   arguments.is_recorded ? ", as recorded beside the cases" : ""),
       fs::path(arguments.output) / "check.html");
   return failed > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+int check_command(CheckArguments arguments) {
+  if (arguments.is_list) return list_benchmarks();
+  if (!arguments.against.empty()) return check_against_benchmark(arguments);
+  if (arguments.output.empty()) arguments.output = "out/check";
+  return check_cases(arguments);
 }
 
 }  // namespace meniscus

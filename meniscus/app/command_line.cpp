@@ -146,12 +146,24 @@ void add_check(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command =
       app.add_subcommand("check", "Rerun validation cases and compare them with their references");
-  CLI::Option* directories = command->add_option("directory", arguments->directories,
-                                                 "Folder of a case: case.toml and check.toml");
+  CLI::Option* directories = command->add_option(
+      "directory", arguments->directories,
+      "Folder of a case: case.toml and check.toml; or, with --against, the name "
+      "of a benchmark");
   command->add_flag("--all", arguments->is_all, "Every case below --cases")->excludes(directories);
   command->add_option("--cases", arguments->cases, "Folder of the cases, with --all [cases]");
   command->add_option("-o,--output", arguments->output,
-                      "Folder for the runs and check.html [out/check]");
+                      "Folder for the runs and check.html [out/check]; with --against, a .csv for "
+                      "the differences [none]");
+  CLI::Option* against = command->add_option(
+      "--against", arguments->against,
+      "Run nothing: compare this table (.csv), of any program, with a benchmark");
+  command->add_option("--columns", arguments->columns, "With --against, only these: --columns L,B")
+      ->delimiter(',')
+      ->needs(against);
+  command->add_flag("--benchmarks", arguments->is_list, "List the benchmarks")
+      ->excludes(directories)
+      ->excludes(against);
   command->add_flag("--short", arguments->is_short, "Only the runs that take seconds");
   command->add_flag("--once", arguments->is_once, "Also the runs that take hours")
       ->excludes("--short");
@@ -166,6 +178,8 @@ void add_check(CLI::App& app, Action& action) {
   command->footer(
       "A finished run of the same program and case is not made again, an unfinished one is taken\n"
       "up. Exit status 1 when a quantity is outside its tolerance.");
+  for (const char* of_cases : {"--all", "--short", "--once", "--run", "--recorded", "--record"})
+    against->excludes(command->get_option(of_cases));
   command->callback(
       [&action, arguments] { action = [arguments] { return check_command(*arguments); }; });
 }

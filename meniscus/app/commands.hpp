@@ -78,8 +78,8 @@ int compare_command(const CompareArguments& arguments);
 
 struct CheckArguments {
   std::vector<std::string> directories;
-  std::string cases = "cases";       ///< where --all looks
-  std::string output = "out/check";  ///< runs, and check.html
+  std::string cases = "cases";  ///< where --all looks
+  std::string output;           ///< runs, and check.html [out/check]; with `against` a table [none]
   bool is_all = false;
   bool is_short = false;          ///< only the runs marked short
   bool is_once = false;           ///< also the runs marked once
@@ -87,8 +87,11 @@ struct CheckArguments {
   bool is_recorded = false;       ///< compares the results kept beside the cases, runs nothing
   bool is_record = false;         ///< keeps the results there
   bool is_quiet = false;
+  std::string against;  ///< a table to hold against the one benchmark that `directories` names
+  std::vector<std::string> columns;  ///< with `against`, only these; empty: all of the benchmark
+  bool is_list = false;              ///< lists the benchmarks, does nothing else
 };
-int check_command(const CheckArguments& arguments);
+int check_command(CheckArguments arguments);
 
 int explain_command(const std::string& key);
 /// Lists the examples, or writes the named one into the working directory.

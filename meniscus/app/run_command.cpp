@@ -68,7 +68,8 @@ int simulate(Simulation& simulation, const RunRecord& record, Progress& progress
     try {
       finish(simulation, record, fmt::format("failed: {}", failure.what()));
     } catch (const std::exception&) {
-      log::warning("neither run.json nor the report could be brought up to date");
+      log::warning(
+          "run.json, the report and ro-crate-metadata.json could not all be brought up to date");
     }
     if (view != nullptr) view->end("failed");
     if (!folder.empty()) remove_unbegun_run(folder);

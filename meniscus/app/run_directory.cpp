@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "meniscus/app/frames.hpp"
+#include "meniscus/app/run_crate.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/archive_file.hpp"
 #include "meniscus/io/atomic_file.hpp"
@@ -144,6 +145,7 @@ void require_usable(const fs::path& path, bool overwrite) {
 
 void remove_run(const fs::path& path) {
   for (const char* name : RunFiles::written) fs::remove_all(path / name);
+  fs::remove(path / kRunCrate);
   for (const auto& [step, file] : io::checkpoints(path)) fs::remove(file);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "meniscus/app/ranks.hpp"
+#include "meniscus/app/run_crate.hpp"
 #include "meniscus/app/wording.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/archive_file.hpp"
@@ -142,6 +143,7 @@ void finish(const Simulation& simulation, const RunRecord& record, const std::st
   on_first_rank([&] {
     record.write(simulation, status);
     write_report(simulation.directory().path());
+    write_run_crate(simulation.directory().path());
   });
 }
 

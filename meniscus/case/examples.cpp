@@ -9,7 +9,7 @@
 namespace meniscus {
 namespace {
 
-// cmake/Examples.cmake writes these entries: {"name", R"toml(text)toml"}, …
+// cmake/Examples.cmake writes these entries: {"name", R"text(…)text"}, …
 constexpr ExampleCase kExamples[] = {
 #include "meniscus/case/examples_generated.inc"
 };

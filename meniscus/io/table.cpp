@@ -10,6 +10,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/atomic_file.hpp"
 #include "meniscus/io/csv_line.hpp"
+#include "meniscus/io/table_text.hpp"
 
 namespace meniscus::io {
 namespace {
@@ -211,16 +212,19 @@ Table parse_table(const fs::path& path, std::string_view text) {
 Table read_table(const fs::path& path) { return parse_table(path, read_file(path)); }
 
 Table read_commented_table(const fs::path& path) {
-  const std::string text = read_file(path);
+  return parse_commented_table(path.string(), read_file(path));
+}
+
+Table parse_commented_table(const std::string& name, std::string_view text) {
   std::string rows;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
-    const std::string_view line = std::string_view(text).substr(at, end - at);
+    const std::string_view line = text.substr(at, end - at);
     if (!line.starts_with('#') && line.find_first_not_of(" \t\r\n") != std::string_view::npos)
       rows += line;
     at = end;
   }
-  return parse_table(path, rows);
+  return parse_table(name, rows);
 }
 
 }  // namespace meniscus::io

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <map>
+#include <set>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -55,6 +57,35 @@ TEST(RunCommand, RecordsWhatRanAndHowFarVolumesWerePutRight) {
   for (std::size_t i = 1; i < steps.size(); ++i) sum += shifts[i];
   EXPECT_GT(sum, 0.0);
   EXPECT_NEAR(record["volume_correction_sum"].get<double>(), sum, 1e-15);
+}
+
+TEST(RunCommand, DescribesItsFilesAsAResearchCrate) {
+  const test::TemporaryFolder folder;
+  const fs::path run = run_in(folder);
+  test::put(run / "notes.txt", "not of the run");
+  const Json crate = Json::parse(test::get(run / "ro-crate-metadata.json"));
+  EXPECT_EQ(crate["@context"], "https://w3id.org/ro/crate/1.1/context");
+  std::map<std::string, Json> entities;
+  for (const Json& entity : crate["@graph"]) entities[entity["@id"]] = entity;
+  EXPECT_EQ(entities.at("ro-crate-metadata.json")["about"]["@id"], "./");
+  EXPECT_EQ(entities.at("./")["name"], "Three steps");
+  EXPECT_EQ(entities.at("./")["datePublished"], record_of(run)["finished"]);
+  EXPECT_EQ(entities.at("#run")["startTime"], record_of(run)["started"]);
+  EXPECT_EQ(entities.at("#run")["actionStatus"]["@id"], "http://schema.org/CompletedActionStatus");
+  EXPECT_EQ(entities.at("#meniscus")["identifier"], record_of(run)["commit"]);
+  std::set<std::string> listed;
+  for (const Json& part : entities.at("./")["hasPart"]) {
+    const std::string id = part["@id"];
+    EXPECT_TRUE(fs::exists(run / id)) << id;
+    EXPECT_TRUE(entities.contains(id)) << id;
+    listed.insert(id.ends_with('/') ? id.substr(0, id.size() - 1) : id);
+  }
+  std::set<std::string> there;
+  for (const auto& entry : fs::directory_iterator(run))
+    if (entry.path().filename() != "notes.txt" &&
+        entry.path().filename() != "ro-crate-metadata.json")
+      there.insert(entry.path().filename().string());
+  EXPECT_EQ(listed, there);
 }
 
 TEST(RunCommand, ResumeEndsWithTheRowsOfTheWholeRunAndAddsUpTimes) {

@@ -53,7 +53,7 @@ def contents(folder):
     """What a run leaves that does not tell of time or of how often it was taken up."""
     kept = {}
     for file in sorted(folder.rglob("*")):
-        if file.is_file() and file.name not in ("timing.csv", "run.json", "report.html"):
+        if file.is_file() and file.name not in ("timing.csv", "run.json", "report.html", "ro-crate-metadata.json"):
             kept[str(file.relative_to(folder))] = file.read_bytes()
     return kept
 
