@@ -17,6 +17,10 @@ constexpr std::array kWords{"time", "steady", "broken", "length", "patch"};
 /// What a window's bounds may be off by, in round-off of the times.
 constexpr double kTimeRoundOff = 1e-12;
 
+/// [G] A drop that grows more slowly than this share of its length is no runaway: its rate may rise
+/// by the noise of a steady length.
+constexpr double kLeastGrowth = 1e-3;
+
 bool are_same_drops(std::span<const DropLength> a, std::span<const DropLength> b) {
   return std::ranges::equal(a, b, {}, &DropLength::drop, &DropLength::drop);
 }
@@ -87,7 +91,7 @@ bool LengthRates::is_runaway(double length) const {
   for (std::size_t drop = 0; drop < samples_.back().drops.size(); ++drop) {
     const double L = samples_.back().drops[drop].L, middle = length_at(now - window, drop);
     const double growth = L - middle, before = middle - length_at(now - 2.0 * window, drop);
-    if (L > length && growth > 0.0 && growth > before) return true;
+    if (L > length && growth > kLeastGrowth * L * window && growth > before) return true;
   }
   return false;
 }

@@ -5,6 +5,7 @@ that fails does not keep the others from theirs; a bisection finds its bracket.
     study.py PROGRAM WORK
 """
 import csv
+import json
 import shutil
 import signal
 import subprocess
@@ -57,6 +58,26 @@ key = "flow.capillary-number"
 from = 0.05
 to = 0.2
 tolerance = 0.3
+"""
+
+
+AT_AN_OPEN_PATCH = """
+[flow]
+kind = "quiescent"
+[[drop]]
+radius = 0.5
+center = [1.45, 0, 0]
+nodes = 42
+[domain]
+half-width = 2
+nodes = 100
+[[domain.patch]]
+name = "x+"
+condition = "open"
+[solver]
+elements = "P1-P1"
+[time]
+end = 1
 """
 
 
@@ -183,6 +204,17 @@ def check_interrupt(program, work):
     same_bytes(work / "axes-1", output, "interrupted")
 
 
+def check_patch(program, work):
+    """A drop at an open patch ends its run in those words, status 0."""
+    (work / "patch.toml").write_text(AT_AN_OPEN_PATCH, encoding="utf-8")
+    process = subprocess.Popen([program, "run", str(work / "patch.toml"), "-o", str(work / "patch")],
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    said = finish(process, "at an open patch", 0)
+    check('drop 0 came to the open patch "x+"' in said, "it does not say why it ended")
+    record = json.loads((work / "patch/run.json").read_text(encoding="utf-8"))
+    check(record["ended"] == "patch" and record["status"] == "done", "run.json does not say so")
+
+
 def main():
     program, work = sys.argv[1], Path(sys.argv[2])
     shutil.rmtree(work, ignore_errors=True)
@@ -192,6 +224,7 @@ def main():
     check_axes(program, work)
     check_interrupt(program, work)
     check_bisection(program, work)
+    check_patch(program, work)
 
 
 if __name__ == "__main__":
