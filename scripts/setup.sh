@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that are missing for one purpose and does nothing when none is.
-#   scripts/setup.sh bare|run|test|long|coverage
+#   scripts/setup.sh bare|run|test|long|coverage|deb|release
 # `bare` is `run` without node and npm: the report is the plain page then.
 set -euo pipefail
 
@@ -16,6 +16,8 @@ browser=(chromium)
 # clang 14, Debian's default, cannot read the ranges of libstdc++ 12.
 long=(clang-tidy-16 libbenchmark-dev)
 coverage=(gcovr)
+deb=(dpkg-dev file gzip)
+release=(mmdebstrap)
 
 case "${1:-}" in
   bare) wanted=("${build[@]}") ;;
@@ -23,7 +25,9 @@ case "${1:-}" in
   test) wanted=("${build[@]}" "${page[@]}" "${test[@]}" "${browser[@]}") ;;
   long) wanted=("${build[@]}" "${page[@]}" "${test[@]}" "${browser[@]}" "${long[@]}") ;;
   coverage) wanted=("${build[@]}" "${test[@]}" "${coverage[@]}") ;;
-  *) echo "usage: $0 bare|run|test|long|coverage" >&2; exit 2 ;;
+  deb) wanted=("${build[@]}" "${page[@]}" "${deb[@]}") ;;
+  release) wanted=("${build[@]}" "${page[@]}" "${deb[@]}" "${release[@]}") ;;
+  *) echo "usage: $0 bare|run|test|long|coverage|deb|release" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query >/dev/null; then
