@@ -26,7 +26,7 @@ endef
 
 .PHONY: help
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-12s %s\n", $$1, $$2}' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "make %-13s %s\n", $$1, $$2}' Makefile
 
 .PHONY: run
 run: ## install what is missing, build, simulate a drop in simple shear
@@ -90,8 +90,22 @@ docs-serve: docs ## the same, served to this machine alone: http://127.0.0.1:800
 .PHONY: install
 install: ## build and install the program and the library under PREFIX=/usr/local
 	@scripts/setup.sh run
-	@$(call build,release)
+	@$(call build,release,-UMENISCUS_PYTHON_DIR)
 	@cmake --install build/release --prefix '$(PREFIX)'
+
+.PHONY: deb
+deb: ## build Debian packages of the program and of the library: build/release/deb/*.deb
+	@scripts/setup.sh deb
+	@$(call build,release,-DMENISCUS_PYTHON_DIR=lib/python3/dist-packages)
+	@rm -rf build/release/deb
+	@cpack --config build/release/CPackConfig.cmake > build/release/cpack.log || { cat build/release/cpack.log; exit 1; }
+	@rm -rf build/release/deb/_CPack_Packages
+	@for file in build/release/deb/*.deb; do du -h "$$file"; dpkg-deb --field "$$file" Package Version Installed-Size Depends; done
+
+.PHONY: check-release
+check-release: deb ## those packages in a bare Debian 12: installed, used, built against, removed (as root)
+	@scripts/setup.sh release
+	@python3 -B tests/release/packages.py build/release/deb
 
 .PHONY: clean
 clean: ## remove build trees and output

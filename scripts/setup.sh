@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that are missing for one purpose and does nothing when none is.
-#   scripts/setup.sh bare|run|test|long|coverage|docs
+#   scripts/setup.sh bare|run|test|long|coverage|docs|deb|release
 # `bare` is `run` without node and npm, whose report is the plain page, and without the Python module.
 set -euo pipefail
 
@@ -19,6 +19,8 @@ browser=(chromium)
 long=(clang-tidy-16 libbenchmark-dev)
 coverage=(gcovr)
 docs=(python3 mkdocs mkdocs-material doxygen)
+deb=(dpkg-dev file gzip)
+release=(mmdebstrap)
 
 case "${1:-}" in
   bare) wanted=("${build[@]}") ;;
@@ -27,7 +29,9 @@ case "${1:-}" in
   long) wanted=("${build[@]}" "${page[@]}" "${python[@]}" "${test[@]}" "${browser[@]}" "${long[@]}") ;;
   coverage) wanted=("${build[@]}" "${test[@]}" "${coverage[@]}") ;;
   docs) wanted=("${docs[@]}") ;;
-  *) echo "usage: $0 bare|run|test|long|coverage|docs" >&2; exit 2 ;;
+  deb) wanted=("${build[@]}" "${page[@]}" "${python[@]}" "${deb[@]}") ;;
+  release) wanted=("${build[@]}" "${page[@]}" "${python[@]}" "${deb[@]}" "${release[@]}") ;;
+  *) echo "usage: $0 bare|run|test|long|coverage|docs|deb|release" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query >/dev/null; then

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "meniscus/app/command_reference.hpp"
 #include "meniscus/app/commands.hpp"
 #include "meniscus/app/interrupt.hpp"
 #include "meniscus/app/study_command.hpp"
@@ -224,6 +225,20 @@ void add_examples(CLI::App& app, Action& action) {
   });
 }
 
+/// Commands without group are in no help: they write what packages hold.
+void add_reference(CLI::App& app, Action& action) {
+  const auto add = [&](const char* name, const char* description, auto text) {
+    app.add_subcommand(name, description)->group("")->callback([&app, &action, text] {
+      action = [&app, text] {
+        fmt::print("{}", text(app));
+        return 0;
+      };
+    });
+  };
+  add("manual", "Write the manual page, for man(1)", manual_page);
+  add("completion", "Write the completion for bash", bash_completion);
+}
+
 int print_error(const std::string& text, int status) {
   std::fputs(fmt::format("meniscus: {}\n", text).c_str(), stderr);
   return status;
@@ -239,7 +254,7 @@ int run_command_line(int argc, char** argv, const SetUp& set_up) {
   Action action;
   add_run(app, action, set_up);
   for (const auto add : {add_resume, add_mesh, add_remesh, add_check, add_study, add_report,
-                         add_compare, add_explain, add_examples})
+                         add_compare, add_explain, add_examples, add_reference})
     add(app, action);
   try {
     app.parse(argc, argv);

@@ -1,5 +1,6 @@
 #include "meniscus/app/command_line.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/io/temporary_folder.hpp"
@@ -46,6 +47,41 @@ TEST(CommandLine, RefusesWhatItDoesNotKnowInOneLine) {
   expect_refusal({"resume", "folder", "--from", "a.h5"}, "--output");
   expect_refusal({"compare", "one"}, "directories");
   expect_refusal({"study", "study.toml", "--jobs", "0"}, "--jobs");
+}
+
+/// Whether a text holds a word as man(7) has it.
+void expect_in_manual(const std::string& manual, const std::string& word) {
+  std::string escaped;
+  for (const char c : word) {
+    if (c == '-') escaped += '\\';
+    escaped += c;
+  }
+  EXPECT_NE(manual.find(escaped), std::string::npos) << word;
+}
+
+TEST(CommandLine, ManualAndCompletionHaveEveryCommandAndOptionOfTheHelp) {
+  const std::string manual = ending_of({"manual"}).out, completion = ending_of({"completion"}).out;
+  const std::string help = ending_of({"--help"}).out;
+  EXPECT_EQ(help.find("completion"), std::string::npos);
+  EXPECT_EQ(manual.rfind(".TH MENISCUS 1 ", 0), 0U);
+  int options = 0;
+  for (const char* command :
+       {"run", "resume", "mesh", "remesh", "check", "report", "compare", "explain", "examples"}) {
+    EXPECT_NE(help.find(command), std::string::npos);
+    expect_in_manual(manual, fmt::format(".SS {}\n", command));
+    EXPECT_NE(completion.find(fmt::format("    {}) options=", command)), std::string::npos);
+    const std::string words = ending_of({command, "--help"}).out;
+    for (std::size_t at = 0; (at = words.find(" --", at)) != std::string::npos; ++at) {
+      const std::size_t end = words.find_first_of(" ,\n=", at + 1);
+      const std::string option = words.substr(at + 1, end - at - 1);
+      expect_in_manual(manual, option);
+      EXPECT_NE(completion.find(option), std::string::npos) << option;
+      ++options;
+    }
+  }
+  EXPECT_GE(options, 40);
+  for (const char* name : {"shear-subcritical", "uniaxial-extension", "drop.viscosity-ratio"})
+    EXPECT_NE(completion.find(name), std::string::npos) << name;
 }
 
 TEST(CommandLine, RefusesFilesThatAreNotThere) {
