@@ -97,6 +97,9 @@ Report Evolution::solve() {
 Report Evolution::advance() {
   const StepStart start(state_);
   start_scalars_ = state_.scalars;
+  start_species_.clear();
+  if (has_soluble_surfactant(state_.scene))
+    start_species_ = species_beside(state_.scene, state_.mesh->tetrahedra(), state_.scalars);
   state_.iterations = 0;
   shift_judge_ = {};
   Report report;
@@ -149,7 +152,7 @@ Report Evolution::try_step(const Scene& start, double dt) {
 }
 
 StageFlow Evolution::time_scheme_step(const Scene& start, double dt) {
-  const Step step{start, state_.t, dt, carriers_};
+  const Step step{start, state_.t, dt, carriers_, start_species_};
   const StageSolver solve = [&](const StageFlow& stage, double duration, const Instant& instant) {
     return solve_stage(start, stage, duration, instant);
   };
@@ -234,9 +237,13 @@ ScalarAdvance Evolution::move_scalars(const Scene& start, const FlowSolution& fl
   if (start_scalars_.empty()) return {};
   state_.scalars = start_scalars_;
   const FlowDomain from{start, &state_.mesh->start(), state_.connectivity};
+  const ConcentrationRates expected = expected_adsorption(start, start_species_, duration);
   ScalarAdvance moved =
-      scalar_solver_->advance({from, state_.domain(), duration, flow}, state_.scalars);
-  if (moved.ok()) take_up(state_.scene, moved.uptake, duration, carriers_);
+      scalar_solver_->advance({from, state_.domain(), duration, flow, expected}, state_.scalars);
+  if (moved.ok())
+    take_up(state_.scene, moved.uptake,
+            expected_uptake(start, carriers_.of(start), start_species_, duration), duration,
+            carriers_);
   return moved;
 }
 

@@ -123,7 +123,8 @@ class Evolution {
   std::unique_ptr<FlowSolver> solver_;
   std::unique_ptr<ScalarSolver> scalar_solver_;  // null where there are no bulk scalars
   State state_;
-  BulkScalars start_scalars_;  // of the step from t_k
+  BulkScalars start_scalars_;                       // of the step from t_k
+  std::vector<VertexField<double>> start_species_;  // of the same (`species_beside`)
   std::int64_t last_connectivity_ =
       0;                       // largest number given so far; undone steps do not free theirs
   StageFlow first_;            // the flow and n n·v at t_k

@@ -87,6 +87,62 @@ AmountRates mean_amount_rates(const SurfactantTransport& transport, const Surfac
   return rates;
 }
 
+AmountRates rates_of_sources(const SurfactantTransport& transport, const SurfactantPath& path,
+                             const AmountRates& sources) {
+  AmountRates rates(transport.size());
+  for (std::size_t i = 0; i < rates.size(); ++i)
+    if (transport[i])
+      rates[i] =
+          sources[i].empty()
+              ? VertexField<double>(path.start.interfaces[i].mesh.num_vertices(), 0.0)
+              : transport[i]->rates_of_sources(
+                    sources[i], {path.at_start[i]->mass, path.at_end[i]->mass, path.duration});
+  return rates;
+}
+
+std::vector<VertexField<double>> species_beside(const Scene& scene, const TetMesh& mesh,
+                                                const BulkScalars& scalars) {
+  std::vector<VertexField<double>> species(scene.interfaces.size());
+  for (std::size_t i = 0; i < species.size(); ++i) {
+    const Interface& interface = scene.interfaces[i];
+    if (!interface.surfactant || !interface.surfactant->adsorption) continue;
+    const auto k = static_cast<std::size_t>(interface.surfactant->adsorption->species);
+    const double capacity = scene.liquids[interface.outside].scalars[k].capacity;
+    for (const VertexId v : interface.mesh.x.ids())
+      species[i].add(
+          capacity *
+          scalars[k].values[static_cast<std::size_t>(mesh.interfaces[i].vertex(v).value)]);
+  }
+  return species;
+}
+
+ConcentrationRates expected_adsorption(const Scene& scene,
+                                       std::span<const VertexField<double>> species,
+                                       double duration) {
+  ConcentrationRates rates(species.size());
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    if (species[i].empty()) continue;
+    const Interface& interface = scene.interfaces[i];
+    const Adsorption& law = *interface.surfactant->adsorption;
+    const double coverage = 1.0 / packing_limit(interface.surfactant->state);
+    const VertexField<double>& concentration = *surfactant_concentration(interface);
+    for (const VertexId v : concentration.ids()) {
+      const double on_empty = law.constant * species[i][v], pull = 1.0 + coverage * on_empty;
+      rates[i].add(law.biot * (on_empty - pull * concentration[v]) /
+                   (1.0 + duration * law.biot * pull));
+    }
+  }
+  return rates;
+}
+
+AmountRates expected_uptake(const Scene& scene, const SceneCarriers& carriers,
+                            std::span<const VertexField<double>> species, double duration) {
+  AmountRates uptake = expected_adsorption(scene, species, duration);
+  for (std::size_t i = 0; i < uptake.size(); ++i)
+    if (!uptake[i].empty()) uptake[i] = carriers[i]->mass.amounts(uptake[i]);
+  return uptake;
+}
+
 ConcentrationRates concentration_rates(const SurfactantPath& path, const AmountRates& rates) {
   ConcentrationRates result(rates.size());
   for (std::size_t i = 0; i < rates.size(); ++i) {
@@ -145,15 +201,15 @@ void keep_surfactant(Scene& scene, const Scene& before, Carriers& carriers) {
   }
 }
 
-void take_up(Scene& scene, std::span<const VertexField<double>> uptake, double duration,
-             Carriers& carriers) {
+void take_up(Scene& scene, std::span<const VertexField<double>> uptake, const AmountRates& expected,
+             double duration, Carriers& carriers) {
   for (std::size_t i = 0; i < uptake.size(); ++i) {
     if (uptake[i].empty()) continue;
     Interface& interface = scene.interfaces[i];
     const SurfaceMass& mass = carriers.of(interface.mesh)->mass;
     VertexField<double>& concentration = *surfactant_concentration(interface);
     VertexField<double> amounts = mass.amounts(concentration);
-    for (const VertexId v : amounts.ids()) amounts[v] += duration * uptake[i][v];
+    for (const VertexId v : amounts.ids()) amounts[v] += duration * (uptake[i][v] - expected[i][v]);
     concentration = mass.concentration(amounts);
   }
 }

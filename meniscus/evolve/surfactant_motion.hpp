@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "meniscus/evolve/interface_motion.hpp"
+#include "meniscus/flow/scalar_solver.hpp"
 #include "meniscus/transport/surface_transport.hpp"
 
 namespace meniscus {
@@ -67,6 +68,10 @@ struct SurfactantPath {
 [[nodiscard]] AmountRates mean_amount_rates(const SurfactantTransport& transport,
                                             const SurfactantPath& path);
 
+/// What sources of amounts add to those rates.
+[[nodiscard]] AmountRates rates_of_sources(const SurfactantTransport& transport,
+                                           const SurfactantPath& path, const AmountRates& sources);
+
 /// Mean rates ∂Γ/∂t at the vertices, by interface; empty where there is no surfactant [G].
 using ConcentrationRates = std::vector<VertexField<double>>;
 /// Those of the concentrations to which rates of amounts lead: they hold how the surface stretched
@@ -77,6 +82,22 @@ using ConcentrationRates = std::vector<VertexField<double>>;
 [[nodiscard]] AmountRates amount_rates_of(const SurfactantPath& path,
                                           const ConcentrationRates& rates);
 
+/// c of the species beside each vertex, by interface; empty where no surfactant is soluble.
+[[nodiscard]] std::vector<VertexField<double>> species_beside(const Scene& scene,
+                                                              const TetMesh& mesh,
+                                                              const BulkScalars& scalars);
+/// The rates j = Bi [K c (1 − XΓ) − Γ] at which a step of length τ is to expect that surfactants
+/// adsorb, by interface; empty where none is soluble [G]:
+///   j/[1 + τ Bi (1 + K X c)],
+/// right to first order in τ. It never leads beyond equilibrium with the c at hand.
+[[nodiscard]] ConcentrationRates expected_adsorption(const Scene& scene,
+                                                     std::span<const VertexField<double>> species,
+                                                     double duration);
+/// The same as sources of amounts on the carriers of that scene.
+[[nodiscard]] AmountRates expected_uptake(const Scene& scene, const SceneCarriers& carriers,
+                                          std::span<const VertexField<double>> species,
+                                          double duration);
+
 /// Gives interfaces at the end of a path the concentrations to which these rates lead. Σ_v S_v Γ_v
 /// changes by round-off alone.
 void move_surfactant(Scene& scene, const SurfactantPath& path, const AmountRates& rates);
@@ -85,10 +106,10 @@ void move_surfactant(Scene& scene, const SurfactantPath& path, const AmountRates
 /// conserved as amounts on flat faces, which differ.
 void keep_surfactant(Scene& scene, const Scene& before, Carriers& carriers);
 
-/// Adds to concentrations what the surfactants took up at their vertices in `duration`; by
-/// interface, empty where they took up nothing.
-void take_up(Scene& scene, std::span<const VertexField<double>> uptake, double duration,
-             Carriers& carriers);
+/// Adds to concentrations what the surfactants took up at their vertices in `duration`, beyond what
+/// they hold as expected; both by interface, empty where they took up nothing.
+void take_up(Scene& scene, std::span<const VertexField<double>> uptake, const AmountRates& expected,
+             double duration, Carriers& carriers);
 
 /// max_v dt |Δṁ_v|/(S_v ⟨Γ⟩) R/h over all vertices: how far rates of second and of first order take
 /// a concentration apart in a step, over the mean concentration, counted as `step_error` counts a

@@ -85,20 +85,31 @@ VertexField<double> translation_speeds(const SurfaceMesh& mesh, const VertexFiel
   return speeds;
 }
 
+/// Adds to rates of amounts what is expected to adsorb, and how it is carried.
+void add_adsorption(AmountRates& rates, const SurfactantTransport& transport, const Step& step,
+                    const SurfactantPath& path) {
+  if (step.species.empty()) return;
+  add(rates, 1.0,
+      rates_of_sources(transport, path,
+                       expected_uptake(step.start, path.at_start, step.species, path.duration)));
+}
+
 /// Gives a stage the rates with which a transport takes the amounts of surfactant from the start of
 /// the step for `duration`.
 void set_mean_rates(StageFlow& stage, const SurfactantTransport& transport, const Step& step,
                     double duration) {
-  if (has_surfactant(step.start))
-    stage.amount_rates =
-        mean_amount_rates(transport, surfactant_path(step, stage.motion, duration));
+  if (!has_surfactant(step.start)) return;
+  const SurfactantPath path = surfactant_path(step, stage.motion, duration);
+  stage.amount_rates = mean_amount_rates(transport, path);
+  add_adsorption(stage.amount_rates, transport, step, path);
 }
 /// The same by the stage's own transport.
 void set_mean_rates(StageFlow& stage, const Step& step, double duration) {
   set_mean_rates(stage, stage.surfactant, step, duration);
 }
 
-/// The same, damped about other rates of concentrations (none: zero). Returns these rates.
+/// The same; what transport alone gives is damped about other rates of concentrations (none: zero).
+/// Returns these rates.
 ConcentrationRates set_damped_rates(StageFlow& stage, const Step& step, double duration,
                                     const ConcentrationRates& about, const StageDampers& damp) {
   if (!has_surfactant(step.start)) return {};
@@ -106,6 +117,7 @@ ConcentrationRates set_damped_rates(StageFlow& stage, const Step& step, double d
   ConcentrationRates rates = concentration_rates(path, mean_amount_rates(stage.surfactant, path));
   rates = damp.concentrations(stage, path, rates, about.empty() ? scaled(0.0, rates) : about);
   stage.amount_rates = amount_rates_of(path, rates);
+  add_adsorption(stage.amount_rates, stage.surfactant, step, path);
   return rates;
 }
 

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <numbers>
+#include <span>
 
 #include "meniscus/evolve/interface_motion.hpp"
 #include "meniscus/evolve/shape_motion.hpp"
@@ -35,6 +36,8 @@ struct Step {
   double t = 0.0;
   double dt = 0.0;
   Carriers& carriers;  ///< of the surfactants
+  /// c of the species beside soluble ones at t (`species_beside`); empty where none is soluble.
+  std::span<const VertexField<double>> species = {};
 };
 /// The way on which a motion takes the surfactants for `duration`.
 [[nodiscard]] SurfactantPath surfactant_path(const Step& step, const InterfaceMotion& motion,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "meniscus/core/archive.hpp"
@@ -13,6 +14,9 @@ struct ScalarPath {
   FlowDomain start, end;
   double duration = 0.0;
   const FlowSolution& flow;  ///< of the whole way: of its middle, or of its start
+  /// Rates of adsorption [G] that the surfactants at the end hold already, by interface; empty
+  /// where nothing is exchanged.
+  std::span<const VertexField<double>> expected_adsorption = {};
 };
 
 /// The content of one region.

@@ -92,19 +92,30 @@ VertexField<double> SurfaceTransport::mean_rates(const VertexField<double>& conc
                                                  const Path& path) const {
   MENISCUS_ASSERT(concentration.size() == L_.rows(), "{} values of {}", concentration.size(),
                   L_.rows());
+  return field_of(
+      mean_rates(path.start.matrix() * vector_of(concentration), Vector::Zero(L_.rows()), path));
+}
+
+VertexField<double> SurfaceTransport::rates_of_sources(const VertexField<double>& sources,
+                                                       const Path& path) const {
+  MENISCUS_ASSERT(sources.size() == L_.rows(), "{} sources at {}", sources.size(), L_.rows());
+  return field_of(mean_rates(Vector::Zero(L_.rows()), vector_of(sources), path));
+}
+
+Vector SurfaceTransport::mean_rates(const Vector& amounts, const Vector& sources,
+                                    const Path& path) const {
   Eigen::SparseLU<Matrix> factors;
   // Between the ends of the step masses change linearly, but for the square of its length.
-  const auto stage = [&](const Vector& amounts, double part) -> Vector {
+  const auto stage = [&](const Vector& begin, double part) -> Vector {
     const Matrix mass = (1.0 - part) * path.start.matrix() + part * path.end.matrix();
     const Matrix matrix = mass + kInnerStage * path.dt * L_;
     factors.compute(matrix);
     MENISCUS_ASSERT(factors.info() == Eigen::Success, "{}", factors.lastErrorMessage());
-    return -(L_ * factors.solve(amounts));
+    return sources - L_ * factors.solve(begin + kInnerStage * path.dt * sources);
   };
-  const Vector amounts = path.start.matrix() * vector_of(concentration),
-               first = stage(amounts, kInnerStage),
+  const Vector first = stage(amounts, kInnerStage),
                second = stage(amounts + (1.0 - kInnerStage) * path.dt * first, 1.0);
-  return field_of((1.0 - kInnerStage) * first + kInnerStage * second);
+  return (1.0 - kInnerStage) * first + kInnerStage * second;
 }
 
 }  // namespace meniscus

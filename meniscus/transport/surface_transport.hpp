@@ -41,8 +41,15 @@ class SurfaceTransport {
   /// order.
   [[nodiscard]] VertexField<double> mean_rates(const VertexField<double>& concentration,
                                                const Path& path) const;
+  /// What constant sources of amounts add to these rates: themselves, and how they are carried
+  /// [G R0²]. The sum of both is that of the sources.
+  [[nodiscard]] VertexField<double> rates_of_sources(const VertexField<double>& sources,
+                                                     const Path& path) const;
 
  private:
+  [[nodiscard]] Eigen::VectorXd mean_rates(const Eigen::VectorXd& amounts,
+                                           const Eigen::VectorXd& sources, const Path& path) const;
+
   Eigen::SparseMatrix<double> L_;
 };
 

@@ -146,5 +146,68 @@ TEST(SolubleSurfactant, TheEndIsTheIsotherm) {
   EXPECT_NEAR(mean_concentration(longer), 0.8 * c_end / (1.0 + 0.8 * 0.3 * c_end), 1e-6);
 }
 
+std::string stretched_drop(double step) {
+  return fmt::format(R"(
+[flow]
+kind = "uniaxial-extension"
+capillary-number = 0.1
+[[drop]]
+nodes = 60
+[drop.surfactant]
+elasticity = 0.2
+peclet = 10.0
+species = "soap"
+biot = 2.0
+adsorption = 0.8
+depth = 0.5
+[domain]
+shape = "sphere"
+radius = 5.0
+nodes = 60
+[[scalar]]
+name = "soap"
+kind = "species"
+peclet = 4.0
+initial = 2.0
+[[scalar.drop]]
+partition = 1e-3
+diffusivity-ratio = 1e-3
+[time]
+end = 0.8
+max-step = {0}
+tolerance = 1.0
+)",
+                     step);
+}
+
+/// ∮Γ² dS of vertices with equal shares.
+double mean_square(const Evolution& evolution) {
+  double sum = 0.0;
+  const VertexField<double>& concentration =
+      *surfactant_concentration(evolution.scene().interfaces[0]);
+  for (const double each : concentration) sum += each * each / concentration.size();
+  return sum;
+}
+
+TEST(SolubleSurfactant, ExchangeInAFlowIsOfSecondOrder) {
+  std::vector<double> reached, gathered;
+  for (const double step : {0.2, 0.1, 0.05}) {
+    const Case c = parse_case(stretched_drop(step), "test");
+    EvolutionOptions options = c.evolution;
+    options.remesh_every = 1000000;
+    Evolution evolution(build_scene(c), options, make_flow_solver(c), make_moving_mesh(c),
+                        make_scalar_solver(c));
+    ASSERT_TRUE(evolution.prepare().ok());
+    ASSERT_TRUE(evolution.solve().ok());
+    const double before = total(evolution, 0.5);
+    run(evolution);
+    EXPECT_NEAR(total(evolution, 0.5), before, 1e-10 * before);
+    reached.push_back(mean_concentration(evolution));
+    gathered.push_back(mean_square(evolution));
+  }
+  EXPECT_NEAR(std::log2((reached[1] - reached[0]) / (reached[2] - reached[1])), 2.0, 0.3);
+  EXPECT_NEAR(std::log2((gathered[1] - gathered[0]) / (gathered[2] - gathered[1])), 2.0, 0.3);
+}
+
 }  // namespace
 }  // namespace meniscus

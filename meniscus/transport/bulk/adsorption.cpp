@@ -23,10 +23,11 @@ std::size_t place_of(const fem::NodeGraph& graph, NodeId row, NodeId column) {
 
 }  // namespace
 
-InterfaceExchange::InterfaceExchange(const Scene& start, const Scene& scene,
-                                     const ScalarSpace& space, const NodePositions& positions,
+InterfaceExchange::InterfaceExchange(const ScalarMotion& motion, const NodePositions& positions,
                                      std::size_t k)
-    : sides_(scene.interfaces.size()), start_(sides_.size()), end_(sides_.size()) {
+    : sides_(motion.end.interfaces.size()), start_(sides_.size()), end_(sides_.size()) {
+  const Scene& scene = motion.end;
+  const ScalarSpace& space = motion.space;
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     const Interface& interface = scene.interfaces[i];
     if (!interface.surfactant || !interface.surfactant->adsorption ||
@@ -40,8 +41,10 @@ InterfaceExchange::InterfaceExchange(const Scene& start, const Scene& scene,
     side.packing = 1.0 / packing_limit(interface.surfactant->state);
     is_empty_ = false;
     is_linear_ = is_linear_ && side.packing == 0.0;
-    start_[i] = *surfactant_concentration(start.interfaces[i]);
+    start_[i] = *surfactant_concentration(motion.start.interfaces[i]);
     end_[i] = *surfactant_concentration(interface);
+    for (const VertexId v : end_[i].ids())
+      end_[i][v] -= motion.duration * motion.expected_adsorption[i][v];
     const fem::FaceNodeTable& faces = space.interfaces[i];
     side.node.resize(at(interface.mesh.num_vertices()));
     for (const FaceId f : faces.faces()) {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "meniscus/flow/scalar_solver.hpp"
+#include "meniscus/transport/bulk/scalar_step.hpp"
 #include "meniscus/transport/bulk/transport_matrices.hpp"
 
 namespace meniscus::bulk {
@@ -16,16 +16,15 @@ using ByInterface = std::vector<VertexField<double>>;
 /// that begins with the concentration B, Γ = B + τj.
 class InterfaceExchange {
  public:
-  /// Of scalar k on the way from one scene to another, which holds what the surfactants were
-  /// carried to; on interfaces as they are at `positions`.
-  InterfaceExchange(const Scene& start, const Scene& scene, const ScalarSpace& space,
-                    const NodePositions& positions, std::size_t k);
+  /// Of scalar k on the way of a motion; on interfaces as they are at `positions`. The scene at its
+  /// end holds what the surfactants were carried to, and what they were expected to adsorb.
+  InterfaceExchange(const ScalarMotion& motion, const NodePositions& positions, std::size_t k);
 
   [[nodiscard]] bool empty() const { return is_empty_; }
   /// Whether j has a product of c and Γ.
   [[nodiscard]] bool is_linear() const { return is_linear_; }
 
-  /// Γ after a share of the way, as far as it was carried alone.
+  /// Γ after a share of the way, without what is adsorbed on it.
   [[nodiscard]] ByInterface carried(double share) const;
   /// Adds what the liquid loses to the equations of a stage, the product taken at the guess of Γ.
   void add_to(MatrixValues& system, std::vector<double>& right, double stage,

@@ -179,7 +179,8 @@ ScalarAdvance FiniteElementScalars::advance(const ScalarPath& path, BulkScalars&
                                 mass(to, path.end.scene, *path.end.mesh, k),
                                 v,
                                 heat,
-                                path.duration};
+                                path.duration,
+                                path.expected_adsorption};
       ScalarAdvance moved = convect(motion, k, scalars[k]);
       if (!moved.ok()) return moved;
       take_up(moved.uptake, result.uptake);

@@ -108,7 +108,7 @@ class ScalarStep {
         velocity_(relative_velocity(motion.start.scalars[k].is_convected)),
         matrices_(transport_matrices(motion.mesh, space_, middle_, velocity_, coefficients_, dt_)),
         given_(given_values(motion.end, k, space_, motion.at_end)),
-        exchange_(motion.start, motion.end, space_, middle_, k) {
+        exchange_(motion, middle_, k) {
     set_forcing(k);
   }
 

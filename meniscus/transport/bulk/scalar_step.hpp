@@ -31,6 +31,7 @@ struct ScalarMotion {
   const Field<NodeId, Vec3>& v;  ///< of the liquid, at the nodes [G R0]
   const DissipatedHeat& heat;    ///< empty where no scalar takes it
   double duration;
+  std::span<const VertexField<double>> expected_adsorption = {};  ///< as in `ScalarPath`
 };
 
 /// Takes scalar number `k` of the scene through one step, L-stable and of second order
