@@ -1,6 +1,7 @@
 #include "meniscus/case/explain.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -67,9 +68,9 @@ std::string_view short_description(Type type) {
     case Type::path:
       return "file name";
     case Type::vector:
-      return "[x, y, z]";
+      return "vector";
     case Type::matrix:
-      return "[[…], […], […]]";
+      return "matrix";
     case Type::velocity:
       return "\"flow\" or [vx, vy, vz]";
     default:
@@ -77,9 +78,16 @@ std::string_view short_description(Type type) {
   }
 }
 
+/// The range as the page has it: bounded ones as an interval.
+std::string interval_text(const schema::Range& range) {
+  if (!std::isfinite(range.min) || !std::isfinite(range.max)) return schema::range_text(range);
+  return fmt::format("in {}{}, {}{}", range.open_min ? '(' : '[', range.min, range.max,
+                     range.open_max ? ')' : ']');
+}
+
 /// "> 0, R0; default 1.0; with inertia": what the page says of a key besides its sentence.
 std::string value_text(const Key& key) {
-  const std::string range = schema::range_text(key.range);
+  const std::string range = interval_text(key.range);
   std::string text = key.type == Type::word ? schema::quoted_list(key.words)
                                             : std::string(short_description(key.type));
   if (key.type == Type::number && !range.empty())
@@ -169,7 +177,8 @@ std::string reference_page() {
       "A case is a TOML file. Only the flow's kind and each drop's shape have no default. Unknown "
       "keys and keys without effect are refused. Values are dimensionless, with a `[scale]` table "
       "in SI units; ranges hold for the dimensionless value. In brackets: value and unit; default; "
-      "when the key applies. Equations named here are those of hooper2001, the paper.\n\n";
+      "when the key applies. A vector is [x, y, z], a matrix three rows. Equations named here are "
+      "those of hooper2001, the paper.\n\n";
   page += fmt::format("{}\n", kOverrides);
   for (const Table& table : schema::tables()) {
     const std::string heading =

@@ -20,8 +20,8 @@ constexpr std::string_view kWithLaw = "with viscosity-law = \"carreau-yasuda\" o
 constexpr std::string_view kWithCarreau = "with viscosity-law = \"carreau-yasuda\"";
 constexpr std::string_view kWithPowerLaw = "with viscosity-law = \"power-law\"";
 constexpr std::string_view kLawSentence =
-    "Factor of viscosity at the rate of shear g = sqrt(2 D:D): 1, r + (1 - r) (1 + (t g)^a)^((n - "
-    "1)/a), or g^(n - 1) between floor and ceiling.";
+    "Viscosity's factor at the rate of shear g = sqrt(2 D:D): 1, r + (1 - r)(1 + (t g)^a)^((n - "
+    "1)/a), or g^(n - 1) within bounds.";
 constexpr std::string_view kIndexSentence =
     "n: below 1 the liquid thins with shear, above 1 it thickens.";
 constexpr std::string_view kConstantSentence = "t: thinning begins at rates about 1/t.";
@@ -174,8 +174,8 @@ const std::vector<Key> kLiquidKeys{
      .type = word,
      .words = words::list(words::equations_of_state),
      .value = "linear"s,
-     .sentence = "Tension over that at Gamma = 1: 1 - beta (Gamma - 1), or [1 + E ln(1 - X "
-                 "Gamma)]/[1 + E ln(1 - X)]."},
+     .sentence =
+         "Relative tension: 1 - beta (Gamma - 1), or [1 + E ln(1 - X Gamma)]/[1 + E ln(1 - X)]."},
     {.path = "drop[].surfactant.elasticity",
      .range = kNotNegative,
      .default_note = "required",
