@@ -1,6 +1,7 @@
 #include "meniscus/case/explain.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -15,12 +16,11 @@ using schema::Table;
 using schema::Type;
 
 constexpr std::string_view kOverrides =
-    "Any key can be set on the command line: `--set time.end=5`. Arrays of tables count from 0: "
-    "`--set 'drop[1].nodes=200'`, `--set 'scalar[0].drop[1].partition=2'`. Where there is one "
-    "table its number may be left out: `--set drop.nodes=200`. The number after the last adds a "
-    "table. Words and texts need quotes of their own only where they could be read as a number, "
-    "true, false or a list: `--set 'title=Two drops'`, `--set 'title=\"7\"'`, "
-    "`--set 'drop[0].center=[0, 0, 1]'`.";
+    "The command line sets any key: `--set time.end=5`. Arrays of tables count from 0: "
+    "`--set 'drop[1].nodes=200'`, `--set 'scalar[0].drop[1].partition=2'`. A single table needs no "
+    "number: `--set drop.nodes=200`. The number after the last adds a table. Texts need quotes "
+    "only where they look like a number, true, false or a list: `--set 'title=Two drops'`, "
+    "`--set 'title=\"7\"'`, `--set 'drop[0].center=[0, 0, 1]'`.";
 
 std::string allowed_values(const Key& key) {
   if (key.type == Type::word) return schema::quoted_list(key.words);
@@ -68,9 +68,9 @@ std::string_view short_description(Type type) {
     case Type::path:
       return "file name";
     case Type::vector:
-      return "[x, y, z]";
+      return "vector";
     case Type::matrix:
-      return "[[…], […], […]]";
+      return "matrix";
     case Type::velocity:
       return "\"flow\" or [vx, vy, vz]";
     default:
@@ -78,11 +78,22 @@ std::string_view short_description(Type type) {
   }
 }
 
-/// "number > 0, R0; default 1.0; with inertia": what the page says of a key besides its sentence.
+/// The range as the page has it: bounded ones as an interval.
+std::string interval_text(const schema::Range& range) {
+  if (!std::isfinite(range.min) || !std::isfinite(range.max)) return schema::range_text(range);
+  return fmt::format("in {}{}, {}{}", range.open_min ? '(' : '[', range.min, range.max,
+                     range.open_max ? ')' : ']');
+}
+
+/// "> 0, R0; default 1.0; with inertia": what the page says of a key besides its sentence.
 std::string value_text(const Key& key) {
+  const std::string range = interval_text(key.range);
   std::string text = key.type == Type::word ? schema::quoted_list(key.words)
                                             : std::string(short_description(key.type));
-  if (const std::string range = schema::range_text(key.range); !range.empty()) text += " " + range;
+  if (key.type == Type::number && !range.empty())
+    text = range;
+  else if (!range.empty())
+    text += " " + range;
   if (key.dimension != schema::Dimension::none)
     text += fmt::format(", {}", schema::unit(key.dimension));
   const bool is_required = key.default_note.starts_with("required");
@@ -164,9 +175,10 @@ std::string reference_page() {
       "# The case file\n\n"
       "Which keys does a case have? This page is made from `meniscus/case/schema_*.cpp`.\n\n"
       "A case is a TOML file. Only the flow's kind and each drop's shape have no default. Unknown "
-      "keys and keys without effect are refused. Values are dimensionless, in the units below. "
-      "With a `[scale]` table they are in SI units, and ranges hold for the dimensionless "
-      "value. In brackets: value and unit; default; when the key applies.\n\n";
+      "keys and keys without effect are refused. Values are dimensionless, with a `[scale]` table "
+      "in SI units; ranges hold for the dimensionless value. In brackets: value and unit; default; "
+      "when the key applies. A vector is [x, y, z], a matrix three rows. Equations named here are "
+      "those of hooper2001, the paper.\n\n";
   page += fmt::format("{}\n", kOverrides);
   for (const Table& table : schema::tables()) {
     const std::string heading =

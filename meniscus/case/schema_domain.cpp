@@ -19,8 +19,8 @@ const std::vector<Key> kDomainKeys{
      .words = words::list(words::domain_shapes),
      .value = "box"s,
      .applies = "without surface",
-     .sentence = "Outer boundary; a cylinder lies along x. \"unbounded\" goes with method = "
-                 "\"boundary-integral\" and only with it."},
+     .sentence = "A cylinder lies along x. \"unbounded\" and method = \"boundary-integral\" need "
+                 "each other."},
     {.path = "domain.half-width",
      .dimension = Dimension::length,
      .range = kLength,
@@ -49,10 +49,8 @@ const std::vector<Key> kDomainKeys{
     {.path = "domain.surface",
      .type = path,
      .default_note = "none: the boundary is a shape",
-     .sentence =
-         "A closed triangulated surface in one piece, faces outward (stl, ply, obj, off, "
-         "vtp). Tags of faces: in vtp the cell array `patch`; in obj the groups (g) by "
-         "first face; in ascii stl the solids; both numbered from 0. In other files all are 0."},
+     .sentence = "Surface file as at drop.surface. Tags of faces: cell array `patch` of vtp; "
+                 "groups (g) of obj by first face, solids of ascii stl, from 0; else 0."},
     {.path = "domain.nodes",
      .type = whole,
      .range = kBoundaryNodes,
@@ -64,32 +62,30 @@ const std::vector<Key> kDomainKeys{
      .words = words::list(words::gradings),
      .value = "linear"s,
      .applies = kWithElements,
-     .sentence = "How element size passes from surface to surface (P2-P1: gaussian unless set)."},
+     .sentence = "How element size passes from surface to surface (P2-P1: gaussian by default)."},
     {.path = "domain.cell-volume",
      .type = number,
      .range = {.min = 0.1, .max = 100.0},
      .default_note = "2.0; 1.5 with P2-P1 elements",
      .applies = kWithElements,
-     .sentence = "Tetrahedra are divided above this many regular ones of the wanted edge. Half "
-                 "doubles the nodes."},
+     .sentence =
+         "Largest tetrahedron, in regular ones of the wanted edge; half doubles the nodes."},
     {.path = "domain.interior-growth",
      .range = {.min = 0.0, .max = 10.0},
      .value = 0.5,
      .applies = kWithElements,
-     .sentence = "Growth of tetrahedra with distance from the surface, inside drops and where no "
-                 "farther surface bounds the liquid."},
+     .sentence = "Growth of edges with distance from the surface, inside drops and in liquid "
+                 "without a farther surface."},
     {.path = "domain.radius-edge",
      .range = {.min = 1.1, .max = 10.0},
      .value = 1.4,
      .applies = kWithElements,
-     .sentence =
-         "TetGen's bound on circumradius over shortest edge; lower: rounder and more tetrahedra."},
+     .sentence = "Bound on circumradius over shortest edge; lower: rounder and more tetrahedra."},
     {.path = "domain.frame",
      .type = word,
      .words = words::list(words::domain_frames),
      .value = "fixed"s,
-     .sentence = "drops: domain and imposed flow move along with the drops' common centroid, which "
-                 "stays at its first place."},
+     .sentence = "drops: domain and imposed flow move along with the drops' common centroid."},
 
     {.path = "domain.patch[].name",
      .type = text,
@@ -105,8 +101,8 @@ const std::vector<Key> kDomainKeys{
      .type = word,
      .words = words::list(words::conditions),
      .value = "velocity"s,
-     .sentence = "velocity: v is given; symmetry (flat patches): neither flow through it nor "
-                 "tangential traction; open: traction is given."},
+     .sentence = "velocity: v is given; symmetry (flat patches): no flow through, no tangential "
+                 "traction; open: traction is given."},
     {.path = "domain.patch[].velocity",
      .type = velocity,
      .dimension = Dimension::velocity,
@@ -120,8 +116,8 @@ const std::vector<Key> kDomainKeys{
      .words = words::list(words::profiles),
      .value = "uniform"s,
      .applies = "with a velocity of three numbers",
-     .sentence = "parabolic: velocity · max(0, 1 - d²/a²), d the distance from profile-center, a "
-                 "the profile-radius, as in a round pipe."},
+     .sentence = "parabolic: velocity · max(0, 1 - d²/a²), d from profile-center, a the "
+                 "profile-radius, as in a pipe."},
     {.path = "domain.patch[].profile-center",
      .type = vector,
      .dimension = Dimension::length,

@@ -18,35 +18,34 @@ const std::vector<Key> kFlowKeys{
      .type = word,
      .words = words::list(words::flow_kinds),
      .default_note = "required, or gradient",
-     .sentence = "Imposed flow: v = (y, 0, 0), (x, -y/2, -z/2), (x, -y, 0) or 0. It decides how L, "
-                 "B and W are measured and a box's default conditions."},
+     .sentence = "v = (y, 0, 0), (x, -y/2, -z/2), (x, -y, 0) or 0; decides measures of drops and a "
+                 "box's default conditions."},
     {.path = "flow.gradient",
      .type = matrix,
      .dimension = Dimension::rate,
      .range = kFinite,
      .default_note = "required, or kind",
-     .sentence = "Velocity gradient G of v = G·x, row by row, trace 0."},
+     .sentence = "Velocity gradient of v = G·x by rows, trace 0."},
     {.path = "flow.capillary-number",
      .range = {.min = 0.0, .open_min = true, .infinity = true},
      .value = 1.0,
      .applies = "without [scale]",
-     .sentence = "Ca = mu_out G R0/sigma; inf: no tension. 1 or inf where neither flow nor patch "
-                 "sets a rate."},
+     .sentence = "Ca = mu_out G R0/sigma; inf: no tension. Where nothing sets a rate: 1 or inf."},
 
     {.path = "flow.reynolds-number",
      .range = kNotNegative,
      .value = 0.0,
      .applies = "without [scale]",
-     .sentence = "Re = rho_out G R0²/mu_out, in a quiescent flow the Laplace number rho_out sigma "
-                 "R0/mu_out²; 0: Stokes flow."},
+     .sentence = "Re = rho_out G R0²/mu_out, quiescent: Laplace number rho_out sigma R0/mu_out²; "
+                 "0: Stokes flow."},
     {.path = "flow.gravity",
      .type = vector,
      .dimension = Dimension::gravity,
      .range = kFinite,
      .value = Vec3(Vec3::Zero()),
      .applies = "with drop.density-ratio",
-     .sentence = "Bond number rho_out g R0²/sigma by components. Pressures are beyond the matrix's "
-                 "hydrostatic one. In SI units it needs scale.density."},
+     .sentence = "Bond number rho_out g R0²/sigma by components; pressures are beyond the matrix's "
+                 "hydrostatic one. SI units need scale.density."},
 
     {.path = "flow.schedule[].time",
      .dimension = Dimension::time,

@@ -20,8 +20,8 @@ constexpr std::string_view kWithLaw = "with viscosity-law = \"carreau-yasuda\" o
 constexpr std::string_view kWithCarreau = "with viscosity-law = \"carreau-yasuda\"";
 constexpr std::string_view kWithPowerLaw = "with viscosity-law = \"power-law\"";
 constexpr std::string_view kLawSentence =
-    "Viscosity by the rate of shear g = sqrt(2 D:D): the liquid's own times 1, or r + (1 - r) (1 + "
-    "(t g)^a)^((n - 1)/a), or g^(n - 1) between floor and ceiling.";
+    "Viscosity's factor at the rate of shear g = sqrt(2 D:D): 1, r + (1 - r)(1 + (t g)^a)^((n - "
+    "1)/a), or g^(n - 1) within bounds.";
 constexpr std::string_view kIndexSentence =
     "n: below 1 the liquid thins with shear, above 1 it thickens.";
 constexpr std::string_view kConstantSentence = "t: thinning begins at rates about 1/t.";
@@ -30,7 +30,7 @@ constexpr std::string_view kInfiniteSentence = "r: viscosity at infinite rate ov
 constexpr std::string_view kFloorSentence = "Least factor of the power law.";
 constexpr std::string_view kCeilingSentence = "Largest factor: a thinning liquid's at rest.";
 
-constexpr std::string_view kShapeRequired = "required: one of radius, axes, surface, from-run";
+constexpr std::string_view kShapeRequired = "required, or another shape";
 
 const std::vector<Key> kLiquidKeys{
     {.path = "matrix.body-force",
@@ -38,7 +38,7 @@ const std::vector<Key> kLiquidKeys{
      .dimension = Dimension::force_density,
      .range = kFinite,
      .value = Vec3(Vec3::Zero()),
-     .sentence = "Force per volume on the matrix. Only differences between liquids matter."},
+     .sentence = "Force per volume on the matrix; only differences between liquids matter."},
     {.path = "matrix.viscosity-law",
      .type = word,
      .words = words::list(words::viscosity_laws),
@@ -92,12 +92,11 @@ const std::vector<Key> kLiquidKeys{
      .dimension = Dimension::length,
      .range = kLength,
      .default_note = kShapeRequired,
-     .sentence = "Half-axes of an ellipsoid along x, y and z; the longest at most 1000 times the "
-                 "shortest."},
+     .sentence = "Half-axes of an ellipsoid along x, y, z; ratio at most 1000."},
     {.path = "drop[].surface",
      .type = path,
      .default_note = kShapeRequired,
-     .sentence = "A closed triangulated surface in one piece, faces outward (stl, ply, obj, off, "
+     .sentence = "Closed triangulated surface in one piece, faces outward (stl, ply, obj, off, "
                  "vtp), relative to the case file."},
     {.path = "drop[].from-run",
      .type = path,
@@ -108,7 +107,7 @@ const std::vector<Key> kLiquidKeys{
      .range = {.min = 0, .max = 1e9},
      .default_note = "the only drop of that run",
      .applies = "with from-run",
-     .sentence = "Which drop of that run, by its id in drops.csv."},
+     .sentence = "Its id in drops.csv of that run."},
     {.path = "drop[].viscosity-ratio",
      .range = kPositive,
      .value = 1.0,
@@ -163,8 +162,7 @@ const std::vector<Key> kLiquidKeys{
      .type = whole,
      .range = kDropNodes,
      .value = std::int64_t{110},
-     .sentence =
-         "N0, vertices on the drop as a sphere: C0 = N0/4π; other shapes get C0 ∮κ_rms² dS."},
+     .sentence = "N0, vertices as a sphere: C0 = N0/4π; other shapes get C0 ∮κ_rms² dS."},
     {.path = "drop[].body-force",
      .type = vector,
      .dimension = Dimension::force_density,
@@ -176,8 +174,8 @@ const std::vector<Key> kLiquidKeys{
      .type = word,
      .words = words::list(words::equations_of_state),
      .value = "linear"s,
-     .sentence = "Tension over that at Gamma = 1: 1 - beta (Gamma - 1), or [1 + E ln(1 - X "
-                 "Gamma)]/[1 + E ln(1 - X)]."},
+     .sentence =
+         "Relative tension: 1 - beta (Gamma - 1), or [1 + E ln(1 - X Gamma)]/[1 + E ln(1 - X)]."},
     {.path = "drop[].surfactant.elasticity",
      .range = kNotNegative,
      .default_note = "required",
@@ -190,15 +188,13 @@ const std::vector<Key> kLiquidKeys{
     {.path = "drop[].surfactant.peclet",
      .range = {.min = 0.0, .open_min = true, .infinity = true},
      .value = std::numeric_limits<double>::infinity(),
-     .sentence =
-         "Pe_s = G R0²/D_s, in quiescent cases sigma R0/(mu_out D_s); inf: no surface diffusion."},
+     .sentence = "Pe_s = G R0²/D_s, quiescent: sigma R0/(mu_out D_s); inf: no surface diffusion."},
     {.path = "drop[].surfactant.species",
      .type = text,
      .value = ""s,
      .applies = "with method = \"finite-element\"",
-     .sentence = "The [[scalar]] of kind \"species\" that it is in the liquid outside; empty: "
-                 "insoluble. Gamma gains j = Bi [K c (1 - X Gamma) - Gamma] per area and time, the "
-                 "liquid loses delta j."},
+     .sentence = "Its [[scalar]] of kind \"species\" in the liquid outside; empty: insoluble. "
+                 "Gamma gains j = Bi [K c (1 - X Gamma) - Gamma], the liquid loses delta j."},
     {.path = "drop[].surfactant.biot",
      .range = kPositive,
      .default_note = "required with species",

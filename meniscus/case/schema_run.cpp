@@ -18,39 +18,38 @@ const std::vector<Key> kRunKeys{
      .words = words::list(words::capillary_forms),
      .value = "weak"s,
      .applies = kWithElements,
-     .sentence = "Capillary force: weak (by parts, the paper's eq. 15), nodal (curvature of a "
-                 "paraboloid, eqs 16-17), balanced (no flow for constant curvature)."},
+     .sentence = "Capillary force: weak (by parts, eq. 15), nodal (a paraboloid's curvature, eqs "
+                 "16-17), balanced (no flow at constant curvature)."},
     {.path = "interface.motion-normal",
      .type = word,
      .words = words::list(words::motion_normals),
      .value = "area-vector"s,
-     .sentence = "Normal of the vertices' motion: area-vector (volume's rate at round-off), fit "
-                 "(the paper's paraboloid), smooth (fitted surface; boundary integrals), faces "
-                 "(speeds in the mean over curved faces; P2-P1)."},
+     .sentence =
+         "Normal of motion: area-vector (keeps volume to round-off), fit (the paper's paraboloid), "
+         "smooth (fitted surface; boundary integrals), faces (mean over curved faces; P2-P1)."},
     {.path = "interface.volume-motion",
      .type = word,
      .words = words::list(words::volume_motions),
      .value = "spines"s,
      .applies = kWithElements,
-     .sentence = "How inner vertices follow: along rays from the drop's centre (harmonic if not "
-                 "star-shaped or several drops), with the liquid, or by harmonic extension."},
+     .sentence = "How inner vertices follow: on rays from the drop's centre (a single star-shaped "
+                 "one; else harmonic), with the liquid, or by harmonic extension."},
     {.path = "interface.remesh-every",
      .type = whole,
      .range = kCountOrNone,
      .default_note = "0; 1 with time.control = \"paper\"",
-     .sentence = "Steps between remeshings of the interfaces. 0: where edges or the density of "
-                 "vertices leave their range; tetrahedra are kept until then."},
+     .sentence = "Steps between remeshings of the interfaces; 0: when edges or density of vertices "
+                 "leave their range."},
     {.path = "interface.equilibrium",
      .range = {.min = 0.0, .max = 0.99},
      .value = 0.0,
-     .sentence = "Remeshing slides vertices until within this fraction of an edge from where "
-                 "springs rest; 0: 0.006, less above 1000 nodes."},
+     .sentence =
+         "How near to rest remeshing slides vertices, in edges; 0: 0.006, less above 1000 nodes."},
     {.path = "interface.edge-floor",
      .dimension = Dimension::length,
      .range = {.min = 0.0, .max = 1e6},
      .default_note = "half of topology.breakup-radius",
-     .sentence =
-         "Shortest edge asked for; at most half of that with which a drop has 42 vertices."},
+     .sentence = "Shortest edge; at most half of that with which a drop has 42 vertices."},
     {.path = "interface.neck-edges",
      .type = whole,
      .range = {.min = 0, .max = 100},
@@ -72,8 +71,7 @@ const std::vector<Key> kRunKeys{
      .type = word,
      .words = words::list(words::on_off),
      .value = "on"s,
-     .sentence = "Whether close interfaces merge and films rupture; off refuses steps that make "
-                 "drops touch."},
+     .sentence = "Whether close interfaces merge and films rupture; off: drops must not touch."},
     {.path = "topology.coalescence-gap",
      .dimension = Dimension::length,
      .range = kNotNegative,
@@ -86,7 +84,7 @@ const std::vector<Key> kRunKeys{
      .words = words::list(words::methods),
      .value = "finite-element"s,
      .sentence =
-         "Elements that fill the domain, or integrals over the interfaces of an unbounded one."},
+         "Elements that fill the domain, or integrals over interfaces in an unbounded one."},
     {.path = "solver.threads",
      .type = whole,
      .range = kCount,
@@ -99,8 +97,8 @@ const std::vector<Key> kRunKeys{
      .default_note =
          "\"P2-P1\"; \"P1-P1\" with surface-tension = \"nodal\" or linear = \"paper-gmres\"",
      .applies = kWithElements,
-     .sentence = "P2-P1: quadratic velocity, linear pressure, curved at interfaces and round "
-                 "walls. P1-P1: both linear, pressure-stabilised, as in the paper."},
+     .sentence = "P2-P1: quadratic velocity, curved at interfaces and round walls. P1-P1: linear, "
+                 "pressure-stabilised, as in the paper."},
     {.path = "solver.linear",
      .type = word,
      .words = words::list(words::linear_solvers),
@@ -111,26 +109,25 @@ const std::vector<Key> kRunKeys{
     {.path = "solver.rtol",
      .range = {.min = 0.0, .max = 0.1, .open_min = true},
      .value = 1e-6,
-     .sentence =
-         "Relative residual of the linear solve; 1e-6 leaves 2.5e-5 in the rate of deformation."},
+     .sentence = "Relative residual; 1e-6 leaves 2.5e-5 in the rate of deformation."},
     {.path = "solver.max-iterations",
      .type = whole,
      .range = kCount,
      .value = std::int64_t{2000},
-     .sentence = "Linear iterations after which a solve has failed."},
+     .sentence = "Most linear iterations of a solve."},
     {.path = "solver.petsc-options",
      .type = text,
      .value = ""s,
      .applies = kWithElements,
-     .sentence = "Further options: \"-name value -name …\"."},
+     .sentence = "\"-name value -name …\"."},
 
     {.path = "time.scheme",
      .type = word,
      .words = words::list(words::time_schemes),
      .default_note = "\"semi-implicit\"; \"rk2\" with control = \"paper\"; \"implicit\" with "
                      "inertia",
-     .sentence = "Midpoint rule (the paper's eq. 22), explicit Euler (eq. 21), midpoint rule with "
-                 "damped tension, Runge-Kutta-Chebyshev with 3 to 24 solves, or that of inertia."},
+     .sentence = "Midpoint rule (eq. 22), explicit Euler (eq. 21), midpoint rule with damped "
+                 "tension, Runge-Kutta-Chebyshev of 3 to 24 solves, or inertia's."},
     {.path = "time.end",
      .dimension = Dimension::time,
      .range = kNotNegative,
@@ -140,18 +137,18 @@ const std::vector<Key> kRunKeys{
      .type = word,
      .words = words::list(words::step_controls),
      .default_note = "\"paper\" with step-factor, step-edges or \"euler\", else \"error\"",
-     .sentence = "What sets steps: the paper's rule, or an estimate of the error with bounds from "
-                 "stability, motion and necks."},
+     .sentence = "What sets steps: the paper's rule, or the error with bounds from stability, "
+                 "motion and necks."},
     {.path = "time.tolerance",
      .range = {.min = 0.0, .max = 1.0, .open_min = true},
      .value = kDefaultTolerance,
      .applies = "with control = \"error\"",
-     .sentence = "Largest estimated error of a step at a vertex, over the shortest edge there."},
+     .sentence = "Largest error of a step at a vertex, over the shortest edge there."},
     {.path = "time.step-factor",
      .range = {.min = 0.0, .max = 10.0, .open_min = true},
      .value = 0.5,
      .applies = "with control = \"paper\"",
-     .sentence = "dt = step-factor · min(1, Ca) · (shortest edge), the paper's eq. 27."},
+     .sentence = "dt = step-factor · min(1, Ca) · (shortest edge), eq. 27."},
     {.path = "time.step-edges",
      .type = word,
      .words = words::list(words::step_edges),
@@ -174,29 +171,28 @@ const std::vector<Key> kRunKeys{
      .dimension = Dimension::velocity,
      .range = kPositive,
      .default_note = "none",
-     .sentence = "The run ends once the half-length L of every drop changes by less than this per "
-                 "1/G, and by no more than in the 1/G before."},
+     .sentence = "Every drop's half-length L changes by less than this per 1/G, and no more than "
+                 "in the 1/G before."},
     {.path = "time.stop-when.broken",
      .type = flag,
      .value = false,
-     .sentence = "Whether the run ends after the step in which a drop breaks up or drops merge."},
+     .sentence = "A drop broke up, or drops merged."},
     {.path = "time.stop-when.broken-length",
      .dimension = Dimension::length,
      .range = kLength,
      .default_note = "none",
-     .sentence = "The run ends, as broken, once a drop's half-length L is beyond this and grows at "
-                 "a rising rate."},
+     .sentence = "As broken: a drop's half-length L is beyond this and grows at a rising rate."},
     {.path = "time.stop-when.length",
      .dimension = Dimension::length,
      .range = kLength,
      .default_note = "none",
-     .sentence = "The run ends once a drop's half-length L is beyond this."},
+     .sentence = "A drop's half-length L is beyond this."},
     {.path = "time.stop-when.patch-gap",
      .dimension = Dimension::length,
      .range = {.min = 0.0, .max = 1e6},
      .default_note = "0.1 where a patch is open",
      .applies = "where a patch is open",
-     .sentence = "The run ends once a drop is nearer than this to an open patch; 0: never."},
+     .sentence = "A drop is nearer than this to an open patch; 0: never."},
 
     {.path = "output.interval",
      .dimension = Dimension::time,
@@ -206,7 +202,7 @@ const std::vector<Key> kRunKeys{
     {.path = "output.volume",
      .type = flag,
      .value = true,
-     .sentence = "Whether volume meshes with velocity and pressure are written."},
+     .sentence = "Whether to write volume meshes with velocity and pressure."},
     {.path = "output.volume-interval",
      .dimension = Dimension::time,
      .range = kPositive,

@@ -21,28 +21,28 @@ const std::vector<Key> kScalarKeys{
      .type = text,
      .default_note = "required",
      .sentence =
-         "Its name in frames and tables: a letter, then letters, digits and _; not one in use."},
+         "Name in frames and tables: a letter, then letters, digits and _; not one in use."},
     {.path = "scalar[].kind",
      .type = word,
      .words = words::list(words::scalar_kinds),
      .value = "heat"s,
-     .sentence = "heat: T is the temperature. species: T is the matrix's concentration in "
-                 "equilibrium; the liquid's is partition · T."},
+     .sentence = "heat: T is the temperature; species: the matrix's concentration in equilibrium, "
+                 "a liquid's over its partition."},
     {.path = "scalar[].peclet",
      .range = {.min = 0.0, .infinity = true},
      .default_note = "required",
-     .sentence = "Pe = G R0²/D of the matrix, in a flow at rest sigma R0/(mu_out D). 0: conducts "
-                 "at once; a patch must give its value. inf: never."},
+     .sentence = "Pe = G R0²/D of the matrix, quiescent: sigma R0/(mu_out D). 0: conducts at once, "
+                 "with a value at a patch. inf: never."},
     {.path = "scalar[].convection",
      .type = flag,
      .value = true,
      .applies = kWithHistory,
-     .sentence = "Whether the flow carries it along."},
+     .sentence = "Whether the flow carries it."},
     {.path = "scalar[].brinkman",
      .range = kNotNegative,
      .value = 0.0,
      .applies = kOfHeat,
-     .sentence = "Br = mu_out (G R0)²/(k_out · unit of T), heating by dissipation; k_out: the "
+     .sentence = "Heating by dissipation, Br = mu_out (G R0)²/(k_out · unit of T), k_out the "
                  "matrix's conductivity."},
     {.path = "scalar[].initial",
      .value = 0.0,
@@ -70,7 +70,7 @@ const std::vector<Key> kScalarKeys{
      .sentence = "Width of the spot, in R0."},
     {.path = "scalar[].source",
      .value = 0.0,
-     .sentence = "q in the matrix: amount per volume and time, in G. 0 with peclet = 0."},
+     .sentence = "q in the matrix, per volume and time, in G; 0 with peclet = 0."},
     {.path = "scalar[].reference",
      .value = 0.0,
      .sentence = "The value without effect on the flow."},
@@ -139,8 +139,8 @@ const std::vector<Key> kScalarKeys{
      .type = word,
      .words = words::list(words::scalar_conditions),
      .default_note = "required",
-     .sentence = "none: nothing is conducted through it; value: T is given; flux: the conduction "
-                 "inwards is given."},
+     .sentence =
+         "none: no conduction through it; value: T is given; flux: conduction inwards is given."},
     {.path = "scalar[].patch[].value",
      .value = 0.0,
      .applies = kWithValue,

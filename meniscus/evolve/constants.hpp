@@ -56,9 +56,9 @@ inline constexpr double kMostGrowth = 2.0;
 /// [shortest edge] The way of a vertex that a step aims at, which the meshes must bear.
 inline constexpr double kAimedDisplacement = 0.4;
 /// [shortest edge] The way of the liquid past a vertex that a step aims at is `kSlipAtOne`
-/// ρ^(−1/3), within bounds (`aimed_slip`): the convected wave that a step would make grow by the
-/// fourth power of its way is damped by tension over 1/ρ of it. At 1.35 the worst wave neither
-/// grows nor decays.
+/// ρ^(−1/3), within bounds (`aimed_slip`). A step would make a convected wave grow by the fourth
+/// power of its way. Tension damps it over 1/ρ of it. At 1.35 the worst wave neither grows nor
+/// decays.
 inline constexpr double kSlipAtOne = 1.1, kLeastSlip = 0.35, kMostSlip = 1.4;
 /// [radius] What a step takes from a neck.
 inline constexpr double kAimedNeckLoss = 0.1;

@@ -22,9 +22,9 @@ namespace meniscus {
 [[nodiscard]] double longest_stable_step(const Scene& scene, TimeScheme scheme);
 
 /// The way of the liquid past a vertex, in edges, that a step may take while waves are convected
-/// over the mesh: 1.1 ρ^(−1/3) between 0.35 and 1.4, ρ = 2(μ_in + μ_out)u/σ the ratio of the rates
-/// at which a speed u convects a wave and tension smooths it. The midpoint rule makes a wave that
-/// goes the way z/k grow by z⁴/8; tension takes z/ρ of it.
+/// over the mesh. It is 1.1 ρ^(−1/3) between 0.35 and 1.4. ρ = 2(μ_in + μ_out)u/σ is the ratio of
+/// the rates at which a speed u convects a wave and tension smooths it. The midpoint rule makes a
+/// wave that goes the way z/k grow by z⁴/8; tension takes z/ρ of it.
 [[nodiscard]] double aimed_slip(double speed, double viscosities, double tension);
 
 /// The stages of a Runge–Kutta–Chebyshev step of length dt that stability takes, no more than

@@ -91,7 +91,7 @@ void end_at(StepPlan& plan, const State& state, double time) {
   while (state.t + plan.dt < time) plan.dt = std::nextafter(plan.dt, kInfinity);
 }
 
-/// The estimate of a step compares the flow at its ends and within: it would not see a jump, or the
+/// The estimate of a step compares the flow at its ends and within. It would not see a jump, or the
 /// beginning of a ramp, between its stages.
 void end_where_flow_breaks(StepPlan& plan, const State& state) {
   for (const ImposedFlow::Entry& entry : state.scene.flow.schedule()) {

@@ -112,7 +112,7 @@ void take_up(Scene& scene, std::span<const VertexField<double>> uptake, const Am
              double duration, Carriers& carriers);
 
 /// max_v dt |Δṁ_v|/(S_v ⟨Γ⟩) R/h over all vertices: how far rates of second and of first order take
-/// a concentration apart in a step, over the mean concentration, counted as `step_error` counts a
+/// a concentration apart in a step, over the mean concentration. It counts as `step_error` counts a
 /// displacement over the radius R of the drop's sphere. h is its mean edge.
 [[nodiscard]] double surfactant_error(const SurfactantPath& path, const AmountRates& second,
                                       const AmountRates& first);

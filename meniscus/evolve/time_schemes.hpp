@@ -107,11 +107,11 @@ inline constexpr double kImplicitShare = 1.0 - 0.5 * std::numbers::sqrt2;
                                        const StageSolver& solve);
 
 /// max_v dt |n·v − n·v*| / l_v over all vertices, l_v the shortest edge at the vertex when the step
-/// began: how far a step of second order and one of first order take a vertex apart along its
-/// normal, in edges. What takes a drop apart from itself as a whole is measured in the mean edge
-/// of the scene's coarsest drop, or in its own radius if that is less: the path of a satellite need
-/// not be known better than that of its parents. The result is Δt²|n·ẍ|/2 to leading order. The
-/// error of the step, of third order, is smaller; that at a fixed time is proportional to it.
+/// began. This is how far steps of second and of first order take a vertex apart along its normal,
+/// in edges. What takes a drop apart from itself as a whole is measured in the mean edge of the
+/// scene's coarsest drop, or in its own radius if that is less. The path of a satellite need not be
+/// known better than that of its parents. The result is Δt²|n·ẍ|/2 to leading order. The error of
+/// the step, of third order, is smaller; that at a fixed time is proportional to it.
 [[nodiscard]] double step_error(const Step& step, const NormalSpeeds& second,
                                 const NormalSpeeds& first);
 

@@ -12,9 +12,9 @@
 namespace meniscus {
 namespace {
 
-/// A neck is where the surface bends this much less along than around it, a sphere having 1, a
-/// cylinder 0 and the waist of a catenoid −1, and where the other side is within so many radii: a
-/// round neck has 2. The rim of a cap bends as a neck does, but has no other side.
+/// A neck is where the surface bends this much less along than around it: a sphere has 1, a
+/// cylinder 0 and the waist of a catenoid −1. Its other side is within so many radii: a round neck
+/// has 2. The rim of a cap bends as a neck does, but has no other side.
 constexpr double kMostAxialBend = 0.25, kFarthestSide = 6.0;
 
 /// Largest fraction of its radius that a neck loses: half of what its sides come closer.

@@ -32,8 +32,8 @@ namespace meniscus {
 /// elasticity −Γ dσ/dΓ in the place of σ: an elastic surface evens out short waves of Γ at the rate
 /// E|q|/(2(μ_in + μ_out)). The masses are the areas S_v of the carriers, at whose vertices the
 /// interfaces are, so that Σ S_v ∂Γ_v/∂t stays what it is. How the surface stretches belongs to
-/// these rates: where a film all but resists it, stretching and flux cancel, and damping one of
-/// them would leave the other.
+/// these rates. Where a film all but resists it, stretching and flux cancel. Damping one of them
+/// would leave the other.
 [[nodiscard]] ConcentrationRates damped_concentration_rates(
     const Scene& scene, std::span<const double> viscosity, const ConcentrationRates& rates,
     const ConcentrationRates& about, const SceneCarriers& carriers, double duration);

@@ -11,8 +11,8 @@
 
 namespace meniscus {
 
-/// The energy balance of one solution, all in [μ_out G² R0³]; in − dissipation − kinetic_rate is
-/// what the energy of the interfaces gains per time when nothing is lost.
+/// The energy balance of one solution, all in [μ_out G² R0³]. in − dissipation − kinetic_rate is
+/// what the interfaces' energy gains per time when nothing is lost.
 struct Power {
   /// Reaction of the outer boundary times its velocity, plus body force times velocity.
   double in = 0.0;

@@ -25,8 +25,8 @@ bool has_hypre() {
 std::string multigrid_options(const std::string& prefix, bool is_hypre) {
   if (!is_hypre) return fmt::format(" -{0}pc_type gamg -{0}pc_gamg_threshold 0.02", prefix);
   // HMIS coarsening, ext+i interpolation of at most 4 entries, one forward Gauss–Seidel sweep
-  // before and one backward sweep after: the fastest variant tried on scalar Laplacians of
-  // tetrahedral meshes, and as good per iteration as an exact solve (docs/benchmark-stokes.md).
+  // before and one backward sweep after. This is the fastest variant tried on scalar Laplacians of
+  // tetrahedral meshes, and as good per iteration as an exact solve.
   return fmt::format(
       " -{0}pc_type hypre -{0}pc_hypre_boomeramg_coarsen_type HMIS"
       " -{0}pc_hypre_boomeramg_interp_type ext+i -{0}pc_hypre_boomeramg_P_max 4"

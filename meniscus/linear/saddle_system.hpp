@@ -11,10 +11,9 @@ namespace meniscus::linear {
 /// A sparse matrix in compressed rows; on one rank columns rise in each row. The arrays are the
 /// caller's and must outlive every solver that was given the view.
 ///
-/// A matrix distributed over ranks has `num_rows` rows on each, and vectors that it is applied to
-/// have `num_columns` entries there; both are numbered rank by rank. `columns` holds global
-/// numbers, in each row the owned ones first, then the ghosts. Arrays may go on beyond the last
-/// row.
+/// A matrix distributed over ranks has `num_rows` rows on each. Vectors that it is applied to have
+/// `num_columns` entries there. Both are numbered rank by rank. `columns` holds global numbers, in
+/// each row the owned ones first, then the ghosts. Arrays may go on beyond the last row.
 struct CsrView {
   std::int32_t num_rows = 0, num_columns = 0;
   std::span<const std::int32_t> row_start;  ///< num_rows + 1

@@ -13,10 +13,10 @@ struct VertexWeight {
 };
 using Stencil = std::vector<VertexWeight>;
 
-/// Values at points near a vertex from values at the vertices around it: the quadratic function of
-/// the tangent-plane coordinates that has the vertex's value and fits those of its ring best
-/// (weights 1/distance²), a second ring being added where the first leaves it near singular.
-/// Error O(h³). Where two rings do not determine it the vertex's own value is returned.
+/// Values at points near a vertex from values at the vertices around it, by a quadratic function of
+/// the tangent-plane coordinates. It has the vertex's value and fits those of its ring best
+/// (weights 1/distance²). A second ring is added where the first leaves it near singular. Error
+/// O(h³). Where two rings do not determine it the vertex's own value is returned.
 class VertexInterpolation {
  public:
   VertexInterpolation(const SurfaceMesh& mesh, const SurfaceTopology& topology, VertexId v,

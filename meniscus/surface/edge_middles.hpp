@@ -7,10 +7,10 @@
 
 namespace meniscus {
 
-/// The surface that an interface's vertices stand for, whose volume is kept and whose area stores
-/// energy: the flat faces, or parabolic ones through points over the middles of their edges, on the
-/// cubic patches of SmoothSurface (the faces of the boundary integrals) or on splines (those of
-/// quadratic elements).
+/// The surface that an interface's vertices stand for. Its volume is kept and its area stores
+/// energy. Its faces are flat, or parabolic through points over the middles of their edges. These
+/// lie on the cubic patches of SmoothSurface (for boundary integrals) or on splines (for quadratic
+/// elements).
 enum class SurfaceShape { faceted, patched, splined };
 
 /// The edges 01, 12, 20 of every face by their numbers in the topology.
@@ -36,9 +36,9 @@ enum class SurfaceShape { faceted, patched, splined };
 /// by polyharmonic splines Σ c_i |(u, v) − (u_i, v_i)|⁷ plus a polynomial of degree four. Exact on
 /// spheres; the error, about O(h⁶), is a tenth of that of the cubic patches of SmoothSurface at 200
 /// vertices. Their O(h⁴) repeats from edge to edge, and a flow takes it for a corrugation: it pulls
-/// the vertices in and the middles out, 1.6 % too slow a relaxation at 110 vertices. Where the
-/// rings do not determine the spline, it would amplify the vertices' noise, or it swings far from
-/// the edge, the smooth surface's point stands. About 16 µs per edge, where the patches take 2.
+/// the vertices in and the middles out, 1.6 % too slow a relaxation at 110 vertices. The smooth
+/// surface's point stands where the rings do not determine the spline, where it would amplify
+/// noise, or where it swings far from the edge. About 16 µs per edge, where the patches take 2.
 [[nodiscard]] std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh,
                                                    const SurfaceTopology& topology);
 [[nodiscard]] std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh,

@@ -4,9 +4,9 @@
 
 namespace meniscus {
 
-/// A field of means over faces as a linear function on each face, which keeps the mean
-/// [barth1989]: fitted to the three faces across its edges, and flattened until the corners of the
-/// face lie in the range of all faces that share a vertex with it. Exact to second order.
+/// A field of means over faces as a linear function on each face, which keeps the mean [barth1989].
+/// It is fitted to the three faces across its edges. It is flattened until the corners of the face
+/// lie in the range of all faces that share a vertex with it. Exact to second order.
 class FaceReconstruction {
  public:
   FaceReconstruction(const SurfaceMesh& mesh, const SurfaceTopology& topology,

@@ -19,7 +19,7 @@ struct ForeseenVertices {
 };
 
 /// The number of vertices for edges of a given length at each vertex: ∮2/(√3 l²) dS of even
-/// triangles, or, where that is more, the pieces that the edges of the surface are cut into:
+/// triangles. Where that is more, the pieces that the edges of the surface are cut into count:
 /// needles have next to no area.
 [[nodiscard]] ForeseenVertices foresee_vertices(const SurfaceMesh& mesh,
                                                 const VertexField<double>& length);

@@ -40,10 +40,10 @@ template <int Degree>
   return m;
 }
 
-/// A fit is not determined by its points where the smallest pivot of its normal equations is less
-/// than this part of the largest, lengths being in units of the points' distance: it would amplify
-/// the noise of the vertices more than the truncation of a lower degree is worth. What asks for
-/// another value says why (docs/surfaces-and-curvature.md).
+/// Least ratio of the smallest to the largest pivot of a fit's normal equations, lengths in units
+/// of the points' distance. Below it the points do not determine the fit. It would amplify the
+/// noise of the vertices more than the truncation of a lower degree is worth. What asks for another
+/// value says why (docs/surfaces-and-curvature.md).
 inline constexpr double kLeastPivot = 1e-3;
 
 /// Weighted least squares of a function c·m about a vertex by its normal equations,

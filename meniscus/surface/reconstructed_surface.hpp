@@ -25,7 +25,7 @@ class ReconstructedSurface {
   /// ∫ σ(I − nn) dS of a tension given at the vertices [μ_out G R0³], interpolated as velocities.
   [[nodiscard]] Mat3 tension_moment(const VertexField<double>& tension) const;
   /// ∫ un dS of a velocity given at the vertices [G R0³], linear on flat faces and quadratic on
-  /// others: the middles of their edges get u from the quadratics that fit it around both ends, to
+  /// others. There the middles of edges get u from the quadratics that fit it around both ends, to
   /// O(h³).
   [[nodiscard]] Mat3 velocity_moment(const VertexField<Vec3>& u) const;
   /// dS/dt for vertices that move with this velocity, ∫div_s u dS [G R0²]: exact for flat faces,

@@ -92,8 +92,8 @@ NewSurface new_surface(const RemeshState& state) {
   return result;
 }
 
-/// Restores the volume and records by how much it had changed and how far vertices moved for it:
-/// all by the same fraction of their edges, as a face lies below the surface by κl²/16 and κl is
+/// Restores the volume and records by how much it had changed and how far vertices moved for it.
+/// All move by the same fraction of their edges: a face lies below the surface by κl²/16, and κl is
 /// about the same everywhere.
 void correct_volume(SurfaceMesh& mesh, double volume_before, const RemeshOptions& options,
                     RemeshReport& report) {

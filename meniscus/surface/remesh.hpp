@@ -23,8 +23,8 @@ struct RemeshOptions {
       kFewestVertices;  ///< however small or round the drop, its C0 is raised to give this many
   int max_sweeps = 20;
   /// Springs are at rest when every vertex is within this fraction of its l0 of its own rest. 0:
-  /// what makes the result independent of the history, 0.006 (1000/N)^½ for N > 1000 vertices (a
-  /// strain that varies over the whole surface moves no vertex by more than strain × l0/R).
+  /// what makes the result independent of the history, 0.006 (1000/N)^½ for N > 1000 vertices. A
+  /// strain that varies over the whole surface moves no vertex by more than strain × l0/R.
   double spring_tolerance = 0.0;
   /// Further upper bound on the rest length at a point (gaps, user sizes) [R0]; may be empty.
   std::function<double(const Vec3& x)> size_bound = {};

@@ -52,10 +52,10 @@ struct RemeshState {
 
 [[nodiscard]] RemeshState start_state(const RemeshReference& reference, const SurfaceMesh& mesh,
                                       const SurfaceTopology& topology);
-/// The vertex at a point y = Σ b_k x_k of the reference surface, half of the way from there to the
-/// tangent planes at the corners, ½ Σ b_k (n_k·(x_k − y)) n_k: where the curvature is even, the
-/// smooth surface, otherwise O(h³) away, at a fifth of the cost. Its rest length is
-/// Σ b_k (l0_k + ½ ∇l0_k·(y − x_k)), likewise O(h³).
+/// The vertex at a point y = Σ b_k x_k of the reference surface, moved half of the way to the
+/// tangent planes at the corners, ½ Σ b_k (n_k·(x_k − y)) n_k. It lies on the smooth surface where
+/// the curvature is even, otherwise O(h³) away. It costs a fifth. Its rest length is Σ b_k (l0_k +
+/// ½ ∇l0_k·(y − x_k)), likewise O(h³).
 [[nodiscard]] RemeshVertex vertex_at(const RemeshReference& reference, const SurfacePoint& point);
 /// Puts all vertices on the smooth surface.
 void lift_to_surface(RemeshState& state);

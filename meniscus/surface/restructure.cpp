@@ -19,7 +19,7 @@ namespace meniscus {
 namespace {
 
 // Bands. The mean after k averages over rings is one over some 6 k vertices, of which a vertex more
-// or less is 0.16/k: a band of twice that, wide enough that an edit never calls for its own
+// or less is 0.16/k. A band of twice that is wide enough that an edit never calls for its own
 // undoing.
 constexpr double kBandTimesAverages = 0.3;
 constexpr std::array<int, 3> kAverages = {2, 8, 32};  // the widest has the band of the whole

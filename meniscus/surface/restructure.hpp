@@ -16,9 +16,9 @@ struct DensityEdits {
 /// one pass lie so many rings apart that each sees the density the others left.
 DensityEdits balance_density(RemeshState& state);
 
-/// Whether a surface may stay as it is: its edges are within [0.6, 1.5] of their rest length, the
-/// number of vertices is within 0.3 of what the density asks for over some 12 of them, and within
-/// 5 % over the whole.
+/// Whether a surface may stay as it is. Its edges are within [0.6, 1.5] of their rest length. The
+/// number of vertices is within 0.3 of what the density asks for over some 12 of them, and within 5
+/// % over the whole.
 [[nodiscard]] bool has_fit_density(const RemeshState& state);
 
 /// ∮ρ dS over the smooth surface, ρ = 2/(√3 l0²) (eq. 2): the number of vertices it asks for.

@@ -86,8 +86,8 @@ FaceField<double> excess(const FaceField<double>& values, const VertexField<doub
 ///   On faces   H ← H + QH/8 + 1.2 Q²H,   ⟨κ⟩² = 2(H² + Σ(H_k − mean)²/12) − K,
 /// H_k the means over the corners' cells. H as it comes is that of the edges: for a peak ½r² it is
 /// h²/6 above the face's centre where the face's mean is h²/12, and QH = −2h²/3: hence 1/8. The
-/// normals of the patches lose the curvature of waves by its fourth order; 1.2 makes ∮⟨κ⟩² right on
-/// the mean over random smooth surfaces (0.8 does it for waves of five edges on an even lattice).
+/// normals of the patches lose the curvature of waves by its fourth order. 1.2 makes ∮⟨κ⟩² right on
+/// the mean over random smooth surfaces. 0.8 does it for waves of five edges on an even lattice.
 ///   At vertices   q ← q + 5/8 d · d²/(d² + (q̄/10)²),   q the mean over the cell, d = q − q̄ what it
 /// exceeds the mean of these over the cell by: back from that mean, 5h²/12 above the vertex's value
 /// for a peak, that of face means 2h²/3; but a d of a few per cent is noise of the fits, which

@@ -10,19 +10,19 @@ struct SurfacePoint {
   Vec3 weights = Vec3::Zero();  ///< barycentric: non-negative, sum 1
 };
 
-/// The smooth surface that a triangulation stands for: around each vertex a cubic patch, fitted to
-/// two unrolled rings in the frame of the osculating fit's normal; over a face the three patches of
-/// its corners, blended.
+/// The smooth surface that a triangulation stands for. Around each vertex it is a cubic patch,
+/// fitted to two unrolled rings in the frame of the osculating fit's normal. Over a face it blends
+/// the three patches of its corners.
 ///
 ///   S(b) = y + Σ_k w_k(b) (z_k(u, v) − n_k·(y − x_k)) n_k,   y = Σ b_k x_k,   w_k = b_k²/Σ b_j²
 ///
 /// where (u, v) are the coordinates of the flat point y in the frame of patch k. It passes through
 /// every vertex with the tangent plane of the vertex's patch; over an edge it depends on the
 /// patches of the two ends alone, so that faces join without gaps. Position error O(h⁴), normal
-/// O(h³), a patch's curvature at its vertex O(h²) on smooth surfaces; a sphere to O(h⁶). Where
-/// fewer than two rings can be seen (filaments as thin as an edge, solids of few vertices), or a
-/// patch swings away from the edges at its vertex (crumpled surfaces), patches fall back to lower
-/// degree. A value: it keeps what it needs of the mesh.
+/// O(h³), a patch's curvature at its vertex O(h²) on smooth surfaces; a sphere to O(h⁶). Patches
+/// fall back to lower degree where fewer than two rings can be seen (filaments as thin as an edge,
+/// solids of few vertices). So do those that swing away from the edges at their vertex (crumpled
+/// surfaces). A value: it keeps what it needs of the mesh.
 class SmoothSurface {
  public:
   SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& topology);

@@ -25,9 +25,9 @@ struct SurfaceChange {
 /// from, so that constants stay constant and nothing changes its sign; what has not moved keeps its
 /// value.
 ///
-/// Where a field is conserved, parts of the old faces give the new elements nearest to them what
-/// they held beyond the new values (`keep_amounts`): second order. What the area of the mesh gained
-/// or lost is shared by the piece within the old range, beyond it in equal parts: a constant stays
+/// Where a field is conserved, parts of the old faces give what they held beyond the new values to
+/// the nearest new elements (`keep_amounts`). Second order. What the area of the mesh gained or
+/// lost is shared by the piece within the old range, beyond it in equal parts: a constant stays
 /// one, but follows the area.
 ReplacedFields transferred_fields(const SurfaceFields& fields, const SurfaceChange& change);
 

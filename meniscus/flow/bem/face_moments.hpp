@@ -26,8 +26,8 @@ struct FaceMoments {
 
 /// Moments seen from a vertex of the face itself (`corner` 0, 1, 2).
 [[nodiscard]] FaceMoments corner_moments(const InterfaceElements::Face& face, std::size_t corner);
-/// Moments seen from a point off the face: quartered until every part is small beside its distance,
-/// so that the error is about the same at any distance.
+/// Moments seen from a point off the face. It is quartered until every part is small beside its
+/// distance: the error is about the same at any distance.
 [[nodiscard]] FaceMoments near_moments(const InterfaceElements::Face& face, const Vec3& x);
 
 }  // namespace meniscus::bem

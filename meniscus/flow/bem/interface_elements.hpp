@@ -10,8 +10,8 @@
 namespace meniscus::bem {
 
 /// An interface as its integrals see it: parabolic triangles through the vertices and through the
-/// middles of the edges of the smooth surface; functions on them quadratic too, their values at
-/// the middles interpolated from the vertices around. The unknowns remain values at vertices.
+/// middles of the edges of the smooth surface. Functions on them are quadratic too. Their values at
+/// the middles are interpolated from the vertices around. The unknowns remain values at vertices.
 struct InterfaceElements {
   /// How a face reads vertex values: value at node a = Σ_c to_nodes(a, c) value[columns[c]].
   struct Face {

@@ -10,7 +10,7 @@ namespace {
 constexpr double kNearOnOwn = 2.0, kNearOnOther = 4.0;
 
 /// Whether a face looks the other way than a point of the same interface. An edge of a resolved
-/// surface turns by less than 20°: the way along the surface is then longer than four edges, and a
+/// surface turns by less than 20°, so that the way along the surface is longer than four edges. A
 /// face nearer in space is of another sheet, across a film or a neck.
 bool is_turned_away(const Triangle& face, const Vec3& normal) {
   return (face[1] - face[0]).cross(face[2] - face[0]).dot(normal) < 0.0;

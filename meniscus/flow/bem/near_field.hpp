@@ -7,9 +7,9 @@
 
 namespace meniscus::bem {
 
-/// What the plain sums over all points miss at one point: faces near it integrated over their
-/// curved triangles instead of their vertices, and the density's value at the point, or at the
-/// nearest point of another surface close by, subtracted under the integral and its known integral
+/// What the plain sums over all points miss at one point. Faces near it are integrated over their
+/// curved triangles instead of their vertices. The density's value at the point, or at the nearest
+/// point of another surface close by, is subtracted under the integral. Its known integral is
 /// added. Linear in the densities.
 struct NearRow {
   std::vector<std::int32_t> columns;    ///< points

@@ -41,8 +41,8 @@ struct PieceNormals {
   }
 };
 
-/// Unit normals of the flat pieces that the given patches have at each node of a surface: faces of
-/// one patch whose normals lie within 40° of each other make one piece, whose normal is that of its
+/// Unit normals of the flat pieces that the given patches have at each node of a surface. Faces of
+/// one patch whose normals lie within 40° of each other make one piece. Its normal is that of its
 /// area vector.
 [[nodiscard]] PieceNormals piece_normals(const OuterBoundary& boundary,
                                          const std::vector<PatchId>& wanted,

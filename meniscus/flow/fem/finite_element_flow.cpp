@@ -26,7 +26,7 @@ namespace meniscus::fem {
 namespace {
 
 /// Takes a net flux out of the velocity of an interface, along its area vectors. The pressures
-/// inside keep Σ A_i·v_i at zero but for the linear solver's residual; this removes the rest, so
+/// inside keep Σ A_i·v_i at zero but for the linear solver's residual. This removes the rest, so
 /// that no volume is lost to a loose tolerance.
 void remove_net_flux(const SurfaceMesh& surface, double flux, VertexField<Vec3>& velocity) {
   const VertexField<Vec3> area = vertex_area_vectors(surface);

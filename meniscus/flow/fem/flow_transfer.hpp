@@ -40,7 +40,7 @@ struct MovingLiquids {
 
 /// Gives a velocity without divergence a momentum, by the least that three such fields add: what is
 /// left of the uniform ones. Where all densities are equal walls hold the momentum, and what
-/// differs is the solver's tolerance; uniform fields off the walls take that away in any case.
+/// differs is the solver's tolerance. Uniform fields off the walls take that away in any case.
 [[nodiscard]] std::optional<Fault> keep_momentum(const MovingLiquids& liquids,
                                                  StageProjection& projection, const Vec3& momentum,
                                                  Field<NodeId, Vec3>& v);

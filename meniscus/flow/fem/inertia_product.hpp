@@ -13,7 +13,7 @@ struct CellInertia;
 struct ConvectedCells;
 
 /// What inertia (`InertiaTerms`) does to a velocity, by cells of quadratic elements. The matrix of
-/// a cell, ∫ρφ_i(φ_j/τ + a·∇φ_j), is the same for the three components; a = v − w is taken at the
+/// a cell, ∫ρφ_i(φ_j/τ + a·∇φ_j), is the same for the three components. a = v − w is taken at the
 /// points of a rule of degree 5. Velocities have three components side by side at each node.
 class InertiaProduct {
  public:

@@ -14,7 +14,7 @@ struct KeptPreconditioner {
   int iterations = 0;     ///< of the first solve with it; 0 where none was yet
   double duration = 0.0;  ///< of the stage then [1/G]; 0 without inertia
 
-  /// Drops one made for a stage more than twice or less than half as long, which is of no use:
+  /// Drops one made for a stage more than twice or less than half as long. It would be of no use:
   /// seven times the length took 2000 iterations.
   void drop_unless_of_stage(double stage_duration);
   /// After a solve: keeps it while it saves more than it costs. To make one takes as long as three

@@ -8,8 +8,8 @@
 namespace meniscus::fem {
 
 /// The sparsity of a bilinear form: which column nodes share a cell with each row node, in rising
-/// order, and where in that list each pair of a cell's local nodes belongs, so that assembly never
-/// searches.
+/// order. It also holds where in that list each pair of a cell's local nodes belongs, so that
+/// assembly never searches.
 struct NodeGraph {
   std::int32_t num_columns = 0;
   std::vector<std::int32_t> row_start, columns;

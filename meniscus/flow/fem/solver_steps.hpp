@@ -20,9 +20,9 @@ void add_cost(StokesReport& report, const linear::LinearReport& linear_report);
 void add_step(StokesState& state, const StokesProblem& problem, std::span<const double> owned_step);
 
 /// The residual that the data alone cause where all else rests. A boundary far away has the most of
-/// it, in proportion to its distance squared: what counts is what the drops cause, the residual of
-/// the undisturbed flow, of which a boundary at 10 R0 has some 30 to 100 times as much, one at 100
-/// R0 ten thousand times. Of a product that was not told what convects.
+/// it, in proportion to its distance squared. What counts is what the drops cause, the residual of
+/// the undisturbed flow. A boundary at 10 R0 has some 30 to 100 times as much, one at 100 R0 ten
+/// thousand times. Of a product that was not told what convects.
 [[nodiscard]] double reference_residual(const StokesProblem& problem, const StokesProduct* product);
 
 }  // namespace meniscus::fem

@@ -37,8 +37,8 @@ inline constexpr std::array<std::array<std::size_t, 2>, 6> kCellEdges = {
 [[nodiscard]] std::size_t edge_node(std::size_t a, std::size_t b);
 
 /// P1 pressure, continuous in each region and double valued on interfaces (eqs 36–40 of
-/// hooper2001): one node per pair of a vertex and a region that has a cell there, in the order of
-/// vertices, then regions.
+/// hooper2001). It has one node per pair of a vertex and a region with a cell there, in the order
+/// of vertices, then regions.
 struct PressureSpace {
   NodeTable nodes;
   std::vector<TetVertexId> vertex;  ///< of each node

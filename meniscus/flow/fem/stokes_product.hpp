@@ -11,8 +11,8 @@ struct CellBatches;
 class InertiaProduct;
 
 /// What the viscous, pressure and continuity terms of quadratic elements on Newtonian liquids do to
-/// a velocity and a pressure, cell by cell, without a matrix: a cell takes 150 bytes where its
-/// share of a matrix takes 3,800 (docs/benchmark-stokes.md).
+/// a velocity and a pressure. It works cell by cell, without a matrix. A cell takes 150 bytes where
+/// its share of a matrix takes 3,800 (docs/benchmark-stokes.md).
 ///
 /// The gradient of a quadratic function is linear in barycentric coordinates, and so given by its
 /// values at the four corners. From them the stress S follows at the corners of a straight cell, or

@@ -6,7 +6,7 @@
 
 namespace meniscus::fem {
 
-/// R(u) of eqs 10 and 11, by cells, before any condition is imposed: where v is fixed, `momentum`
+/// R(u) of eqs 10 and 11, by cells, before any condition is imposed. Where v is fixed, `momentum`
 /// is the force that the boundary exerts on the fluid.
 struct StokesResidual {
   Field<NodeId, Vec3> momentum;    ///< [μ_out G R0²]

@@ -49,12 +49,12 @@ class StokesSolver {
   /// Makes and keeps the preconditioner that a fresh solve of this problem would make.
   void prepare(const StokesProblem& problem);
 
-  /// Improves `state` until the residual is below rtol times the reference: that of the state which
-  /// rests wherever it may, or 50 times that of the problem's undisturbed flow, if it has one and
-  /// that is less. Where the chosen linear solver fails it is tried again with a fresh
-  /// preconditioner, if it had a kept one, and then the others in the order block, minres,
-  /// paper-gmres, mumps (mumps below 20 000 nodes); on failure of all `state` is unchanged but
-  /// for the imposed velocities.
+  /// Improves `state` until the residual is below rtol times the reference. That is the residual of
+  /// the state which rests wherever it may. It is 50 times that of the problem's undisturbed flow,
+  /// if it has one and that is less. Where the chosen linear solver fails it is tried again with a
+  /// fresh preconditioner, if it had a kept one. Then come the others in the order block, minres,
+  /// paper-gmres, mumps (mumps below 20 000 nodes). On failure of all `state` is unchanged but for
+  /// the imposed velocities.
   StokesReport solve(const StokesProblem& problem, StokesState& state,
                      linear::Preconditioner preconditioner, PhaseTimes& times);
 

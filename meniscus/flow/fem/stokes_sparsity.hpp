@@ -13,7 +13,7 @@ class StokesSparsity {
 
   /// Numbers the columns by the index maps, and makes the scalar patterns. To be called once.
   void number_columns(const Partition* partition);
-  /// The graphs' positions take 600 bytes a node of linear elements; where no cell is added by
+  /// The graphs' positions take 600 bytes a node of linear elements. Where no cell is added by
   /// itself they are given back, and found again where one is.
   void forget_positions();
   void recall_positions(const FlowSpace& space);

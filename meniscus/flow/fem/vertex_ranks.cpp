@@ -70,8 +70,8 @@ std::vector<std::int32_t> groups_of(const FlowSpace& space, const Rows& cells) {
   return group;
 }
 
-/// Groups that share cells are neighbours, by how many cells have their first edge between them (of
-/// six edges one is enough to tell where many cells would be cut); a group weighs as many as there
+/// Groups that share cells are neighbours, by how many cells have their first edge between them. Of
+/// six edges one is enough to tell where many cells would be cut. A group weighs as many as there
 /// are cells around its vertices, which is what their rows cost.
 linear::WeightedGraph group_graph(const FlowSpace& space, const Rows& cells,
                                   const std::vector<std::int32_t>& group) {

@@ -8,10 +8,10 @@ namespace meniscus::fem {
 /// quadratic function of tangent-plane coordinates that fits the mid-edge nodes of the faces around
 /// a vertex best (weights 1/distance²), at the vertex.
 ///
-/// The flux through a quadratic face weighs its mid-edge nodes alone, so that incompressibility
-/// holds them and leaves the corners free: surface tension, whose quadratic surface is too blunt at
-/// the vertices, pulls them inward everywhere, by some 1e-3/Ca at 110 vertices. The middles are
-/// rid of it. Where they do not determine the fit, the vertex's own velocity is taken.
+/// The flux through a quadratic face weighs its mid-edge nodes alone: incompressibility holds them
+/// and leaves the corners free. The quadratic surface of tension is too blunt at the vertices. So
+/// tension pulls them inward everywhere, by some 1e-3/Ca at 110 vertices. The middles are rid of
+/// it. Where they do not determine the fit, the vertex's own velocity is taken.
 [[nodiscard]] VertexField<Vec3> vertex_velocity(const SurfaceMesh& surface,
                                                 const FaceNodeTable& faces,
                                                 const NodePositions& positions,

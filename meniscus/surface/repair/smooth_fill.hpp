@@ -11,8 +11,8 @@ namespace meniscus {
 /// given.
 [[nodiscard]] bool cap_holes(SurfaceMesh& mesh);
 
-/// Gives a part of a closed surface triangles as fine as those around it, and moves its vertices
-/// and those of `rings` rings around it on the bi-Laplace surface that joins the rest with a common
+/// Gives a part of a closed surface triangles as fine as those around it. It moves their vertices,
+/// and those of `rings` rings around, on the bi-Laplace surface that joins the rest with a common
 /// tangent plane. False when that cannot be found; the mesh is then as given.
 [[nodiscard]] bool smooth_part(SurfaceMesh& mesh, const FacePatch& part, int rings);
 

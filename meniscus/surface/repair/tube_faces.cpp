@@ -55,8 +55,8 @@ std::vector<FaceVertices> tube_faces(const SurfaceMesh& mesh, std::span<const Ve
     return (mesh.x[p[i]] - mesh.x[q[j]]).squaredNorm();
   };
   // cost[i][j]: least sum of the lines up to that from p[i] to q[j]. Neither end of a line is half
-  // a turn or more ahead of the other: one that stays while the other goes all the way around would
-  // begin and end with the same line, which the tube then has twice.
+  // a turn or more ahead of the other. One that stays while the other goes all the way around would
+  // begin and end with the same line. The tube would then have it twice.
   const auto is_ahead = [&](std::size_t i, std::size_t j) {
     return 2 * std::max(i * n, j * m) >= 2 * std::min(i * n, j * m) + m * n;
   };
