@@ -152,6 +152,7 @@ std::string stretched_drop(double step) {
 kind = "uniaxial-extension"
 capillary-number = 0.1
 [[drop]]
+radius = 1.0
 nodes = 60
 [drop.surfactant]
 elasticity = 0.2
@@ -180,7 +181,7 @@ tolerance = 1.0
                      step);
 }
 
-/// ∮Γ² dS of vertices with equal shares.
+/// The mean of Γ² over the vertices.
 double mean_square(const Evolution& evolution) {
   double sum = 0.0;
   const VertexField<double>& concentration =
