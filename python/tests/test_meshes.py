@@ -1,8 +1,11 @@
+import os
+import subprocess
+import sys
 import unittest
 
 import numpy as np
 
-from common import SHEAR, FolderCase, enclosed
+from common import BOUNDED, SHEAR, FolderCase, enclosed
 from meniscus import Case, Simulation, remesh, volume_mesh
 
 
@@ -90,6 +93,27 @@ class VolumeMeshTest(FolderCase):
                                "domain": {"shape": "box", "half-width": 10.0, "nodes": 507},
                                "time": {"end": 1.0}})
         self.assertGreater(len(Simulation(case).volume_mesh.tetrahedra), 1000)
+
+    def test_assertions_of_the_mesher_that_always_fail_are_a_runtime_error(self):
+        script = (
+            "from meniscus import Case, Simulation, volume_mesh\n"
+            f"drop = Simulation(Case.from_dict({SHEAR!r})).interfaces[0]\n"
+            "ball = (drop.points, drop.triangles)\n"
+            "for use in (lambda: volume_mesh([ball], (3 * drop.points, drop.triangles)),\n"
+            f"            lambda: Simulation(Case.from_dict({BOUNDED!r}))):\n"
+            "    try:\n"
+            "        use()\n"
+            "    except RuntimeError as error:\n"
+            "        print(error)\n"
+            f"print(len(Simulation(Case.from_dict({SHEAR!r})).interfaces))\n")
+        preloaded = [*os.environ.get("LD_PRELOAD", "").split(), os.environ["MENISCUS_FAILING_MESHER"]]
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False,
+                              env=os.environ | {"LD_PRELOAD": " ".join(preloaded)})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        made, begun, after = done.stdout.splitlines()
+        for line in (made, begun):
+            self.assertIn("Assertion `in == nullptr' failed", line)
+        self.assertEqual(after, "1")
 
 
 if __name__ == "__main__":

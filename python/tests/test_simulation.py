@@ -196,26 +196,6 @@ class RunTest(FolderCase):
 
 
 class ArrayTest(FolderCase):
-    def test_arrays_are_views_that_outlive_steps_and_the_simulation(self):
-        tables = SHEAR | {"interface": {"remesh-every": 1}}
-        simulation = Simulation(Case.from_dict(tables))
-        drop = simulation.interfaces[0]
-        taken = {"points": drop.points, "triangles": drop.triangles, **drop.fields, **drop.face_fields}
-        copies = {name: array.copy() for name, array in taken.items()}
-        self.assertFalse(drop.points.flags.owndata or drop.points.flags.writeable)
-        with self.assertRaises(ValueError):
-            drop.points[0] = 0.0
-        self.assertTrue(np.shares_memory(drop.points, simulation.interfaces[0].points))
-        simulation.run()
-        self.assertFalse(np.array_equal(simulation.interfaces[0].points, copies["points"]))
-        simulation.close()
-        del simulation, drop
-        gc.collect()
-        junk = [np.full(1000, np.nan) for _ in range(1000)]  # takes memory that was given back
-        for name, array in taken.items():
-            np.testing.assert_array_equal(array, copies[name], name)
-        del junk
-
     def test_interfaces_have_the_shape_and_fields_of_the_frames(self):
         folder = self.folder / "run"
         with Simulation(Case.from_dict(SHEAR), folder) as simulation:
@@ -246,11 +226,6 @@ class ArrayTest(FolderCase):
         self.assertEqual(mesh.pressure.shape, cells.shape)
         outer = np.linalg.norm(x, axis=1) > 2.999  # the imposed flow (x, -y, 0) on the boundary
         np.testing.assert_allclose(mesh.velocity[outer], x[outer] * [1, -1, 0], atol=1e-6)
-        kept, copy = mesh.velocity, mesh.velocity.copy()
-        del mesh
-        simulation.close()
-        gc.collect()
-        np.testing.assert_array_equal(kept, copy)
         self.assertIsNone(Simulation(Case.from_dict(SHEAR)).volume_mesh)
 
 

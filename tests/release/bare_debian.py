@@ -4,6 +4,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+import tarfile
 import tempfile
 import time
 from pathlib import Path
@@ -24,10 +25,12 @@ def require(tools):
 
 
 class BareDebian:
-    """`with BareDebian("bookworm") as debian: debian.run("apt-get update")`; the folder goes at the end."""
+    """`with BareDebian("bookworm") as debian: debian.run("apt-get update")`; the folder goes at the end.
+    `share` maps folders of this machine to where they are seen in the root."""
 
-    def __init__(self, release):
+    def __init__(self, release, share=None):
         self.release = release
+        self.share = share or {}
 
     def __enter__(self):
         self._folder = tempfile.TemporaryDirectory(prefix="bare-debian-")
@@ -43,6 +46,12 @@ class BareDebian:
         subprocess.run(command, check=True)
         print(f"a bare Debian {self.release}: {time.monotonic() - began:.0f} s", flush=True)
         shutil.copy("/etc/resolv.conf", self.path / "etc/resolv.conf")
+        # A root that goes away need not reach the disk, and its downloads are no part of its size.
+        (self.path / "etc/dpkg/dpkg.cfg.d").mkdir(exist_ok=True)
+        (self.path / "etc/dpkg/dpkg.cfg.d/unsafe-io").write_text("force-unsafe-io\n")
+        (self.path / "etc/apt/apt.conf.d/keep-nothing").write_text('APT::Keep-Downloaded-Packages "false";\n')
+        for inside in self.share.values():
+            (self.path / inside.lstrip("/")).mkdir(parents=True, exist_ok=True)
         self.run("apt-get -qq update")
         return self
 
@@ -50,14 +59,16 @@ class BareDebian:
         self._folder.cleanup()
 
     def run(self, command, *, user="root", folder="/", status=0, quiet=True):
-        """Runs a shell command in the root, with /proc and a private /dev/shm. Returns what it printed.
+        """Runs a shell command in the root, with /proc, /dev/pts and a private /dev/shm. Returns what it printed.
         Any other exit status than `status` ends the test."""
         root = shlex.quote(str(self.path))
         inside = f"cd {shlex.quote(folder)} && {command}"
         enter = f"chroot --userspec={user} {root} /usr/bin/env -i " \
                 f"HOME={'/root' if user == 'root' else '/tmp'} PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin " \
                 f"DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 OMP_NUM_THREADS=1 bash -euo pipefail -c {shlex.quote(inside)}"
-        script = f"mount -t proc proc {root}/proc && mount -t tmpfs tmpfs {root}/dev/shm && exec {enter}"
+        mounts = [f"-t proc proc {root}/proc", f"-t tmpfs tmpfs {root}/dev/shm", f"-t devpts devpts {root}/dev/pts"]
+        mounts += [f"--bind {shlex.quote(outside)} {root}{shlex.quote(inside)}" for outside, inside in self.share.items()]
+        script = " && ".join([*(f"mount {mount}" for mount in mounts), f"exec {enter}"])
         began = time.monotonic()
         done = subprocess.run(["unshare", "--mount", "--pid", "--fork", "--kill-child", "sh", "-c", script],
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -68,5 +79,26 @@ class BareDebian:
             sys.exit(f"FAILED: expected status {status}")
         return done.stdout
 
-    def megabytes(self):
-        return round(int(self.run("du -sxm /").split()[0]))
+    def copy_tree(self, repository, target):
+        """Copies what the last commit of a repository holds."""
+        folder = self.path / target.lstrip("/")
+        folder.mkdir(parents=True)
+        with tempfile.TemporaryFile() as archive:
+            subprocess.run(["git", "-C", str(repository), "archive", "HEAD"], stdout=archive, check=True)
+            archive.seek(0)
+            with tarfile.open(fileobj=archive) as tree:
+                tree.extractall(folder)
+
+    def measured(self, title, command, **how):
+        """Runs a command and prints its wall time, and how many packages and megabytes it added."""
+        before, began = self._size(), time.monotonic()
+        printed = self.run(command, **how)
+        packages, megabytes = (now - then for now, then in zip(self._size(), before))
+        print(f"{title}: {time.monotonic() - began:.0f} s, {packages} packages, {megabytes} MB", flush=True)
+        return printed
+
+    def _size(self):
+        """Packages that are installed, and megabytes on the disk."""
+        packages = list((self.path / "var/lib/dpkg/info").glob("*.list"))
+        size = subprocess.run(["du", "-sxm", str(self.path)], capture_output=True, text=True, check=True)
+        return len(packages), int(size.stdout.split()[0])

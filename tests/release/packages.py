@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The Debian packages in a bare Debian 12: installed by apt, used, built against, removed; and refused by another release.
+The notebooks are run there too.
 
     packages.py FOLDER          # holds meniscus_*.deb and libmeniscus-dev_*.deb; as root
 
@@ -13,6 +14,16 @@ from bare_debian import BareDebian, require
 
 TESTS = Path(__file__).resolve().parents[1]
 APT = "apt-get -qq -y install --no-install-recommends"
+
+# Runs the cells of notebooks as Jupyter does, one after the other.
+NOTEBOOKS = """import json, sys
+for file in sys.argv[1:]:
+    names = {"__name__": "__main__"}
+    for cell in json.load(open(file, encoding="utf-8"))["cells"]:
+        if cell["cell_type"] == "code":
+            exec(compile("".join(cell["source"]), f"{file} {cell['id']}", "exec"), names)
+    print("ran", file)
+"""
 
 
 def only(folder, pattern):
@@ -49,6 +60,24 @@ def check_program(debian):
     expect(words.split() == ["remesh", "shear-subcritical", "--overwrite"], f"completion gives {words.split()}")
 
 
+def check_pictures(debian):
+    """Stills and films, by what is recommended."""
+    debian.run("meniscus report shear-subcritical --svg --png --movie && "
+               "test -s shear-subcritical/interface.svg -a -s shear-subcritical/interface.png -a "
+               "-s shear-subcritical/interface.mp4", user="nobody:nogroup", folder="/tmp/use")
+
+
+def check_python(debian):
+    """The module, and the notebooks as they are installed."""
+    (debian.path / "tmp/use/cells.py").write_text(NOTEBOOKS, encoding="utf-8")
+
+    def use(command):
+        return debian.run(command, user="nobody:nogroup", folder="/tmp/use", quiet=False)
+
+    use("/usr/bin/python3 -c \"import meniscus; print(meniscus.__file__, meniscus.explain('drop.nodes'))\"")
+    use("cp -r /usr/share/doc/meniscus/examples . && cd examples/notebooks && MPLBACKEND=Agg python3 ../../cells.py *.ipynb")
+
+
 def check_library(debian):
     shutil.copytree(TESTS / "package", debian.path / "tmp/consumer")
     debian.run("cmake -S /tmp/consumer -B /tmp/consumer/build -G Ninja -DCMAKE_BUILD_TYPE=Release && "
@@ -65,15 +94,16 @@ def main():
         (debian.path / "packages").mkdir()
         for package in packages:
             shutil.copy(package, debian.path / "packages")
-        before = debian.megabytes()
-        debian.run(f"{APT} ./packages/meniscus_*.deb")
-        print(f"meniscus and what it needs: {debian.megabytes() - before} MB", flush=True)
+        debian.measured("meniscus and what it needs", f"{APT} ./packages/meniscus_*.deb")
         development = debian.run("dpkg-query -W -f='${Package}\\n' | grep -e '-dev$' || true").split()
         expect(not development, f"meniscus pulls in {development}")
         check_program(debian)
-        before = debian.megabytes()
-        debian.run(f"{APT} ./packages/libmeniscus-dev_*.deb g++ cmake ninja-build")
-        print(f"libmeniscus-dev, compilers and what they need: {debian.megabytes() - before} MB", flush=True)
+        recommended = debian.run("dpkg-query -W -f='${Recommends}' meniscus").replace(",", "")
+        debian.measured(f"what it recommends ({recommended})", f"{APT} {recommended}")
+        check_python(debian)
+        check_pictures(debian)
+        debian.measured("libmeniscus-dev, compilers and what they need",
+                        f"{APT} ./packages/libmeniscus-dev_*.deb g++ cmake ninja-build")
         check_library(debian)
         debian.run("apt-get -qq -y purge meniscus libmeniscus-dev")
         left = debian.run("find /usr /etc /var/lib/dpkg/info -iname '*meniscus*'").split()
