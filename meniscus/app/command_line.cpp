@@ -192,9 +192,14 @@ void add_study(CLI::App& app, Action& action) {
   command->add_option("study", arguments->study_file, "Study file (TOML)")->required();
   command->add_option("-o,--output", arguments->output,
                       "Folder for the results [the study file's name]");
-  command->add_option("-j,--jobs", arguments->jobs, "Runs at a time")
-      ->capture_default_str()
+  command->add_option("-j,--jobs", arguments->jobs, "Runs at a time [1; with --slurm: all]")
       ->check(CLI::Range(1, 1024));
+  CLI::Option* slurm = command->add_flag("--slurm", arguments->is_slurm,
+                                         "Hand the runs to Slurm, as job arrays, and wait");
+  command->add_option("--ranks", arguments->ranks, "Processors of each run, by mpirun")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1024))
+      ->needs(slurm);
   command->add_flag("--overwrite", arguments->is_overwrite,
                     "Replace runs of another case or version in that folder");
   command->add_flag("-q,--quiet", arguments->is_quiet, "Print nothing but errors");

@@ -12,7 +12,6 @@
 #include "meniscus/app/run_record.hpp"
 #include "meniscus/app/simulation.hpp"
 #include "meniscus/case/case.hpp"
-#include "meniscus/case/case_stop_rules.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
 #include "meniscus/io/archive_file.hpp"
@@ -99,7 +98,7 @@ int run(const RunArguments& arguments) {
       new_directory(folder, arguments.is_overwrite, evolution, file.parent_path());
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, file.parent_path()));
-  simulation.stop_when(stop_rules_of(c));
+  simulation.stop_when(c.stop);
   Progress progress(0.0, c.evolution.end, arguments.is_quiet);
   return simulate(simulation, RunRecord(c, arguments.case_file, text), progress, view.get());
 }
@@ -136,7 +135,7 @@ int resume(const ResumeArguments& arguments) {
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, archive.texts.at("case/folder")));
   simulation.load_schedule(archive);
-  simulation.stop_when(stop_rules_of(c));
+  simulation.stop_when(c.stop);
   return simulate(simulation, record, progress, view.get());
 }
 

@@ -145,7 +145,9 @@ void Simulation::stop_when(const StopRules& rules) {
 
 void Simulation::record(const RowObserver& show) {
   const auto [history, drops] = evolution_.rows();
-  if (judge_) end_ = judge_->judge(history.t, drops, evolution_.events(), evolution_.scene());
+  if (judge_)
+    end_ = judge_->judge(history.t, drops, evolution_.events(), evolution_.scene(),
+                         {evolution_.step_length(), evolution_.motion()});
   if (evolution_.is_finished() && !end_) end_ = RunEnd{Ending::time, ""};
   {
     const PhaseTimer timer(output_times_, "output");

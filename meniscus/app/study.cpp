@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <list>
+#include <map>
+#include <span>
 #include <thread>
 
 #include <fmt/format.h>
 
-#include "meniscus/app/child_program.hpp"
 #include "meniscus/app/interrupt.hpp"
 #include "meniscus/core/error.hpp"
 
@@ -22,62 +22,80 @@ constexpr std::chrono::milliseconds kPause{20};
 /// What is told of each run that has ended.
 using Listener = std::function<void(const StudyRun&, const StudyRunResult&)>;
 
-/// The runs at work, each in a process of its own.
+/// The runs at work, each by a task of the workers.
 class Jobs {
  public:
-  Jobs(const StudyFolders& folders, Listener listener)
-      : folders_(folders), listener_(std::move(listener)) {}
+  Jobs(const StudyFolders& folders, StudyWorkers& workers, Listener listener)
+      : folders_(folders), workers_(workers), listener_(std::move(listener)) {}
 
   [[nodiscard]] std::size_t count() const { return jobs_.size(); }
-  [[nodiscard]] bool hold(const StudyRun& run) const {
-    return std::ranges::any_of(jobs_, [&](const Job& job) { return job.run.name == run.name; });
-  }
-  /// Brings a run forward. One that is done, or cannot be, is told at once.
-  void start(const StudyRun& run) { start(run, {}); }
+  [[nodiscard]] bool hold(const StudyRun& run) const { return jobs_.contains(run.name); }
+  /// Brings runs forward. Those that are done, or cannot be, are told at once.
+  void start(std::span<const StudyRun> runs);
   /// Takes up what has ended. A run that has more to do goes on, unless `is_last`.
   void collect(bool is_last);
-  void interrupt() const {
-    for (const Job& job : jobs_) job.program.interrupt();
-  }
 
  private:
   struct Job {
     StudyRun run;
-    ChildProgram program;
-    std::vector<std::string> command;
+    std::vector<std::string> command;  // empty: an earlier call's, not known
   };
-  void start(const StudyRun& run, const std::vector<std::string>& before);
+  /// The task that brings a run forward, if there is any.
+  std::optional<StudyTask> task_for(const StudyRun& run, const std::vector<std::string>& before);
+  void start(std::span<const StudyTask> tasks);
 
   const StudyFolders& folders_;
+  StudyWorkers& workers_;
   Listener listener_;
-  std::list<Job> jobs_;
+  std::map<std::string, Job> jobs_;
 };
 
-void Jobs::start(const StudyRun& run, const std::vector<std::string>& before) {
+std::optional<StudyTask> Jobs::task_for(const StudyRun& run,
+                                        const std::vector<std::string>& before) {
   try {
     const auto command = folders_.next_command(run);
-    if (!command) return listener_(run, folders_.result(run));
-    if (*command == before) return listener_(run, {.failure = "it ended without a result"});
-    jobs_.push_back({run, ChildProgram(*command, folders_.log(run)), *command});
+    if (!command) {
+      listener_(run, folders_.result(run));
+    } else if (*command == before) {
+      listener_(run, {.failure = "it ended without a result"});
+    } else {
+      jobs_[run.name] = {run, *command};
+      return StudyTask{run.name, *command, folders_.log(run)};
+    }
   } catch (const std::exception& fault) {
     listener_(run, {.failure = fault.what()});
   }
+  return std::nullopt;
+}
+
+void Jobs::start(std::span<const StudyTask> tasks) {
+  if (!tasks.empty()) workers_.start(tasks);
+}
+
+void Jobs::start(std::span<const StudyRun> runs) {
+  std::vector<StudyTask> tasks;
+  for (const StudyRun& run : runs) {
+    if (workers_.has_taken_up(run.name))
+      jobs_[run.name] = {run, {}};
+    else if (auto task = task_for(run, {}))
+      tasks.push_back(std::move(*task));
+  }
+  start(tasks);
 }
 
 void Jobs::collect(bool is_last) {
-  std::list<Job> running = std::move(jobs_);
-  jobs_.clear();
-  for (Job& job : running) {
-    const std::optional<int> status = job.program.status();
-    if (!status)
-      jobs_.push_back(std::move(job));
-    else if (is_last)
-      continue;
-    else if (*status == 0)
-      start(job.run, job.command);
-    else
-      listener_(job.run, folders_.failure(job.run, *status));
+  std::vector<StudyTask> further;
+  for (const EndedTask& ended : workers_.ended()) {
+    const Job job = std::move(jobs_.extract(ended.name).mapped());
+    if (is_last) continue;
+    if (!ended.failure.empty())
+      listener_(job.run, {.failure = ended.failure});
+    else if (ended.status != 0)
+      listener_(job.run, folders_.failure(job.run, ended.status));
+    else if (auto task = task_for(job.run, job.command))
+      further.push_back(std::move(*task));
   }
+  start(further);
 }
 
 std::string line_of(const StudyRun& run, const StudyRunResult& result, bool is_of_bisection) {
@@ -120,28 +138,26 @@ int Study::num_failed() const {
   return count;
 }
 
-bool Study::run(int jobs, const Say& say) {
-  MENISCUS_ASSERT(jobs > 0, "{} jobs", jobs);
+bool Study::run(StudyWorkers& workers, std::size_t most, const Say& say) {
+  MENISCUS_ASSERT(most > 0, "no run at a time");
   watch_for_interrupts();
-  Jobs running(folders_, [&](const StudyRun& run, const StudyRunResult& result) {
+  Jobs running(folders_, workers, [&](const StudyRun& run, const StudyRunResult& result) {
     add(run, result);
     say(line_of(run, result, folders_.study().bisection.has_value()));
   });
-  // Runs that are done make others wanted, so that the list is made anew for each.
-  const auto next = [&]() -> std::optional<StudyRun> {
-    for (const StudyRun& run : wanted())
-      if (!running.hold(run)) return run;
-    return std::nullopt;
+  // Runs that are done make others wanted, so that the list is made anew until none is left.
+  const auto next = [&] {
+    std::vector<StudyRun> runs;
+    for (StudyRun& run : wanted())
+      if (!running.hold(run) && running.count() + runs.size() < most)
+        runs.push_back(std::move(run));
+    return runs;
   };
   for (bool is_asked = false;;) {
-    while (!is_interrupted() && running.count() < static_cast<std::size_t>(jobs)) {
-      const std::optional<StudyRun> run = next();
-      if (!run) break;
-      running.start(*run);
-    }
+    for (auto runs = next(); !is_interrupted() && !runs.empty(); runs = next()) running.start(runs);
     if (running.count() == 0) return !is_interrupted();
     if (is_interrupted() && !is_asked) {
-      running.interrupt();
+      if (!workers.interrupt()) return false;
       is_asked = true;
     }
     std::this_thread::sleep_for(kPause);

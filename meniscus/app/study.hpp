@@ -8,6 +8,7 @@
 
 #include "meniscus/app/bracket.hpp"
 #include "meniscus/app/study_run.hpp"
+#include "meniscus/app/study_workers.hpp"
 #include "meniscus/report/study_page.hpp"
 
 namespace meniscus {
@@ -19,15 +20,17 @@ struct StudyPointResult {
   std::map<double, StudyRunResult> runs;
 };
 
-/// The runs of a study, in processes beside this one. What they come to does not depend on how
-/// many run at a time.
+/// The runs of a study. What they come to does not depend on where they run, and how many at a
+/// time.
 class Study {
  public:
   explicit Study(StudyFolders folders);
 
-  /// Makes the runs that are wanted, `jobs` at a time, and calls `say` with a line for each.
-  /// Returns false when it was interrupted; runs then stop after their step, to be taken up again.
-  bool run(int jobs, const std::function<void(const std::string&)>& say);
+  /// Makes the runs that are wanted, `most` at a time, and calls `say` with a line for each.
+  /// Returns false when it was interrupted; runs then stop after their step, or go on without this
+  /// process, as the workers have it. Throws RunFailure when the workers refuse a run.
+  bool run(StudyWorkers& workers, std::size_t most,
+           const std::function<void(const std::string&)>& say);
 
   [[nodiscard]] const StudyFolders& folders() const { return folders_; }
   [[nodiscard]] const std::vector<StudyPointResult>& results() const { return results_; }

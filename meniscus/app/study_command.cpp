@@ -2,10 +2,13 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <limits>
+#include <memory>
 
 #include <fmt/format.h>
 
 #include "meniscus/app/folder_lock.hpp"
+#include "meniscus/app/slurm_workers.hpp"
 #include "meniscus/app/study.hpp"
 #include "meniscus/case/study_file.hpp"
 #include "meniscus/core/error.hpp"
@@ -23,6 +26,17 @@ fs::path output_of(const StudyArguments& arguments) {
                                   : fs::path(arguments.output);
 }
 
+std::unique_ptr<StudyWorkers> make_workers(const StudyArguments& arguments,
+                                           const fs::path& output) {
+  if (arguments.is_slurm) return std::make_unique<SlurmWorkers>(output, arguments.ranks);
+  return std::make_unique<LocalWorkers>();
+}
+
+std::string stopping_words(const StudyWorkers& workers) {
+  const std::string parting = workers.parting_words();
+  return fmt::format("stopped; the same command goes on{}{}", parting.empty() ? "" : "; ", parting);
+}
+
 void write_results(const Study& study) {
   io::write_file(study.folders().output() / kTable, study_table(study));
 }
@@ -30,11 +44,13 @@ void write_results(const Study& study) {
 }  // namespace
 
 int study_command(const StudyArguments& arguments) {
-  if (arguments.jobs < 1) reject_input("--jobs {}: must be 1 or more", arguments.jobs);
+  if (arguments.jobs && *arguments.jobs < 1)
+    reject_input("--jobs {}: must be 1 or more", *arguments.jobs);
   const StudyFile file = read_study_file(arguments.study_file);
   require_valid_cases(file);
   Study study(StudyFolders(file, output_of(arguments), arguments.is_overwrite));
   const fs::path output = study.folders().output();
+  const std::unique_ptr<StudyWorkers> workers = make_workers(arguments, output);
   std::error_code error;
   fs::create_directories(output / "runs", error);
   if (error) reject_input("output folder {} cannot be made: {}", output.string(), error.message());
@@ -45,12 +61,16 @@ int study_command(const StudyArguments& arguments) {
     fmt::print("{}\n", line);
     std::fflush(stdout);
   };
-  const bool is_done = study.run(arguments.jobs, say);
+  const std::size_t all = std::numeric_limits<std::size_t>::max();
+  const std::size_t most = arguments.jobs       ? static_cast<std::size_t>(*arguments.jobs)
+                           : arguments.is_slurm ? all
+                                                : 1;
+  const bool is_done = study.run(*workers, most, say);
   write_results(study);
   report::write_study_page(study_page(study), output / kPage);
   const int failed = study.num_failed();
   if (!is_done)
-    say("stopped; the same command goes on");
+    say(stopping_words(*workers));
   else
     say(fmt::format("done{}; see {}", failed > 0 ? fmt::format(", {} runs failed", failed) : "",
                     (output / kPage).string()));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace meniscus {
@@ -7,7 +8,10 @@ namespace meniscus {
 struct StudyArguments {
   std::string study_file;
   std::string output;  ///< empty: the study file's name without its ending
-  int jobs = 1;        ///< runs at a time
+  /// Runs at a time; none: 1, under Slurm no bound.
+  std::optional<int> jobs = {};
+  bool is_slurm = false;  ///< hands the runs to Slurm
+  int ranks = 1;          ///< processors of each run, under Slurm
   bool is_overwrite = false;
   bool is_quiet = false;
 };

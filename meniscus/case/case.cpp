@@ -9,7 +9,6 @@
 #include <sstream>
 
 #include "meniscus/case/case_parts.hpp"
-#include "meniscus/case/case_stop_rules.hpp"
 
 namespace meniscus {
 namespace {
@@ -124,7 +123,7 @@ Case parse_case(std::string_view text, const std::string& name, const std::files
   c.evolution =
       read_evolution(c.settings, c.method, c.flow_solver.elements, c.reynolds, c.flow.family());
   require_inertia_fits(c);
-  (void)read_stop_rules(c.settings, c.domain);  // marks them as used; `stop_rules_of` has them
+  c.stop = read_stop_rules(c.settings, c.domain);
   if (!c.scalars.empty() && c.evolution.follows_drops)
     c.settings.reject("domain.frame",
                       "must be \"fixed\" with a [[scalar]]: what is carried would not follow");

@@ -10,6 +10,7 @@
 
 #include "meniscus/case/settings.hpp"
 #include "meniscus/evolve/options.hpp"
+#include "meniscus/evolve/stop_rules.hpp"
 #include "meniscus/flow/bem/options.hpp"
 #include "meniscus/flow/fem/options.hpp"
 #include "meniscus/flow/flow_solver.hpp"
@@ -110,6 +111,7 @@ struct Case {
   DomainCase domain;
   std::vector<ScalarCase> scalars;
   EvolutionOptions evolution;
+  StopRules stop;  ///< when the run ends before its end time
   FlowMethod method = FlowMethod::finite_element;
   fem::Options flow_solver;       ///< options of the finite-element solver
   MovingMeshOptions volume_mesh;  ///< of finite elements

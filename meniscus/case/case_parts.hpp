@@ -36,6 +36,8 @@ void require_inertia_fits(const Case& c);
 [[nodiscard]] EvolutionOptions read_evolution(Settings& settings, FlowMethod method,
                                               fem::Elements elements, double reynolds,
                                               FlowFamily family);
+/// Reads [time.stop-when]. Rules that a case does not give leave no trace in its settings.
+[[nodiscard]] StopRules read_stop_rules(Settings& settings, const DomainCase& domain);
 /// Throws InvalidInput when a liquid is not Newtonian, as boundary integrals require.
 void require_newtonian(const Case& c);
 [[nodiscard]] FlowMethod read_method(Settings& settings, const DomainCase& domain);

@@ -135,16 +135,6 @@ class Flattener {
   Document& document_;
 };
 
-toml::table parse_toml(std::string_view text, const std::string& name) {
-  try {
-    return toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    std::string description(error.description());
-    std::ranges::replace(description, '\n', ' ');
-    reject_input("{}:{}: not valid TOML: {}", name, error.source().begin.line, description);
-  }
-}
-
 /// The value of an override: TOML, or a word without quotes.
 toml::table parse_override_value(const std::string& value) {
   try {

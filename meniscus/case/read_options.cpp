@@ -172,6 +172,26 @@ MovingMeshOptions read_volume_mesh(Settings& settings, fem::Elements elements) {
   return options;
 }
 
+StopRules read_stop_rules(Settings& settings, const DomainCase& domain) {
+  const auto number = [&](const char* key) -> std::optional<double> {
+    const std::string path = std::string("time.stop-when.") + key;
+    if (!settings.is_given(path)) return std::nullopt;
+    return settings.number(path);
+  };
+  StopRules rules;
+  rules.steady_rate = number("steady-rate");
+  rules.is_broken_by_event =
+      settings.is_given("time.stop-when.broken") && settings.flag("time.stop-when.broken");
+  rules.broken_length = number("broken-length");
+  rules.length = number("length");
+  rules.is_ended_by_patch = std::ranges::any_of(domain.patches, [](const PatchCase& patch) {
+    return patch.condition == PatchCase::Condition::open;
+  });
+  if (rules.is_ended_by_patch) rules.patch_gap = number("patch-gap");
+  if (rules.patch_gap == 0.0) rules.is_ended_by_patch = false;
+  return rules;
+}
+
 OutputOptions read_output(Settings& settings, FlowMethod method) {
   OutputOptions options;
   options.interval = settings.number("output.interval");

@@ -190,9 +190,10 @@ const std::vector<Key> kRunKeys{
     {.path = "time.stop-when.patch-gap",
      .dimension = Dimension::length,
      .range = {.min = 0.0, .max = 1e6},
-     .default_note = "0.1 where a patch is open",
+     .default_note = "the mean edge of the drop there",
      .applies = "where a patch is open",
-     .sentence = "A drop is nearer than this to an open patch; 0: never."},
+     .sentence = "A drop is nearer than this to an open patch, or would be after the next step; 0: "
+                 "never."},
 
     {.path = "output.interval",
      .dimension = Dimension::time,

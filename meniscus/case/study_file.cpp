@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "meniscus/case/case_stop_rules.hpp"
 #include "meniscus/case/table_reader.hpp"
 #include "meniscus/core/error.hpp"
 
@@ -220,7 +219,7 @@ void require_valid_cases(const StudyFile& study) {
       continue;
     }
     for (const double end : {study.bisection->from, study.bisection->to}) {
-      const StopRules stop = stop_rules_of(case_at(study, point, end));
+      const StopRules stop = case_at(study, point, end).stop;
       if (!stop.steady_rate || !(stop.is_broken_by_event || stop.broken_length))
         reject_input(
             "{}: a bisection needs time.stop-when.steady-rate, and time.stop-when.broken or "

@@ -11,8 +11,7 @@
 
 namespace meniscus {
 
-toml::table parse_toml_file(const std::filesystem::path& file) {
-  const std::string name = file.string(), text = io::read_file(file);
+toml::table parse_toml(std::string_view text, const std::string& name) {
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
@@ -20,6 +19,10 @@ toml::table parse_toml_file(const std::filesystem::path& file) {
     std::ranges::replace(description, '\n', ' ');
     reject_input("{}:{}: not valid TOML: {}", name, error.source().begin.line, description);
   }
+}
+
+toml::table parse_toml_file(const std::filesystem::path& file) {
+  return parse_toml(io::read_file(file), file.string());
 }
 
 std::string toml_text(const toml::node& node) {

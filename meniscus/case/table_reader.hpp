@@ -15,7 +15,10 @@
 
 namespace meniscus {
 
-/// Parses a TOML file. Throws InvalidInput naming file and line where it is none.
+/// Parses TOML, which messages call `name`. Throws InvalidInput naming name and line where it is
+/// none.
+[[nodiscard]] toml::table parse_toml(std::string_view text, const std::string& name);
+/// The same of a file.
 [[nodiscard]] toml::table parse_toml_file(const std::filesystem::path& file);
 
 /// A value as TOML on one line; "a table" for a table.

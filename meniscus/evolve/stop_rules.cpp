@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
+#include "meniscus/surface/remesh.hpp"
 
 namespace meniscus {
 namespace {
@@ -16,10 +18,6 @@ constexpr std::array kWords{"time", "steady", "broken", "length", "patch"};
 
 /// What a window's bounds may be off by, in round-off of the times.
 constexpr double kTimeRoundOff = 1e-12;
-
-/// [G] A drop that grows more slowly than this share of its length is no runaway: its rate may rise
-/// by the noise of a steady length.
-constexpr double kLeastGrowth = 1e-3;
 
 bool are_same_drops(std::span<const DropLength> a, std::span<const DropLength> b) {
   return std::ranges::equal(a, b, {}, &DropLength::drop, &DropLength::drop);
@@ -97,7 +95,8 @@ bool LengthRates::is_runaway(double length) const {
 }
 
 std::optional<RunEnd> StopJudge::judge(double t, std::span<const DropRow> drops,
-                                       std::span<const TopologyEvent> events, const Scene& scene) {
+                                       std::span<const TopologyEvent> events, const Scene& scene,
+                                       const StepAhead& next) {
   rates_.add(t, lengths_of(drops));
   if (rules_.is_broken_by_event && !events.empty())
     return RunEnd{Ending::broken, words_for(events.front())};
@@ -109,8 +108,8 @@ std::optional<RunEnd> StopJudge::judge(double t, std::span<const DropRow> drops,
   if (rules_.length && longest != drops.end() && longest->shape.L > *rules_.length)
     return RunEnd{Ending::length,
                   fmt::format("L of drop {} is beyond {:g} R0", longest->drop, *rules_.length)};
-  if (rules_.patch_gap > 0.0)
-    if (const auto contact = find_patch_contact(scene, rules_.patch_gap))
+  if (rules_.is_ended_by_patch)
+    if (const auto contact = find_patch_contact(scene, next, rules_.patch_gap))
       return RunEnd{Ending::patch, fmt::format("drop {} came to the open patch \"{}\"",
                                                contact->drop, contact->patch)};
   if (rules_.steady_rate && rates_.are_steady(*rules_.steady_rate))
@@ -119,17 +118,25 @@ std::optional<RunEnd> StopJudge::judge(double t, std::span<const DropRow> drops,
   return std::nullopt;
 }
 
-std::optional<PatchContact> find_patch_contact(const Scene& scene, double gap) {
+std::optional<PatchContact> find_patch_contact(const Scene& scene, const StepAhead& next,
+                                               std::optional<double> gap) {
   if (!has_open_patch(scene)) return std::nullopt;
   const SurfaceTree wall(scene.boundary.mesh);
-  for (const Interface& interface : scene.interfaces)
-    for (const Vec3& x : interface.mesh.x) {
-      const SurfaceTree::Hit hit = wall.closest(x, gap);
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+    const SurfaceMesh& mesh = scene.interfaces[i].mesh;
+    const VertexField<double> edges = mean_edges(mesh);
+    for (const VertexId v : mesh.x.ids()) {
+      const Vec3 way = next.motion.empty() ? Vec3::Zero() : Vec3(next.dt * next.motion[i][v]);
+      const double near = gap.value_or(kPatchGapInEdges * edges[v]);
+      const SurfaceTree::Hit hit = wall.closest(mesh.x[v], near + way.norm());
       if (!hit.face.is_valid()) continue;
       const Patch& patch = scene.boundary.patches[scene.boundary.patch[hit.face]];
-      if (std::holds_alternative<ImposedTraction>(patch.condition))
-        return PatchContact{interface.drop, patch.name};
+      if (!std::holds_alternative<ImposedTraction>(patch.condition)) continue;
+      const Vec3 out = face_area_vector(scene.boundary.mesh, hit.face).normalized();
+      if (hit.distance - std::max(0.0, way.dot(out)) < near)
+        return PatchContact{scene.interfaces[i].drop, patch.name};
     }
+  }
   return std::nullopt;
 }
 

@@ -16,11 +16,17 @@ namespace meniscus {
 
 /// [1/G] The window over which rules measure how fast a drop's length changes.
 inline constexpr double kRateWindow = 1.0;
-/// [R0] A drop nearer to an open patch than this ends the run where a case does not set a distance:
-/// some edge lengths, within which the patch's traction shapes the drop.
-inline constexpr double kDefaultPatchGap = 0.1;
+/// [G] A drop that grows more slowly than this share of its length is no runaway: its rate may rise
+/// by the noise of a steady length.
+inline constexpr double kLeastGrowth = 1e-3;
+/// [mean edge at the vertex] A drop nearer to an open patch than this ends the run where a case
+/// does not set a distance: the gap would have no room for a layer of cells as large as the drop's
+/// faces.
+inline constexpr double kPatchGapInEdges = 1.0;
 
-inline constexpr std::array kStopConstants{NamedConstant{"rate-window", kRateWindow}};
+inline constexpr std::array kStopConstants{NamedConstant{"rate-window", kRateWindow},
+                                           NamedConstant{"least-growth", kLeastGrowth},
+                                           NamedConstant{"patch-gap-in-edges", kPatchGapInEdges}};
 
 /// Why a run ended.
 enum class Ending {
@@ -41,10 +47,12 @@ struct StopRules {
   /// [R0] Broken: a drop is longer, and L grows at a rising rate.
   std::optional<double> broken_length = {};
   std::optional<double> length = {};  ///< [R0] upper bound of L
-  double patch_gap = 0.0;             ///< [R0] distance from an open patch; 0: none
+  bool is_ended_by_patch = false;     ///< a drop comes to an open patch
+  /// [R0] How near that is; none: `kPatchGapInEdges`.
+  std::optional<double> patch_gap = {};
 
   [[nodiscard]] bool any() const {
-    return steady_rate || is_broken_by_event || broken_length || length || patch_gap > 0.0;
+    return steady_rate || is_broken_by_event || broken_length || length || is_ended_by_patch;
   }
 };
 
@@ -86,6 +94,13 @@ struct RunEnd {
   std::string text;
 };
 
+/// The step that a run would take next.
+struct StepAhead {
+  double dt = 0.0;  ///< [1/G]
+  /// [G R0] Of the vertices of every interface; none: at rest.
+  std::span<const VertexField<Vec3>> motion = {};
+};
+
 /// Judges each step of a run by its rules.
 class StopJudge {
  public:
@@ -93,21 +108,27 @@ class StopJudge {
 
   /// Adds a time of an earlier part of the run.
   void add(double t, std::vector<DropLength> drops) { rates_.add(t, std::move(drops)); }
-  /// The end of the run, if it ends at this step.
+  /// The end of the run, if it ends at this step, before the `next` one.
   [[nodiscard]] std::optional<RunEnd> judge(double t, std::span<const DropRow> drops,
                                             std::span<const TopologyEvent> events,
-                                            const Scene& scene);
+                                            const Scene& scene, const StepAhead& next);
 
  private:
   StopRules rules_;
   LengthRates rates_;
 };
 
-/// The open patch that a drop is nearer to than `gap`, and the drop. None where nothing is.
+/// An open patch that a drop has come to, and the drop.
 struct PatchContact {
   int drop = 0;
   std::string patch;
 };
-[[nodiscard]] std::optional<PatchContact> find_patch_contact(const Scene& scene, double gap);
+/// The first drop with a vertex that is nearer to an open patch than `gap` [R0], or than the mean
+/// edge there where no gap is given, or would be after the step ahead. A step bounds the way of
+/// vertices in edges, but for the rigid motion of their drop: one step could carry a drop through
+/// the patch. None where nothing is that near.
+[[nodiscard]] std::optional<PatchContact> find_patch_contact(const Scene& scene,
+                                                             const StepAhead& next,
+                                                             std::optional<double> gap = {});
 
 }  // namespace meniscus

@@ -5,7 +5,6 @@
 #include "meniscus/app/ranks.hpp"
 #include "meniscus/app/run_parts.hpp"
 #include "meniscus/app/run_tables.hpp"
-#include "meniscus/case/case_stop_rules.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
 #include "meniscus/io/archive_file.hpp"
@@ -47,7 +46,7 @@ std::unique_ptr<DrivenRun> DrivenRun::begin(PythonCase given, const std::optiona
   if (folder) directory = new_directory(*folder, is_overwrite, evolution, given.folder());
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, given.folder()));
-  simulation.stop_when(stop_rules_of(c));
+  simulation.stop_when(c.stop);
   RunRecord record(c, given.file(), given.text());
   std::unique_ptr<DrivenRun> run(
       new DrivenRun(std::move(given), folder, std::move(simulation), std::move(record)));
@@ -87,7 +86,7 @@ std::unique_ptr<DrivenRun> DrivenRun::resume(const fs::path& source,
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, given.folder()));
   simulation.load_schedule(archive);
-  simulation.stop_when(stop_rules_of(c));
+  simulation.stop_when(c.stop);
   std::unique_ptr<DrivenRun> run(
       new DrivenRun(std::move(given), folder, std::move(simulation), std::move(record)));
   if (is_run) run->read_earlier_rows();

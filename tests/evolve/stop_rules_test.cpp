@@ -1,5 +1,6 @@
 #include "meniscus/evolve/stop_rules.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "meniscus/case/case.hpp"
+#include "meniscus/surface/remesh.hpp"
 
 namespace meniscus {
 namespace {
@@ -24,7 +26,7 @@ std::optional<double> end_of(const StopRules& rules, const std::function<double(
   StopJudge judge(rules);
   for (double t = 0.0; t < last; t += dt) {
     const std::vector<DropRow> drops{row(0, L(t))};
-    if (const auto end = judge.judge(t, drops, {}, Scene())) {
+    if (const auto end = judge.judge(t, drops, {}, Scene(), {})) {
       EXPECT_EQ(end->ending, expected) << end->text;
       return t;
     }
@@ -83,8 +85,8 @@ TEST(StopRules, LengthAloneEndsAtItsBound) {
 TEST(StopRules, AnEventBreaksOnlyWhereItIsAskedTo) {
   const std::vector<TopologyEvent> events(1);
   const std::vector<DropRow> drops{row(1, 1.0), row(2, 1.0)};
-  EXPECT_FALSE(StopJudge({.length = 9.0}).judge(1.0, drops, events, Scene()));
-  const auto end = StopJudge({.is_broken_by_event = true}).judge(1.0, drops, events, Scene());
+  EXPECT_FALSE(StopJudge({.length = 9.0}).judge(1.0, drops, events, Scene(), {}));
+  const auto end = StopJudge({.is_broken_by_event = true}).judge(1.0, drops, events, Scene(), {});
   ASSERT_TRUE(end);
   EXPECT_EQ(end->ending, Ending::broken);
 }
@@ -104,12 +106,12 @@ TEST(StopRules, RowsOfAnEarlierPartCountAsIfJudged) {
   for (int step = 0; step < 100; ++step) {
     const double t = 0.1 * step;
     const std::vector<DropRow> drops{row(0, L(t))};
-    const auto end = whole.judge(t, drops, {}, Scene());
+    const auto end = whole.judge(t, drops, {}, Scene(), {});
     if (step < 30) {
       resumed.add(t, {{0, L(t)}});
       ASSERT_FALSE(end);
     } else {
-      ASSERT_EQ(end.has_value(), resumed.judge(t, drops, {}, Scene()).has_value()) << t;
+      ASSERT_EQ(end.has_value(), resumed.judge(t, drops, {}, Scene(), {}).has_value()) << t;
       if (end) return;
     }
   }
@@ -127,14 +129,41 @@ Scene ball_in_box(double x) {
 }
 
 TEST(StopRules, OnlyAnOpenPatchIsComeTo) {
-  EXPECT_FALSE(find_patch_contact(ball_in_box(1.3), 0.1));
-  EXPECT_FALSE(find_patch_contact(ball_in_box(-1.45), 0.1));  // a wall
-  const auto contact = find_patch_contact(ball_in_box(1.45), 0.1);
+  EXPECT_FALSE(find_patch_contact(ball_in_box(1.3), {}, 0.1));
+  EXPECT_FALSE(find_patch_contact(ball_in_box(-1.45), {}, 0.1));  // a wall
+  const auto contact = find_patch_contact(ball_in_box(1.45), {}, 0.1);
   ASSERT_TRUE(contact);
   EXPECT_EQ(contact->drop, 0);
   EXPECT_EQ(contact->patch, "x+");
-  EXPECT_FALSE(StopJudge({.patch_gap = 0.02}).judge(0.0, {}, {}, ball_in_box(1.45)));
-  EXPECT_TRUE(StopJudge({.patch_gap = 0.1}).judge(0.0, {}, {}, ball_in_box(1.45)));
+  const StopRules near{.is_ended_by_patch = true, .patch_gap = 0.02};
+  EXPECT_FALSE(StopJudge(near).judge(0.0, {}, {}, ball_in_box(1.45), {}));
+  EXPECT_TRUE(StopJudge({.is_ended_by_patch = true}).judge(0.0, {}, {}, ball_in_box(1.45), {}));
+}
+
+// Without a distance of the user's the ball's own edges are it.
+TEST(StopRules, APatchIsComeToWithinAnEdge) {
+  const Scene probe = ball_in_box(0.0);
+  const SurfaceMesh& mesh = probe.interfaces.front().mesh;
+  const VertexField<double> edges = mean_edges(mesh);
+  const auto foremost =
+      std::ranges::max_element(mesh.x.ids(), {}, [&](const VertexId v) { return mesh.x[v].x(); });
+  const double reach = mesh.x[*foremost].x(), edge = edges[*foremost];
+  EXPECT_FALSE(find_patch_contact(ball_in_box(2.0 - reach - 1.1 * edge), {}));
+  EXPECT_TRUE(find_patch_contact(ball_in_box(2.0 - reach - 0.9 * edge), {}));
+}
+
+// A step may carry a drop farther than its edges are long; the way to the patch alone counts.
+TEST(StopRules, ThePatchIsForeseenAStepAhead) {
+  const Scene scene = ball_in_box(0.0);
+  const auto moving = [&](const Vec3& velocity) {
+    return std::vector{VertexField<Vec3>(scene.interfaces.front().mesh.num_vertices(), velocity)};
+  };
+  const auto onwards = moving(Vec3(2, 0, 0)), back = moving(Vec3(-2, 0, 0)),
+             across = moving(Vec3(0, 2, 0));
+  EXPECT_TRUE(find_patch_contact(scene, {0.71, onwards}, 0.1));   // 1.5 − 1.42 < 0.1
+  EXPECT_FALSE(find_patch_contact(scene, {0.69, onwards}, 0.1));  // 1.5 − 1.38 > 0.1
+  EXPECT_FALSE(find_patch_contact(scene, {0.71, back}, 0.1));
+  EXPECT_FALSE(find_patch_contact(scene, {0.71, across}, 0.1));
 }
 
 }  // namespace
