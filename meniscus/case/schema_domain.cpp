@@ -50,9 +50,15 @@ const std::vector<Key> kDomainKeys{
      .type = path,
      .default_note = "none: the boundary is a shape",
      .sentence =
-         "A closed triangulated surface in one piece, faces outward (stl, ply, obj, off, "
+         "A closed surface in one piece, of polygons (stl, ply, obj, off, "
          "vtp). Tags of faces: in vtp the cell array `patch`; in obj the groups (g) by "
          "first face; in ascii stl the solids; both numbered from 0. In other files all are 0."},
+    {.path = "domain.repair",
+     .type = flag,
+     .value = false,
+     .applies = "with domain.surface",
+     .sentence = "Mends that surface: stitches, fills holes up to a tenth of it, removes crossing "
+                 "and doubled faces."},
     {.path = "domain.nodes",
      .type = whole,
      .range = kBoundaryNodes,
