@@ -144,7 +144,7 @@ std::string text_of(const Fault& fault, const RepairReport& report) {
 }
 
 RepairedSurface surface_of(const PolygonSoup& soup, bool mends) {
-  RepairReport report{.num_faces = static_cast<int>(soup.num_faces())};
+  RepairReport report;
   TaggedSurface surface = triangulated(soup, report);
   orient(surface.mesh, report);
   if (mends && !is_sound(surface.mesh)) {

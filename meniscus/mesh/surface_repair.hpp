@@ -11,9 +11,8 @@ namespace meniscus {
 
 /// What was done to faces to make a surface of them.
 struct RepairReport {
-  int num_faces = 0;  ///< as given
-  int polygons = 0;   ///< faces of more than three corners, cut into triangles
-  int turned = 0;     ///< faces turned over
+  int polygons = 0;  ///< faces of more than three corners, cut into triangles
+  int turned = 0;    ///< faces turned over
   // By mending.
   int merged_points = 0;      ///< points dropped for others at the same place
   int removed_faces = 0;      ///< doubled or without area
@@ -26,8 +25,8 @@ struct RepairReport {
   [[nodiscard]] bool is_changed() const;
 };
 
-/// What was done, in words: "2 of 12 faces turned over, 6 of more than three corners cut into
-/// triangles"; empty if nothing was.
+/// What was done, in words: "6 faces of more than three corners cut into triangles; 2 faces
+/// turned over"; empty if nothing was.
 [[nodiscard]] std::string text_of(const RepairReport& report);
 /// The fault of a surface after repair, with the hole that was left if there is one.
 [[nodiscard]] std::string text_of(const Fault& fault, const RepairReport& report);
