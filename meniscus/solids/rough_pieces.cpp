@@ -33,19 +33,9 @@ std::vector<double> roundings() {
   return lengths;
 }
 
-/// What decides how long even triangles are to be: the surface as a whole.
-struct RoughSurface {
-  double area = 0.0;
-  double num_vertices = 0.0;
-  bool has_creases = false;
-};
-
-/// The length of even triangles on a rough surface. Slivers alone hold no corner to be rounded:
-/// triangles of the chordal error's size, on their flat faces, would show these and no more.
-double rough_edge_length(const RemeshTarget& target, const RoughSurface& surface) {
-  const double area = surface.area;
+/// The length of even triangles on a rough surface of the given area.
+double rough_edge_length(const RemeshTarget& target, double area) {
   double edge = kRoughChord * target.value;
-  if (!surface.has_creases) edge = std::max(edge, length_of_density(surface.num_vertices / area));
   if (target.by == By::nodes) edge = kRoughEdge * length_of_density(target.value / area);
   if (target.by == By::edge_length) edge = kRoughEdge * target.value;
   edge = std::max(edge, target.edge_floor);
@@ -85,16 +75,13 @@ class RoughPieces {
 Found search_rounded(const std::vector<Piece>& pieces, const RemeshTarget& target,
                      double rough_edge) {
   RoughPieces rough(pieces, rough_edge);
-  const double floor = target.by == By::chordal_error
-                           ? std::min(rough_edge, kRoughChord * target.value)
-                           : rough_edge;
   Found best;
   int passes = 0;
   for (const double rounding : roundings()) {
     std::optional<std::vector<Piece>> smooth = rough.at(rounding * rough_edge);
     if (!smooth) break;
     const int failures = rounding == kSmoothingLengths.back() ? kMostFailures : 1;
-    Found found = TargetSearch(std::move(*smooth), target, floor, failures).run();
+    Found found = TargetSearch(std::move(*smooth), target, rough_edge, failures).run();
     passes += found.report.passes;
     if (found.miss < best.miss || (best.pieces.empty() && !best.report.fault))
       best = std::move(found);
@@ -162,10 +149,8 @@ Found search_cut(const std::vector<Piece>& pieces, const RemeshTarget& target, d
 
 void require_thickness(const SurfaceMesh& mesh, const RemeshTarget& target) {
   const SurfaceTopology topology(mesh);
-  if (!has_creases(mesh, topology)) return;
-  const double area = surface_area(mesh),
-               edge = rough_edge_length(target,
-                                        {area, static_cast<double>(mesh.num_vertices()), true});
+  if (!is_rough(mesh, topology)) return;
+  const double area = surface_area(mesh), edge = rough_edge_length(target, area);
   const Creases found = creases(mesh, topology, edge);
   const double most = std::min(kMostOnCreases * area * density_of_length(edge), kMostVertices);
   if (found.pieces <= most) return;
@@ -179,18 +164,13 @@ void require_thickness(const SurfaceMesh& mesh, const RemeshTarget& target) {
 }
 
 double remesh_rough_pieces(std::vector<Piece>& pieces, const RemeshTarget& target) {
-  RoughSurface surface;
-  for (Piece& piece : pieces) {
-    const SurfaceTopology topology(piece.mesh);
-    surface.area += surface_area(piece.mesh);
-    surface.num_vertices += piece.mesh.num_vertices();
-    surface.has_creases = surface.has_creases || has_creases(piece.mesh, topology);
-    piece.is_rough = is_rough(piece.mesh, topology);
-  }
+  double area = 0.0;
+  for (const Piece& piece : pieces) area += surface_area(piece.mesh);
   double edge = 0.0;
   for (Piece& piece : pieces) {
+    piece.is_rough = is_rough(piece.mesh, SurfaceTopology(piece.mesh));
     if (!piece.is_rough) continue;
-    edge = rough_edge_length(target, surface);
+    edge = rough_edge_length(target, area);
     piece.mesh = isotropic_remesh(piece.mesh, edge);
   }
   return edge;

@@ -32,11 +32,7 @@ bool is_crease(const SurfaceMesh& mesh, const SurfaceEdge& e) {
 }  // namespace
 
 bool is_rough(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
-  return surface_quality(mesh, topology).low_angle_deg < kLowAngleDeg ||
-         has_creases(mesh, topology);
-}
-
-bool has_creases(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
+  if (surface_quality(mesh, topology).low_angle_deg < kLowAngleDeg) return true;
   return std::ranges::any_of(topology.edges(),
                              [&](const SurfaceEdge& e) { return is_crease(mesh, e); });
 }

@@ -11,9 +11,6 @@ inline constexpr double kCreaseDeg = 50.0;
 /// more than 50° along an edge, or a twentieth of the angles below 15°.
 [[nodiscard]] bool is_rough(const SurfaceMesh& mesh, const SurfaceTopology& topology);
 
-/// Whether normals turn by more than `kCreaseDeg` along an edge.
-[[nodiscard]] bool has_creases(const SurfaceMesh& mesh, const SurfaceTopology& topology);
-
 /// Edges where normals turn by more than `kCreaseDeg`.
 struct Creases {
   double pieces = 0.0;    ///< how many they are cut into, less one for each

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "meniscus/mesh/shapes.hpp"
