@@ -160,9 +160,9 @@ TEST(SurfaceRepair, DoubledAndEmptyFacesAreRemoved) {
 
 TEST(SurfaceRepair, CrossingFacesAreReplaced) {
   SurfaceMesh mesh = sphere(2000);
-  // One vertex pushed outward and sideways, over its neighbours.
+  // One vertex drawn along the sphere: its faces go below others and come out among them.
   const VertexId v{1000};
-  mesh.x[v] += 0.2 * mesh.x[v].unitOrthogonal() + 0.02 * mesh.x[v];
+  mesh.x[v] = 1.02 * (mesh.x[v] + 0.5 * mesh.x[v].unitOrthogonal()).normalized();
   ASSERT_TRUE(find_self_intersection(mesh));
   const RepairedSurface surface = surface_of(soup_of(mesh), true);
   EXPECT_FALSE(find_defect(surface.mesh)) << text_of(find_defect(surface.mesh));
