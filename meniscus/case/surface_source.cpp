@@ -133,7 +133,7 @@ TaggedSurface read_case_surface(const Case& c, const std::string& path,
     c.settings.reject(path, "is unfit: {}", text_of(*defect, surface.report));
   if (surface.report.is_changed())
     log::warning("{}: {}: {}", c.settings.source(path), file.string(), text_of(surface.report));
-  return std::move(surface);
+  return {std::move(surface.mesh), std::move(surface.tag)};
 }
 
 SurfaceMesh read_run_surface(const Case& c, const std::string& path, const RunShape& shape) {
