@@ -109,9 +109,14 @@ void add_remesh(CLI::App& app, Action& action) {
   command->add_option("--edge-floor", arguments->edge_floor, "No edge is asked to be shorter [0]");
   command->add_option("--gradation", arguments->gradation,
                       "Largest growth of the edge length per length [0.5]");
+  command->add_flag("--repair", arguments->is_repair,
+                    "Mend the surface first: stitch, fill small holes, remove crossing faces");
   command->add_flag("--json", arguments->is_json, "Print the table as JSON");
   command->add_flag("--overwrite", arguments->is_overwrite, "Replace a file of that name");
   command->footer(
+      "Faces of any number of corners are cut into triangles, and turned so that the surface is\n"
+      "not inside out. With --repair doubled faces and those without area or across others are\n"
+      "removed, open edges stitched and holes up to a tenth of the surface filled.\n"
       "Lengths are in the unit of the file. Each piece keeps its volume. Edges and corners of a\n"
       "solid are rounded over about half of the mean edge: the surface is taken to be smooth.");
   command->callback(

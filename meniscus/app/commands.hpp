@@ -57,6 +57,7 @@ struct RemeshArguments {
       chordal_error;  ///< all empty: keeps the number of vertices
   double edge_floor = 0.0;
   double gradation = kGradation;
+  bool is_repair = false;
   bool is_json = false;
   bool is_overwrite = false;
 };

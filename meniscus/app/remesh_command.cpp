@@ -52,10 +52,11 @@ RemeshTarget target_of(const RemeshArguments& arguments, int num_vertices) {
   return target;
 }
 
-SurfaceMesh read_solid(const std::string& file) {
-  SurfaceMesh mesh = io::read_surface(file).mesh;
-  if (const auto fault = find_solid_defect(mesh)) reject_input("{}: {}", file, fault->text);
-  return mesh;
+RepairedSurface read_solid(const RemeshArguments& arguments) {
+  RepairedSurface solid = io::read_surface(arguments.surface, arguments.is_repair);
+  if (const auto fault = find_solid_defect(solid.mesh))
+    reject_input("{}: {}", arguments.surface, text_of(*fault, solid.report));
+  return solid;
 }
 
 /// Calls `remesh_to`; adds the name of the file to its InvalidInput.
@@ -81,6 +82,7 @@ const char* name(RemeshTarget::By by) {
 
 /// What the command prints about one remeshing.
 struct Outcome {
+  RepairReport repair;
   RemeshTarget target;
   SurfaceQuality before, after;
   SampledDistance distance;
@@ -129,6 +131,7 @@ constexpr Row kRows[] = {
 };
 
 void print_table(const Outcome& outcome) {
+  if (outcome.repair.is_changed()) fmt::print("repaired: {}\n\n", text_of(outcome.repair));
   fmt::print("{:<22} {:>16} {:>16}\n", "", "before", "after");
   for (const Row& row : kRows) {
     const double before = row.value(outcome.before), after = row.value(outcome.after);
@@ -167,7 +170,16 @@ void print_json(const Outcome& outcome) {
     before[row.key] = json_number(row, outcome.before);
     after[row.key] = json_number(row, outcome.after);
   }
-  const Json json = {{"before", before},
+  const RepairReport& repair = outcome.repair;
+  const Json json = {{"polygons_cut", repair.polygons},
+                     {"faces_turned", repair.turned},
+                     {"points_merged", repair.merged_points},
+                     {"faces_removed", repair.removed_faces},
+                     {"edges_stitched", repair.stitched_edges},
+                     {"holes_filled", repair.filled_holes},
+                     {"largest_hole_filled", repair.largest_hole},
+                     {"crossing_faces_replaced", repair.crossing_faces},
+                     {"before", before},
                      {"after", after},
                      {"hausdorff_distance", outcome.distance.distance},
                      {"hausdorff_error", outcome.distance.error},
@@ -189,7 +201,8 @@ void print_json(const Outcome& outcome) {
 int remesh_command(const RemeshArguments& arguments) {
   const fs::path file = output_file(arguments);
   require_free(file, arguments.is_overwrite);
-  const SurfaceMesh given = read_solid(arguments.surface);
+  const RepairedSurface solid = read_solid(arguments);
+  const SurfaceMesh& given = solid.mesh;
   SurfaceMesh mesh = given;
   const RemeshTarget target = target_of(arguments, given.num_vertices());
   TargetReport report = remesh_file(arguments.surface, mesh, target);
@@ -197,7 +210,8 @@ int remesh_command(const RemeshArguments& arguments) {
     throw RunFailure(
         fmt::format("{}: could not be remeshed: {}", arguments.surface, report.text()));
   io::write_surface(file, mesh);
-  const Outcome outcome{target,
+  const Outcome outcome{solid.report,
+                        target,
                         surface_quality(given, SurfaceTopology(given)),
                         surface_quality(mesh, SurfaceTopology(mesh)),
                         hausdorff_distance(given, mesh),

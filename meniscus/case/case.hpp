@@ -27,6 +27,7 @@ struct EllipsoidShape {
 };
 struct FileShape {
   std::filesystem::path file;
+  bool is_repaired = false;
 };
 struct RunShape {
   std::filesystem::path folder;
@@ -69,6 +70,7 @@ struct DomainCase {
   Vec3 half_widths = Vec3::Constant(10.0);
   double radius = 10.0, half_length = 10.0;
   std::filesystem::path file;
+  bool is_repaired = false;  ///< the file's surface
   int nodes = 507;
   bool is_symmetric_in_z = false;  ///< the z-faces of the box default to no penetration
   std::vector<PatchCase> patches;

@@ -47,7 +47,7 @@ TaggedSurface boundary_surface(const Case& c) {
     case Shape::cylinder:
       return cylinder(domain.nodes, domain.radius, domain.half_length);
     case Shape::file:
-      return read_case_surface(c, "domain.surface", domain.file);
+      return read_case_surface(c, "domain.surface", domain.file, domain.is_repaired);
     case Shape::sphere:
     case Shape::unbounded:
       break;

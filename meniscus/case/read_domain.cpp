@@ -15,6 +15,7 @@ void read_size(Settings& settings, DomainCase& domain) {
   switch (domain.shape) {
     case Shape::file:
       domain.file = settings.file("domain.surface");
+      domain.is_repaired = settings.flag("domain.repair");
       return;
     case Shape::box:
       domain.half_widths = settings.is_given("domain.half-widths")

@@ -38,7 +38,7 @@ DropShapeCase read_shape(Settings& settings, const std::string& table) {
   const std::string_view kind = schema::leaf(found);
   if (kind == "radius") return BallShape{settings.number(found)};
   if (kind == "axes") return EllipsoidShape{read_axes(settings, found)};
-  if (kind == "surface") return FileShape{settings.file(found)};
+  if (kind == "surface") return FileShape{settings.file(found), settings.flag(table + ".repair")};
   RunShape shape{settings.file(found), std::nullopt};
   if (settings.is_given(table + ".from-drop")) shape.drop = settings.whole(table + ".from-drop");
   return shape;

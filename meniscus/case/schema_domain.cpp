@@ -51,6 +51,11 @@ const std::vector<Key> kDomainKeys{
      .default_note = "none: the boundary is a shape",
      .sentence = "Surface file as at drop.surface. Tags of faces: cell array `patch` of vtp; "
                  "groups (g) of obj by first face, solids of ascii stl, from 0; else 0."},
+    {.path = "domain.repair",
+     .type = flag,
+     .value = false,
+     .applies = "with domain.surface",
+     .sentence = "Mends that surface, as at drop.repair."},
     {.path = "domain.nodes",
      .type = whole,
      .range = kBoundaryNodes,

@@ -96,8 +96,14 @@ const std::vector<Key> kLiquidKeys{
     {.path = "drop[].surface",
      .type = path,
      .default_note = kShapeRequired,
-     .sentence = "Closed triangulated surface in one piece, faces outward (stl, ply, obj, off, "
-                 "vtp), relative to the case file."},
+     .sentence = "A closed surface in one piece, of polygons (stl, ply, obj, off, vtp), relative "
+                 "to the case file."},
+    {.path = "drop[].repair",
+     .type = flag,
+     .value = false,
+     .applies = "with drop.surface",
+     .sentence = "Mends that surface: stitches, fills holes up to a tenth of it, removes crossing "
+                 "and doubled faces."},
     {.path = "drop[].from-run",
      .type = path,
      .default_note = kShapeRequired,

@@ -119,18 +119,21 @@ double ellipsoid_volume(const Vec3& axes) { return 4.0 / 3.0 * std::numbers::pi 
 }  // namespace
 
 TaggedSurface read_case_surface(const Case& c, const std::string& path,
-                                const std::filesystem::path& file) {
+                                const std::filesystem::path& file, bool mends) {
   require_existence(c, path, file);
-  TaggedSurface surface;
+  RepairedSurface surface;
   try {
-    surface = io::read_surface(file);
+    surface = io::read_surface(file, mends);
   } catch (const InvalidInput& error) {
     c.settings.reject(path, "cannot be used: {}", error.what());
   }
   if (c.settings.scale())
     for (Vec3& x : surface.mesh.x) x /= c.settings.scale()->length;
-  require_fit(c, path, surface.mesh);
-  return surface;
+  if (const auto defect = find_defect(surface.mesh))
+    c.settings.reject(path, "is unfit: {}", text_of(*defect, surface.report));
+  if (surface.report.is_changed())
+    log::warning("{}: {}: {}", c.settings.source(path), file.string(), text_of(surface.report));
+  return {std::move(surface.mesh), std::move(surface.tag)};
 }
 
 SurfaceMesh read_run_surface(const Case& c, const std::string& path, const RunShape& shape) {
@@ -160,7 +163,7 @@ SurfaceMesh initial_surface(const Case& c, int index) {
   if (const auto* run = std::get_if<RunShape>(&drop.shape))
     mesh = read_run_surface(c, table + ".from-run", *run);
   else if (const auto* file = std::get_if<FileShape>(&drop.shape))
-    mesh = read_case_surface(c, table + ".surface", file->file).mesh;
+    mesh = read_case_surface(c, table + ".surface", file->file, file->is_repaired).mesh;
   else
     mesh = stretched_sphere(kEllipsoidOversampling * drop.nodes,
                             std::get<EllipsoidShape>(drop.shape).axes);

@@ -8,11 +8,12 @@
 
 namespace meniscus {
 
-/// Reads the surface file that a key names and makes its coordinates dimensionless by [scale].
-/// Throws InvalidInput naming the line when the file cannot be read or the surface is not closed,
-/// is inside out, or meets itself.
+/// Reads the surface file that a key names, mended if wished (`surface_of`), and makes its
+/// coordinates dimensionless by [scale]. The log says what was done to its faces.
+/// Throws InvalidInput naming the line when the file cannot be read or the surface is not closed
+/// or meets itself.
 [[nodiscard]] TaggedSurface read_case_surface(const Case& c, const std::string& path,
-                                              const std::filesystem::path& file);
+                                              const std::filesystem::path& file, bool mends);
 
 /// The shape of one drop in the newest checkpoint-<step>.h5 of a run's folder: archive entries
 /// interfaces/<i>/x (3|V| reals), interfaces/<i>/faces (3|F| integers) and interfaces/<i>/ids, the

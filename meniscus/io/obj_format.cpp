@@ -15,7 +15,7 @@ std::int64_t corner_point(const TextScanner& scanner, std::string_view word,
   return index > 0 ? index - 1 : static_cast<std::int64_t>(num_points) + index;
 }
 
-/// The rank of a group among those that have triangles, in the order they first get one.
+/// The rank of a group among those that have faces, in the order they first get one.
 int group_tag(std::vector<std::string_view>& groups, std::string_view group) {
   const auto found = std::ranges::find(groups, group);
   const auto tag = static_cast<int>(found - groups.begin());
@@ -25,27 +25,24 @@ int group_tag(std::vector<std::string_view>& groups, std::string_view group) {
 
 }  // namespace
 
-RawTriangles parse_obj(const std::filesystem::path& path, std::string_view bytes) {
+PolygonSoup parse_obj(const std::filesystem::path& path, std::string_view bytes) {
   TextScanner scanner(path, bytes);
-  RawTriangles triangles;
+  PolygonSoup soup;
   std::vector<std::string_view> groups;
   std::string_view group;
   while (scanner.next_line()) {
     const std::vector<std::string_view>& words = scanner.words();
-    if (words[0] == "v") triangles.points.push_back(scanner.point(1));
+    if (words[0] == "v") soup.points.push_back(scanner.point(1));
     if (words[0] == "g") group = words.size() > 1 ? words[1] : std::string_view();
     if (words[0] != "f") continue;  // normals, texture, materials, lines: not a surface's shape
-    if (words.size() != 4) {
-      scanner.fail("a face of {} corners; only triangles are read", words.size() - 1);
+    require_corners(scanner, static_cast<std::int64_t>(words.size()) - 1);
+    for (std::size_t k = 1; k < words.size(); ++k) {
+      soup.corners.push_back(corner_point(scanner, words[k], soup.points.size()));
     }
-    std::array<std::int64_t, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      corners[k] = corner_point(scanner, words[k + 1], triangles.points.size());
-    }
-    triangles.corners.push_back(corners);
-    triangles.tags.push_back(group_tag(groups, group));
+    soup.end_face();
+    soup.tags.push_back(group_tag(groups, group));
   }
-  return triangles;
+  return soup;
 }
 
 std::string format_obj(const SurfaceMesh& mesh) {

@@ -3,7 +3,7 @@
 
 namespace meniscus::io {
 
-RawTriangles parse_off(const std::filesystem::path& path, std::string_view bytes) {
+PolygonSoup parse_off(const std::filesystem::path& path, std::string_view bytes) {
   TextScanner scanner(path, bytes);
   scanner.require_line("`OFF`");
   // COFF and NOFF add colours and normals after the coordinates; they are passed over.
@@ -14,18 +14,21 @@ RawTriangles parse_off(const std::filesystem::path& path, std::string_view bytes
   const std::size_t first = are_counts_here ? 1 : 0;
   const std::int64_t num_points = scanner.integer(first), num_faces = scanner.integer(first + 1);
 
-  RawTriangles triangles;
+  PolygonSoup soup;
   for (std::int64_t i = 0; i < num_points; ++i) {
     scanner.require_line("a point");
-    triangles.points.push_back(scanner.point(0));
+    soup.points.push_back(scanner.point(0));
   }
   for (std::int64_t f = 0; f < num_faces; ++f) {
     scanner.require_line("a face");
-    if (scanner.integer(0) != 3)
-      scanner.fail("a face of {} corners; only triangles are read", scanner.integer(0));
-    triangles.corners.push_back({scanner.integer(1), scanner.integer(2), scanner.integer(3)});
+    const std::int64_t num_corners = scanner.integer(0);
+    require_corners(scanner, num_corners);
+    for (std::int64_t k = 1; k <= num_corners; ++k) {
+      soup.corners.push_back(scanner.integer(static_cast<std::size_t>(k)));
+    }
+    soup.end_face();
   }
-  return triangles;
+  return soup;
 }
 
 std::string format_off(const SurfaceMesh& mesh) {

@@ -132,7 +132,7 @@ bool is_corner_list(const Property& property) {
   return property.name == "vertex_indices" || property.name == "vertex_index";
 }
 
-void read_vertex(Body& body, const Element& element, RawTriangles& triangles) {
+void read_vertex(Body& body, const Element& element, PolygonSoup& soup) {
   Vec3 x = Vec3::Zero();
   for (const Property& property : element.properties) {
     if (property.count) body.fail("the vertices have a list `{}`", printable(property.name));
@@ -141,51 +141,51 @@ void read_vertex(Body& body, const Element& element, RawTriangles& triangles) {
     if (property.name == "y") x[1] = value;
     if (property.name == "z") x[2] = value;
   }
-  triangles.points.push_back(x);
+  soup.points.push_back(x);
 }
 
-void read_list(Body& body, const Property& property, RawTriangles* triangles) {
+void read_list(Body& body, const Property& property, PolygonSoup* soup) {
   const double length = body.next(*property.count);
   // 2³¹: above it no list of a mesh is meant
   if (!(length >= 0.0 && length < 0x1p31)) body.fail("a list of {} numbers", length);
   const auto count = static_cast<std::int64_t>(length);
-  if (triangles == nullptr) {
+  if (soup == nullptr) {
     for (std::int64_t i = 0; i < count; ++i) body.next(property.value);
     return;
   }
-  if (count != 3) body.fail("a face of {} corners; only triangles are read", count);
-  std::array<std::int64_t, 3>& corners = triangles->corners.emplace_back();
-  for (std::int64_t& corner : corners) {
+  require_corners(body, count);
+  for (std::int64_t i = 0; i < count; ++i) {
     // −1, which no file may name, stands for what no integer holds.
     const double value = body.next(property.value);
-    corner = value >= 0.0 && value < 0x1p32 ? static_cast<std::int64_t>(value) : -1;
+    soup->corners.push_back(value >= 0.0 && value < 0x1p32 ? static_cast<std::int64_t>(value) : -1);
   }
+  soup->end_face();
 }
 
 /// Reads one instance of an element that is not a vertex; the corners of faces are kept.
-void read_other(Body& body, const Element& element, RawTriangles& triangles) {
+void read_other(Body& body, const Element& element, PolygonSoup& soup) {
   for (const Property& property : element.properties) {
     const bool is_kept = element.name == "face" && is_corner_list(property);
-    if (property.count) read_list(body, property, is_kept ? &triangles : nullptr);
+    if (property.count) read_list(body, property, is_kept ? &soup : nullptr);
     if (!property.count) body.next(property.value);
   }
 }
 
 }  // namespace
 
-RawTriangles parse_ply(const std::filesystem::path& path, std::string_view bytes) {
+PolygonSoup parse_ply(const std::filesystem::path& path, std::string_view bytes) {
   TextScanner scanner(path, bytes);
   const Header header = parse_header(scanner);
-  RawTriangles triangles;
+  PolygonSoup soup;
   Body body(scanner, header.encoding);
   for (const Element& element : header.elements) {
     if (element.properties.empty()) continue;
     for (std::int64_t i = 0; i < element.count; ++i) {
-      if (element.name == "vertex") read_vertex(body, element, triangles);
-      if (element.name != "vertex") read_other(body, element, triangles);
+      if (element.name == "vertex") read_vertex(body, element, soup);
+      if (element.name != "vertex") read_other(body, element, soup);
     }
   }
-  return triangles;
+  return soup;
 }
 
 std::string format_ply(const SurfaceMesh& mesh) {

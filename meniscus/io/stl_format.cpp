@@ -16,36 +16,35 @@ namespace {
 // three corners as 12 floats, and 2 bytes without meaning.
 constexpr std::size_t header_size = 80, preamble_size = 84, facet_size = 50, normal_size = 12;
 
-/// Triangles whose equal corners become one point.
+/// Faces whose equal corners become one point.
 class CornerMerger {
  public:
   void add_corner(const Vec3& x) {
     const std::array<double, 3> key = {x[0] + 0.0, x[1] + 0.0, x[2] + 0.0};  // −0 is 0
-    const auto next = static_cast<std::int64_t>(triangles_.points.size());
+    const auto next = static_cast<std::int64_t>(soup_.points.size());
     if (!x.allFinite()) {  // NaN has no place in the order of keys: a point of its own, refused
                            // later
-      triangles_.points.push_back(x);
-      corners_[num_corners_++ % 3] = next;
+      soup_.points.push_back(x);
+      soup_.corners.push_back(next);
       return;
     }
     const auto [found, is_new] = point_.try_emplace(key, next);
-    if (is_new) triangles_.points.push_back(x);
-    corners_[num_corners_++ % 3] = found->second;
+    if (is_new) soup_.points.push_back(x);
+    soup_.corners.push_back(found->second);
   }
-  [[nodiscard]] int num_corners() const { return num_corners_; }
-  void finish_triangle(int tag) {
-    MENISCUS_ASSERT(num_corners_ == 3, "{} corners", num_corners_);
-    triangles_.corners.push_back(corners_);
-    triangles_.tags.push_back(tag);
-    num_corners_ = 0;
+  /// How many corners were added since the last face.
+  [[nodiscard]] std::size_t num_corners() const {
+    return soup_.corners.size() - (soup_.ends.empty() ? 0 : soup_.ends.back());
   }
-  [[nodiscard]] RawTriangles take() { return std::move(triangles_); }
+  void end_face(int tag) {
+    soup_.end_face();
+    soup_.tags.push_back(tag);
+  }
+  [[nodiscard]] PolygonSoup take() { return std::move(soup_); }
 
  private:
-  RawTriangles triangles_;
+  PolygonSoup soup_;
   std::map<std::array<double, 3>, std::int64_t> point_;
-  std::array<std::int64_t, 3> corners_ = {};
-  int num_corners_ = 0;
 };
 
 /// Whether the length is that of a binary file. (Some of them begin with "solid" all the same.)
@@ -55,7 +54,7 @@ bool is_binary(std::string_view bytes) {
   return bytes.size() == preamble_size + facet_size * std::size_t{count};
 }
 
-RawTriangles parse_binary(std::string_view bytes) {
+PolygonSoup parse_binary(std::string_view bytes) {
   CornerMerger merger;
   for (std::size_t facet = preamble_size; facet < bytes.size(); facet += facet_size) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -66,12 +65,12 @@ RawTriangles parse_binary(std::string_view bytes) {
       }
       merger.add_corner(x);
     }
-    merger.finish_triangle(0);
+    merger.end_face(0);
   }
   return merger.take();
 }
 
-RawTriangles parse_ascii(TextScanner& scanner) {
+PolygonSoup parse_ascii(TextScanner& scanner) {
   CornerMerger merger;
   int num_solids = 0;
   bool is_solid_open = false;
@@ -85,10 +84,8 @@ RawTriangles parse_ascii(TextScanner& scanner) {
     } else if (keyword == "vertex") {
       merger.add_corner(scanner.point(1));
     } else if (keyword == "endfacet") {
-      if (merger.num_corners() != 3) {
-        scanner.fail("a face of {} corners; only triangles are read", merger.num_corners());
-      }
-      merger.finish_triangle(num_solids - 1);
+      require_corners(scanner, static_cast<std::int64_t>(merger.num_corners()));
+      merger.end_face(num_solids - 1);
     } else if (keyword != "facet" && keyword != "outer" && keyword != "endloop") {
       scanner.fail("`{}` is no keyword of STL", printable(keyword));
     }
@@ -103,7 +100,7 @@ void store_point(std::string& bytes, const Vec3& x) {
 
 }  // namespace
 
-RawTriangles parse_stl(const std::filesystem::path& path, std::string_view bytes) {
+PolygonSoup parse_stl(const std::filesystem::path& path, std::string_view bytes) {
   if (is_binary(bytes)) return parse_binary(bytes);
   TextScanner scanner(path, bytes);
   TextScanner first = scanner;

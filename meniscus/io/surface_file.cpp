@@ -32,15 +32,15 @@ std::string lower_extension(const fs::path& path) {
 }
 
 /// Tags of the cell array `patch`, if the file has one.
-std::vector<int> patch_tags(const fs::path& path, const SurfaceFrame& frame) {
-  const std::vector<NamedArray>& arrays = frame.data.on_cells;
+std::vector<int> patch_tags(const fs::path& path, const PolygonFrame& frame) {
+  const std::vector<NamedArray>& arrays = frame.on_faces;
   const auto patch = std::ranges::find(arrays, "patch", &NamedArray::name);
   std::vector<int> tags;
   if (patch == arrays.end()) return tags;
   if (patch->components != 1)
     reject_input("{}: the cell array `patch` is no scalar", path.string());
-  MENISCUS_ASSERT(static_cast<std::int32_t>(patch->values.size()) == frame.mesh.num_faces(),
-                  "{} tags of {} faces", patch->values.size(), frame.mesh.num_faces());
+  MENISCUS_ASSERT(patch->values.size() == frame.soup.num_faces(), "{} tags of {} faces",
+                  patch->values.size(), frame.soup.num_faces());
   for (const double value : patch->values) {
     // 2³¹: what an int holds
     if (value != std::floor(value) || value < 0.0 || value >= 0x1p31) {
@@ -51,18 +51,13 @@ std::vector<int> patch_tags(const fs::path& path, const SurfaceFrame& frame) {
   return tags;
 }
 
-RawTriangles parse_vtp(const fs::path& path) {
-  const SurfaceFrame frame = read_vtp(path);
-  RawTriangles triangles;
-  triangles.points.assign(frame.mesh.x.begin(), frame.mesh.x.end());
-  for (const FaceVertices& f : frame.mesh.faces) {
-    triangles.corners.push_back({f[0].value, f[1].value, f[2].value});
-  }
-  triangles.tags = patch_tags(path, frame);
-  return triangles;
+PolygonSoup parse_vtp(const fs::path& path) {
+  PolygonFrame frame = read_vtp_polygons(path);
+  frame.soup.tags = patch_tags(path, frame);
+  return std::move(frame.soup);
 }
 
-RawTriangles parse(const fs::path& path) {
+PolygonSoup parse(const fs::path& path) {
   const std::string extension = lower_extension(path);
   if (extension == ".vtp") return parse_vtp(path);
   if (extension == ".stl") return parse_stl(path, read_file(path));
@@ -72,22 +67,22 @@ RawTriangles parse(const fs::path& path) {
   reject_extension(path);
 }
 
-void check(const fs::path& path, const RawTriangles& triangles) {
-  if (triangles.corners.empty()) reject_input("{}: holds no triangles", path.string());
-  const auto num_points = static_cast<std::int64_t>(triangles.points.size());
-  for (std::size_t f = 0; f < triangles.corners.size(); ++f) {
-    for (const std::int64_t corner : triangles.corners[f]) {
+void check(const fs::path& path, const PolygonSoup& soup) {
+  if (soup.num_faces() == 0) reject_input("{}: holds no faces", path.string());
+  const auto num_points = static_cast<std::int64_t>(soup.points.size());
+  for (std::size_t f = 0; f < soup.num_faces(); ++f) {
+    for (const std::int64_t corner : soup.face(f)) {
       if (corner < 0 || corner >= num_points) {
-        reject_input("{}: triangle {} has the point {}; the file has {} points", path.string(), f,
+        reject_input("{}: face {} has the point {}; the file has {} points", path.string(), f,
                      corner, num_points);
       }
     }
   }
-  for (std::size_t i = 0; i < triangles.points.size(); ++i) {
-    if (!triangles.points[i].allFinite()) {
+  for (std::size_t i = 0; i < soup.points.size(); ++i) {
+    if (!soup.points[i].allFinite()) {
       reject_input("{}: point {} has a coordinate that is not finite", path.string(), i);
     }
-    const double largest = triangles.points[i].cwiseAbs().maxCoeff();
+    const double largest = soup.points[i].cwiseAbs().maxCoeff();
     if (largest > kLargestCoordinate) {
       reject_input(
           "{}: point {} has a coordinate of size {:g}, which is too large; at most {:g} is "
@@ -97,28 +92,6 @@ void check(const fs::path& path, const RawTriangles& triangles) {
   }
 }
 
-/// The checked triangles as a mesh, without the points that none of them uses.
-TaggedSurface to_surface(const RawTriangles& triangles) {
-  TaggedSurface surface;
-  std::vector<bool> is_used(triangles.points.size(), false);
-  for (const auto& corners : triangles.corners) {
-    for (const std::int64_t corner : corners) is_used[static_cast<std::size_t>(corner)] = true;
-  }
-  std::vector<VertexId> point_to_vertex(triangles.points.size());
-  for (std::size_t i = 0; i < triangles.points.size(); ++i) {
-    if (is_used[i]) point_to_vertex[i] = surface.mesh.x.add(triangles.points[i]);
-  }
-  for (std::size_t f = 0; f < triangles.corners.size(); ++f) {
-    FaceVertices face;
-    std::ranges::transform(triangles.corners[f], face.begin(), [&](std::int64_t corner) {
-      return point_to_vertex[static_cast<std::size_t>(corner)];
-    });
-    surface.mesh.faces.add(face);
-    surface.tag.add(triangles.tags.empty() ? 0 : triangles.tags[f]);
-  }
-  return surface;
-}
-
 }  // namespace
 
 void require_surface_extension(const fs::path& path) {
@@ -126,10 +99,14 @@ void require_surface_extension(const fs::path& path) {
   if (std::ranges::find(known, lower_extension(path)) == known.end()) reject_extension(path);
 }
 
-TaggedSurface read_surface(const fs::path& path) {
-  const RawTriangles triangles = parse(path);
-  check(path, triangles);
-  return to_surface(triangles);
+PolygonSoup read_polygons(const fs::path& path) {
+  PolygonSoup soup = parse(path);
+  check(path, soup);
+  return soup;
+}
+
+RepairedSurface read_surface(const fs::path& path, bool mends) {
+  return surface_of(read_polygons(path), mends);
 }
 
 void write_surface(const fs::path& path, const SurfaceMesh& mesh) {

@@ -50,4 +50,10 @@ class TextScanner {
   int line_ = 0;
 };
 
+/// Throws unless a face has corners enough. `source` is a TextScanner, or fails as one does.
+template <class Source>
+void require_corners(const Source& source, std::int64_t count) {
+  if (count < 3) source.fail("a face of {} corners; a face has at least 3", count);
+}
+
 }  // namespace meniscus::io

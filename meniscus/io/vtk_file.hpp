@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "meniscus/mesh/polygon_soup.hpp"
 #include "meniscus/mesh/tet_mesh.hpp"
 
 namespace meniscus::io {
@@ -35,7 +36,15 @@ struct SurfaceFrame {
   SurfaceMesh mesh;  ///< all surfaces of the file as one
   MeshData data;
 };
+/// Throws InvalidInput naming the file and the fault (missing, corrupt, not all triangles).
 [[nodiscard]] SurfaceFrame read_vtp(const std::filesystem::path& path);
+
+struct PolygonFrame {
+  PolygonSoup soup;                  ///< corners may name points that are not there
+  std::vector<NamedArray> on_faces;  ///< cell data
+};
+/// As `read_vtp`, of faces with any number of corners.
+[[nodiscard]] PolygonFrame read_vtp_polygons(const std::filesystem::path& path);
 
 /// Tetrahedra as a file gives them; points that lie on each other may have numbers of their own.
 struct VolumeFrame {

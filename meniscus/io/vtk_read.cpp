@@ -72,39 +72,54 @@ auto read_data_set(const fs::path& path, const char* kind) {
   return vtkSmartPointer(reader->GetOutput());
 }
 
-VertexField<Vec3> read_points(vtkPolyData& poly) {
-  VertexField<Vec3> x;
+PolygonSoup read_soup(const fs::path& path, vtkPolyData& poly) {
+  if (poly.GetNumberOfStrips() + poly.GetNumberOfLines() + poly.GetNumberOfVerts() > 0) {
+    reject_input("{}: holds strips, lines or points; only polygons are read", path.string());
+  }
+  PolygonSoup soup;
   for (vtkIdType i = 0; i < poly.GetNumberOfPoints(); ++i) {
     const double* point = poly.GetPoint(i);
-    x.add(Vec3(point[0], point[1], point[2]));
+    soup.points.emplace_back(point[0], point[1], point[2]);
   }
-  return x;
-}
-
-FaceField<FaceVertices> read_faces(const fs::path& path, vtkPolyData& poly) {
-  if (poly.GetNumberOfStrips() + poly.GetNumberOfLines() + poly.GetNumberOfVerts() > 0) {
-    reject_input("{}: holds strips, lines or points; only triangles are read", path.string());
-  }
-  FaceField<FaceVertices> faces;
   vtkNew<vtkIdList> corners;
   for (vtkIdType c = 0; c < poly.GetPolys()->GetNumberOfCells(); ++c) {
     poly.GetPolys()->GetCellAtId(c, corners);
-    if (corners->GetNumberOfIds() != 3) {
-      reject_input("{}: face {} has {} corners; only triangles are read", path.string(), c,
+    if (corners->GetNumberOfIds() < 3) {
+      reject_input("{}: face {} has {} corners; a face has at least 3", path.string(), c,
                    corners->GetNumberOfIds());
+    }
+    for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k) {
+      soup.corners.push_back(corners->GetId(k));
+    }
+    soup.end_face();
+  }
+  return soup;
+}
+
+SurfaceMesh triangles_of(const fs::path& path, const PolygonSoup& soup) {
+  SurfaceMesh mesh;
+  for (const Vec3& x : soup.points) mesh.x.add(x);
+  for (std::size_t f = 0; f < soup.num_faces(); ++f) {
+    const std::span<const std::int64_t> corners = soup.face(f);
+    if (corners.size() != 3) {
+      reject_input("{}: face {} has {} corners; only triangles are read", path.string(), f,
+                   corners.size());
     }
     FaceVertices face;
     for (std::size_t k = 0; k < 3; ++k) {
-      const vtkIdType corner = corners->GetId(static_cast<vtkIdType>(k));
-      if (corner < 0 || corner >= poly.GetNumberOfPoints()) {
-        reject_input("{}: face {} has the point {}; the file has {} points", path.string(), c,
-                     corner, poly.GetNumberOfPoints());
+      if (corners[k] < 0 || corners[k] >= mesh.num_vertices()) {
+        reject_input("{}: face {} has the point {}; the file has {} points", path.string(), f,
+                     corners[k], mesh.num_vertices());
       }
-      face[k] = VertexId{static_cast<std::int32_t>(corner)};
+      face[k] = VertexId{static_cast<std::int32_t>(corners[k])};
     }
-    faces.add(face);
+    mesh.faces.add(face);
   }
-  return faces;
+  return mesh;
+}
+
+vtkSmartPointer<vtkPolyData> read_poly_data(const fs::path& path) {
+  return read_data_set<vtkXMLPolyDataReader>(path, "surface file of VTK (.vtp)");
 }
 
 /// All arrays of numbers, whatever their type in the file.
@@ -153,13 +168,17 @@ std::vector<std::array<std::int32_t, 4>> read_tetrahedra(const fs::path& path,
 }  // namespace
 
 SurfaceFrame read_vtp(const fs::path& path) {
-  const auto poly = read_data_set<vtkXMLPolyDataReader>(path, "surface file of VTK (.vtp)");
+  const vtkSmartPointer<vtkPolyData> poly = read_poly_data(path);
   SurfaceFrame frame;
-  frame.mesh.x = read_points(*poly);
-  frame.mesh.faces = read_faces(path, *poly);
+  frame.mesh = triangles_of(path, read_soup(path, *poly));
   frame.data.on_vertices = read_arrays(*poly->GetPointData());
   frame.data.on_cells = read_arrays(*poly->GetCellData());
   return frame;
+}
+
+PolygonFrame read_vtp_polygons(const fs::path& path) {
+  const vtkSmartPointer<vtkPolyData> poly = read_poly_data(path);
+  return {read_soup(path, *poly), read_arrays(*poly->GetCellData())};
 }
 
 VolumeFrame read_vtu(const fs::path& path) {

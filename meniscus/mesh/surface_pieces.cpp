@@ -1,5 +1,6 @@
 #include "meniscus/mesh/surface_pieces.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "meniscus/core/error.hpp"
@@ -25,30 +26,43 @@ class VertexSets {
 
 }  // namespace
 
-std::vector<SurfaceMesh> connected_pieces(const SurfaceMesh& mesh) {
+FaceField<std::int32_t> face_pieces(const SurfaceMesh& mesh) {
   VertexSets sets(mesh.num_vertices());
   for (const FaceVertices& f : mesh.faces) {
     sets.join(f[0], f[1]);
     sets.join(f[1], f[2]);
   }
-  std::vector<SurfaceMesh> pieces;
   VertexField<std::int32_t> root_to_piece(mesh.num_vertices(), -1);
+  std::int32_t num_pieces = 0;
+  FaceField<std::int32_t> pieces;
   for (const FaceVertices& f : mesh.faces) {
     std::int32_t& piece = root_to_piece[sets.find(f[0])];
-    if (piece >= 0) continue;
-    piece = static_cast<std::int32_t>(pieces.size());
-    pieces.emplace_back();
+    if (piece < 0) piece = num_pieces++;
+    pieces.add(piece);
+  }
+  return pieces;
+}
+
+std::vector<SurfaceMesh> connected_pieces(const SurfaceMesh& mesh) {
+  const FaceField<std::int32_t> piece_of_face = face_pieces(mesh);
+  std::vector<SurfaceMesh> pieces;
+  VertexField<std::int32_t> piece_of_vertex(mesh.num_vertices(), -1);
+  for (const FaceId f : mesh.faces.ids()) {
+    pieces.resize(std::max(pieces.size(), static_cast<std::size_t>(piece_of_face[f]) + 1));
+    for (const VertexId v : mesh.faces[f]) piece_of_vertex[v] = piece_of_face[f];
   }
   VertexField<VertexId> vertex_in_piece(mesh.num_vertices());
   for (const VertexId v : mesh.x.ids()) {
-    const std::int32_t piece = root_to_piece[sets.find(v)];
+    const std::int32_t piece = piece_of_vertex[v];
     MENISCUS_ASSERT(piece < static_cast<std::int32_t>(pieces.size()), "{} {}", piece,
                     pieces.size());
     if (piece >= 0) vertex_in_piece[v] = pieces[static_cast<std::size_t>(piece)].x.add(mesh.x[v]);
   }
-  for (const FaceVertices& f : mesh.faces)
-    pieces[static_cast<std::size_t>(root_to_piece[sets.find(f[0])])].faces.add(
-        {vertex_in_piece[f[0]], vertex_in_piece[f[1]], vertex_in_piece[f[2]]});
+  for (const FaceId f : mesh.faces.ids()) {
+    const FaceVertices& v = mesh.faces[f];
+    pieces[static_cast<std::size_t>(piece_of_face[f])].faces.add(
+        {vertex_in_piece[v[0]], vertex_in_piece[v[1]], vertex_in_piece[v[2]]});
+  }
   return pieces;
 }
 

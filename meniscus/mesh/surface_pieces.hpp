@@ -11,6 +11,9 @@ namespace meniscus {
 /// pieces in the order of their first faces. Vertices without a face are left out. Linear.
 [[nodiscard]] std::vector<SurfaceMesh> connected_pieces(const SurfaceMesh& mesh);
 
+/// The piece of each face, by its number in `connected_pieces`. Linear.
+[[nodiscard]] FaceField<std::int32_t> face_pieces(const SurfaceMesh& mesh);
+
 /// The pieces as one surface: vertices and faces of one after those of the other.
 [[nodiscard]] SurfaceMesh joined_surface(std::span<const SurfaceMesh> pieces);
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`meniscus remesh` as a user runs it: every format, every target, creases, holes, several pieces;
+"""`meniscus remesh` as a user runs it: every format, every target, creases, holes, several pieces, repairs;
 and every kind of surface that it has to refuse with one line and status 2, writing nothing.
 
     remesh.py PROGRAM WORK
@@ -247,6 +247,41 @@ def creases(program, work):
         expect(table["after"]["low_angle_deg"] > 30, "poor triangles", table)
 
 
+def polygons(points, faces):
+    return "".join([f"OFF\n{len(points)} {len(faces)} 0\n"]
+                   + ["{!r} {!r} {!r}\n".format(*map(float, p)) for p in points]
+                   + [" ".join(map(str, (len(f), *f))) + "\n" for f in faces]).encode()
+
+
+def repairs(program, work):
+    """Surfaces that are turned, of polygons or open: each gives the sound one it stands for."""
+    points, faces = sphere(4)
+    corners, squares = cube(2)[0], [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6),
+                                    (0, 2, 6, 4), (1, 5, 7, 3)]
+    for name, content, volume, word in (
+            ("squares", polygons(corners, squares), 8, "polygons_cut"),
+            ("turned-square", polygons(corners, [squares[0][::-1], *squares[1:]]), 8, "faces_turned"),
+            ("inside-out", off(inverted((points, faces))), None, "faces_turned"),
+            ("one-turned", off((points, [faces[0][::-1], *faces[1:]])), None, "faces_turned")):
+        (work / f"{name}.off").write_bytes(content)
+        table = remesh(program, work, f"{name}.off", "--nodes", 300)
+        check_sound(table)
+        expect(table[word] > 0 and table["holes_filled"] == 0, "not said", table)
+        expect(volume is None or abs(table["before"]["volume"] - volume) < 1e-12, "volume", table)
+    apart = [points[i] for face in faces for i in face]  # every face with points of its own
+    for name, surface, word in (
+            ("open", (points, faces[1:]), "holes_filled"),
+            ("apart", (apart, [(i, i + 1, i + 2) for i in range(0, len(apart), 3)]), "points_merged"),
+            ("doubled", (points, [*faces, faces[7]]), "faces_removed")):
+        (work / f"{name}.off").write_bytes(off(surface))
+        refuse(program, work, [f"{name}.off"], f"{name}.off")
+        table = remesh(program, work, f"{name}.off", "--nodes", 300, "--repair")
+        check_sound(table)
+        expect(table[word] > 0, "not said", table)
+    (work / "bowl.off").write_bytes(off((points, [f for f in faces if points[f[0]][2] < 0.5])))
+    refuse(program, work, ["bowl.off", "--repair"], "bowl.off", "not closed", "a hole of", "across")
+
+
 # --- What is refused -------------------------------------------------------------------------
 
 def snapshot(folder):
@@ -278,11 +313,8 @@ def garbage():
     yield "open.off", off((points, faces[1:])), ["not closed"]
     yield "not-manifold.stl", stl(together(cube(1), cube(1, (1, 1, 0)))), ["not manifold"]
     yield "two-fans.stl", stl(together(cube(1), cube(1, (1, 1, 1)))), ["not manifold at vertex"]
-    yield "one-face-turned.off", off((points, [faces[0][::-1], *faces[1:]])), ["oriented"]
     many, tiles = torus(3, 1, 1000, 500)
     yield "a-million.stl", stl((many, tiles[1:])), ["not closed"]
-    yield "inside-out.off", off(inverted(ball)), ["inside out"]
-    yield "inside-out-beside.off", off(together(ball, inverted(sphere(2, 1, (5, 0, 0))))), ["inside"]
     yield "flat.off", off(([(x, y, 0) for x, y, z in points], faces)), ["meets itself"]
     yield "degenerate.off", off(([points[1], *points[1:]], faces)), ["no area"]
     yield "itself.off", off((pushed, faces)), ["meets itself"]
@@ -339,7 +371,7 @@ def refusals(program, work):
 def main():
     program, work = sys.argv[1], Path(sys.argv[2])
     shutil.rmtree(work, ignore_errors=True)
-    for part in (formats, targets, creases, refusals):
+    for part in (formats, targets, creases, repairs, refusals):
         folder = work / part.__name__
         folder.mkdir(parents=True)
         part(program, folder)

@@ -20,7 +20,7 @@ using test::message_of;
 using test::put;
 
 /// Reads text as a file of the given extension.
-TaggedSurface read_text(const std::string& extension, std::string_view text) {
+RepairedSurface read_text(const std::string& extension, std::string_view text) {
   const test::TemporaryFolder folder;
   put(folder / ("s" + extension), text);
   return read_surface(folder / ("s" + extension));
@@ -194,24 +194,54 @@ NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0</DataArray></Points><Pol
             "s.vtp: not a surface file of VTK (.vtp), or corrupt");
 }
 
+TEST(SurfaceFile, FacesOfMoreCornersAreReadFromEveryFormat) {
+  // A pyramid over a square, of area 4 · 1/2 · 2√2 + 4 and volume 4/3.
+  constexpr std::string_view points = "1 1 0\n-1 1 0\n-1 -1 0\n1 -1 0\n0 0 1\n";
+  constexpr std::string_view faces = "4 3 2 1 0\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n";
+  const auto expect_pyramid = [](const RepairedSurface& surface) {
+    EXPECT_EQ(surface.mesh.num_faces(), 6);
+    EXPECT_NEAR(enclosed_volume(surface.mesh), 4.0 / 3.0, 1e-15);
+    EXPECT_EQ(surface.report.polygons, 1);
+  };
+  expect_pyramid(read_text(".off", fmt::format("OFF\n5 5 0\n{}{}", points, faces)));
+  expect_pyramid(
+      read_text(".ply", fmt::format("ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\n"
+                                    "property float y\nproperty float z\nelement face 5\n"
+                                    "property list uchar int vertex_indices\nend_header\n{}{}",
+                                    points, faces)));
+  expect_pyramid(read_text(".obj",
+                           "v 1 1 0\nv -1 1 0\nv -1 -1 0\nv 1 -1 0\nv 0 0 1\n"
+                           "f 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n"));
+  expect_pyramid(read_text(
+      ".vtp",
+      R"(<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">
+<PolyData><Piece NumberOfPoints="5" NumberOfPolys="5"><Points>
+<DataArray type="Float64" NumberOfComponents="3" format="ascii">
+1 1 0 -1 1 0 -1 -1 0 1 -1 0 0 0 1</DataArray></Points><Polys>
+<DataArray type="Int64" Name="connectivity" format="ascii">
+3 2 1 0 0 1 4 1 2 4 2 3 4 3 0 4</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">4 7 10 13 16</DataArray>
+</Polys></Piece></PolyData></VTKFile>)"));
+}
+
 TEST(SurfaceFile, SaysWhatIsWrong) {
   EXPECT_EQ(complaint(".txt", ""),
             "s.txt: unknown kind of surface file; known are .stl, .ply, .obj, .off and .vtp");
-  EXPECT_EQ(complaint(".obj", "v 0 0 0\n"), "s.obj: holds no triangles");
+  EXPECT_EQ(complaint(".obj", "v 0 0 0\n"), "s.obj: holds no faces");
   EXPECT_EQ(complaint(".obj", "v 0 0 x\n"), "s.obj:1: `x` is not a number");
   EXPECT_EQ(complaint(".obj", "v 0 0\n"), "s.obj:1: 3 words where more are expected");
-  EXPECT_EQ(complaint(".obj", "v 0 0 0\n\nf 1 1 1 1\n"),
-            "s.obj:3: a face of 4 corners; only triangles are read");
+  EXPECT_EQ(complaint(".obj", "v 0 0 0\n\nf 1 1\n"),
+            "s.obj:3: a face of 2 corners; a face has at least 3");
   EXPECT_EQ(complaint(".obj", "f 0 1 2\n"), "s.obj:1: a corner names point 0; points count from 1");
   EXPECT_EQ(complaint(".obj", "v 0 0 0\nf 1 1 2\n"),
-            "s.obj: triangle 0 has the point 1; the file has 1 points");
+            "s.obj: face 0 has the point 1; the file has 1 points");
   EXPECT_EQ(complaint(".obj", "f 1.5 1 2\n"), "s.obj:1: `1.5` is not a whole number");
   EXPECT_EQ(complaint(".obj", "v 0 nan 0\nf 1 1 1\n"),
             "s.obj: point 0 has a coordinate that is not finite");
   EXPECT_EQ(complaint(".off", ""), "s.off:0: the file ends where `OFF` is expected");
   EXPECT_EQ(complaint(".off", "OBJ\n"), "s.off:1: not an OFF file");
-  EXPECT_EQ(complaint(".off", "OFF\n1 1 0\n0 0 0\n4 0 0 0 0\n"),
-            "s.off:4: a face of 4 corners; only triangles are read");
+  EXPECT_EQ(complaint(".off", "OFF\n1 1 0\n0 0 0\n2 0 0\n"),
+            "s.off:4: a face of 2 corners; a face has at least 3");
   EXPECT_EQ(complaint(".off", "OFF\n2 1 0\n0 0 0\n"),
             "s.off:3: the file ends where a point is expected");
   EXPECT_EQ(
@@ -219,7 +249,7 @@ TEST(SurfaceFile, SaysWhatIsWrong) {
       "s.stl: not an STL file, or cut short: neither begins with `solid` nor has the length of "
       "a binary one");
   EXPECT_EQ(complaint(".stl", "solid\nvertex 0 0 0\nendfacet\n"),
-            "s.stl:3: a face of 1 corners; only triangles are read");
+            "s.stl:3: a face of 1 corners; a face has at least 3");
   EXPECT_EQ(complaint(".stl", "solid\nfacett\n"), "s.stl:2: `facett` is no keyword of STL");
   EXPECT_EQ(complaint(".stl", "solid\n"), "s.stl:1: the file ends where `endsolid` is expected");
   EXPECT_EQ(complaint(".ply", "plyx\n"), "s.ply:1: not a PLY file");
@@ -238,8 +268,8 @@ TEST(SurfaceFile, SaysWhatIsWrong) {
             "s.ply:5: the file is cut short after its header");
   EXPECT_EQ(complaint(".ply",
                       "ply\nformat ascii 1.0\nelement face 1\n"
-                      "property list int int vertex_indices\nend_header\n4 0 0 0 0\n"),
-            "s.ply:6: a face of 4 corners; only triangles are read");
+                      "property list int int vertex_indices\nend_header\n2 0 0\n"),
+            "s.ply:6: a face of 2 corners; a face has at least 3");
   EXPECT_EQ(complaint(".ply",
                       "ply\nformat ascii 1.0\nelement face 1\n"
                       "property list int int vertex_indices\nend_header\n-1\n"),
