@@ -59,8 +59,7 @@ void write_movie(const fs::path& run_directory, const fs::path& out) {
   while (const auto picture = drawer.next()) {
     const Pixels pixels = pixels_of(picture->svg, 1.0);
     if (!ffmpeg)
-      ffmpeg.emplace("--movie", "ffmpeg",
-                     ffmpeg_command(pixels.width, pixels.height, unfinished));
+      ffmpeg.emplace("--movie", "ffmpeg", ffmpeg_command(pixels.width, pixels.height, unfinished));
     const auto* bytes = reinterpret_cast<const char*>(pixels.bytes.data());
     if (!ffmpeg->write({bytes, pixels.bytes.size()})) break;
   }

@@ -43,8 +43,8 @@ std::string whole_page(const PageParts& parts) {
       "strain or shear, μ the outer viscosity. The figures behind the plots are in history.csv and "
       "drops.csv beside this page, the meshes in the .pvd files.</footer>\n</main>\n{}</body>\n"
       "</html>\n",
-      policy(parts.is_live), markup_text(parts.title), page_style(), page_sheet(),
-      parts.content, note, script);
+      policy(parts.is_live), markup_text(parts.title), page_style(), page_sheet(), parts.content,
+      note, script);
 }
 
 }  // namespace meniscus::report

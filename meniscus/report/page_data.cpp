@@ -126,7 +126,7 @@ std::string rows_at_every(const std::string& text, std::int64_t n) {
 
 /// A table of the run for the page, with fewer steps where it would be too large.
 std::string table_text(PageRun& page, const io::RunTableFile& table, const fs::path& file,
-                               std::size_t budget) {
+                       std::size_t budget) {
   const std::string text = io::read_file(file);
   std::string result = base64(zlib_bytes(text));
   if (result.size() <= budget || !text.starts_with("step,")) return result;

@@ -27,8 +27,7 @@ struct PageBudget {
 };
 
 /// For pictures that no page has to carry: tables with all their rows.
-inline constexpr PageBudget whole_tables{
-    .tables = std::numeric_limits<std::size_t>::max()};
+inline constexpr PageBudget whole_tables{.tables = std::numeric_limits<std::size_t>::max()};
 
 /// Packs the frames of a run and cuts of its volume meshes. Where they exceed the budget, some are
 /// left out or coarsened, and the notes say so. Unreadable files are added to the run's faults.

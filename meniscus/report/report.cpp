@@ -31,11 +31,12 @@ std::string title_of(const RunData& run) {
 std::string page_html(RunData& run) {
   const PageBudget budget;
   PageRun packed = page_run(run, budget);
-  const DrawingData data = drawing_data("report", std::span(&run, 1), std::span(&packed, 1), budget);
-  return whole_page({.title = title_of(run),
-                     .content = heading_html(run) + tiles_html(run) + "<div id=\"app\"></div>\n" +
-                                end_html(run),
-                     .data = data_elements(data)});
+  const DrawingData data =
+      drawing_data("report", std::span(&run, 1), std::span(&packed, 1), budget);
+  return whole_page(
+      {.title = title_of(run),
+       .content = heading_html(run) + tiles_html(run) + "<div id=\"app\"></div>\n" + end_html(run),
+       .data = data_elements(data)});
 }
 
 }  // namespace

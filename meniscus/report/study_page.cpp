@@ -86,9 +86,8 @@ DrawingData data_of(const StudyPage& page) {
   std::vector<PackedFrame> frames;
   for (const Shape& shape : shapes) {
     frames.push_back(packed_surface(coarse_frame(shape.frame, most)));
-    names.push_back({{"name", shape.run->name},
-                     {"link", shape.run->link},
-                     {"outcome", shape.run->outcome}});
+    names.push_back(
+        {{"name", shape.run->name}, {"link", shape.run->link}, {"outcome", shape.run->outcome}});
   }
   return study_drawing_data(in_json(page.plots).dump(), names.dump(), frames);
 }
@@ -122,7 +121,9 @@ void write_study_page(const StudyPage& page, const std::filesystem::path& file) 
       fmt::format("<header><h1>{}</h1>\n<p class=\"lead\">{}</p>\n</header>\n",
                   markup_text(page.title), markup_text(page.lead)) +
       "<div id=\"app\"></div>\n" + table_html(page) + runs_html(page.runs);
-  io::write_file(file, whole_page({.title = page.title, .content = content, .data = data_elements(data_of(page))}));
+  io::write_file(
+      file,
+      whole_page({.title = page.title, .content = content, .data = data_elements(data_of(page))}));
 }
 
 }  // namespace meniscus::report
