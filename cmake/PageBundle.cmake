@@ -1,7 +1,7 @@
 # web/ becomes part of the program: its packages come from the committed lockfile (npm ci), esbuild
-# makes one script and one style sheet of them, and both become string literals of the room `report`.
-# Without node or npm, or where the packages cannot be had, the literals are empty and the report is
-# the plain one. As a script (-P) this file makes them; else it adds the command that does.
+# makes the page's script and style sheet of them, and the drawer that node runs; they become string
+# literals of the room `report`. Without node or npm, or where the packages cannot be had, the
+# literals are empty: reports have tables and no pictures. As a script (-P) this file makes them; else it adds the command that does.
 set(BUNDLE_INPUTS package.json package-lock.json .npmrc build.mjs)
 
 function(write_literal TEXT FILE)
@@ -36,20 +36,23 @@ if(CMAKE_SCRIPT_MODE_FILE)
       COMMAND_ERROR_IS_FATAL ANY)
     file(READ ${WORK}/dist/page.js SCRIPT_TEXT)
     file(READ ${WORK}/dist/page.css SHEET_TEXT)
+    file(READ ${WORK}/dist/drawer.js DRAWER_TEXT)
   else()
-    message(WARNING "npm could not fetch the packages of the page: the report will be the plain one. "
+    message(WARNING "npm could not fetch the packages of the page: reports will have no pictures. "
       "Remove ${WORK} to try again.")
     set(SCRIPT_TEXT "")
     set(SHEET_TEXT "")
+    set(DRAWER_TEXT "")
     file(REMOVE ${WORK}/installed.txt)
   endif()
   write_literal("${SCRIPT_TEXT}" ${OUT}/page_script_generated.inc)
   write_literal("${SHEET_TEXT}" ${OUT}/page_sheet_generated.inc)
+  write_literal("${DRAWER_TEXT}" ${OUT}/drawer_script_generated.inc)
   file(TOUCH ${WORK}/bundle.stamp)
   return()
 endif()
 
-option(MENISCUS_PAGE "Build the page that moves, where node and npm are found" ON)
+option(MENISCUS_PAGE "Build the page and the drawer of pictures, where node and npm are found" ON)
 find_program(NODE node)
 find_program(NPM npm)
 set(NODE_VERSION "")
@@ -69,14 +72,16 @@ if(MENISCUS_HAS_PAGE)
   list(TRANSFORM BUNDLE_INPUTS PREPEND ${WEB_DIR}/ OUTPUT_VARIABLE BUNDLE_FILES)
   add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/web/bundle.stamp
     BYPRODUCTS ${BUNDLE_DIR}/page_script_generated.inc ${BUNDLE_DIR}/page_sheet_generated.inc
+      ${BUNDLE_DIR}/drawer_script_generated.inc
     COMMAND ${CMAKE_COMMAND} -DWEB=${WEB_DIR} -DWORK=${PROJECT_BINARY_DIR}/web -DOUT=${BUNDLE_DIR}
       -DNODE=${NODE} -DNPM=${NPM} -P ${CMAKE_CURRENT_LIST_FILE}
     DEPENDS ${BUNDLE_FILES} ${BUNDLE_SOURCES} ${CMAKE_CURRENT_LIST_FILE}
     COMMENT "Bundling the page" VERBATIM)
   add_custom_target(meniscus_page DEPENDS ${PROJECT_BINARY_DIR}/web/bundle.stamp)
 else()
-  message(STATUS "No page that moves: node 18 and npm are wanted for it; the report is the plain one")
+  message(STATUS "No pictures: node 18 and npm are wanted for them; reports have tables only")
   write_literal("" ${BUNDLE_DIR}/page_script_generated.inc)
   write_literal("" ${BUNDLE_DIR}/page_sheet_generated.inc)
+  write_literal("" ${BUNDLE_DIR}/drawer_script_generated.inc)
   add_custom_target(meniscus_page)
 endif()

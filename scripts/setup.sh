@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that are missing for one purpose and does nothing when none is.
 #   scripts/setup.sh bare|run|test|long|coverage|docs|deb|release
-# `bare` is `run` without node and npm, whose report is the plain page, and without the Python module.
+# `bare` is `run` without node and npm, whose reports have no pictures, and without the Python module.
 set -euo pipefail
 
 build=(make g++ cmake ninja-build pkgconf git ca-certificates python3 libpetsc-real-dev openmpi-bin
        libopenblas-dev libeigen3-dev libboost-dev libcgal-dev libtet1.5-dev libhdf5-openmpi-dev libvtk9-dev
        libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libspdlog-dev zlib1g-dev
        librsvg2-dev fonts-dejavu-core libmicrohttpd-dev)
-# The page that moves. Where node came from elsewhere, Debian's npm conflicts with it.
+# Pages and pictures: npm to build them, nodejs also for `meniscus report --svg`. Where node came from elsewhere, Debian's npm conflicts with it.
 page=()
 command -v npm >/dev/null || page=(nodejs npm)
 # The Python module.

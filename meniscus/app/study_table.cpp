@@ -203,7 +203,7 @@ class PointCurves {
   void add(report::Plot& plot, const Value& value, const std::string& name, int dash) const {
     int color = 0;
     for (const Group& group : groups_) {
-      report::Curve curve{.color = color++ % report::num_plot_colors, .dash = dash};
+      report::Curve curve{.color = color++, .dash = dash};
       curve.label = group.label.empty() || name.empty() ? group.label + name
                                                         : fmt::format("{}, {}", group.label, name);
       std::vector<std::pair<double, double>> points;

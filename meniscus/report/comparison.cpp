@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "meniscus/core/error.hpp"
-#include "meniscus/report/history_curves.hpp"
 
 namespace meniscus::report {
 namespace {
@@ -14,19 +14,33 @@ namespace {
 constexpr std::array compared_columns = {"D",         "L",     "B",    "W",
                                          "angle_deg", "H_max", "area", "volume"};
 
-/// The specification of a plot with one column of drops.csv.
-PlotSpec measure(const char* column) {
-  return {.group = {}, .title = {}, .unit = {}, .table = "drops", .quantities = {{column, column}}};
+/// A column of drops.csv for one drop.
+struct DropCurve {
+  std::vector<double> t = {}, values = {};
+};
+
+std::vector<double> column_of(const std::optional<io::Table>& table, const char* name) {
+  return table && table->find(name) ? table->column(name) : std::vector<double>();
 }
 
-std::optional<HistoryCurve> curve_of_drop(const std::vector<HistoryCurve>& curves, int drop) {
-  const auto found = std::ranges::find(curves, drop, &HistoryCurve::drop);
-  return found == curves.end() ? std::nullopt : std::optional(*found);
+/// The values of a column by drop; empty where the table lacks it or has no number in it.
+std::map<int, DropCurve> drop_curves(const RunData& run, const char* column) {
+  const std::vector<double> t = column_of(run.drops, "t"), ids = column_of(run.drops, "drop"),
+                            values = column_of(run.drops, column);
+  std::map<int, DropCurve> curves;
+  if (t.size() != values.size() || ids.size() != values.size()) return curves;
+  if (std::ranges::none_of(values, [](double v) { return std::isfinite(v); })) return curves;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (!std::isfinite(ids[i])) continue;
+    DropCurve& curve = curves[static_cast<int>(ids[i])];
+    curve.t.push_back(t[i]);
+    curve.values.push_back(values[i]);
+  }
+  return curves;
 }
 
-Difference difference(const HistoryCurve& first, const HistoryCurve& run, double end) {
+Difference difference(const DropCurve& first, const DropCurve& run, double end) {
   Difference result;
-  result.drop = run.drop;
   result.at_end = value_at(run.t, run.values, end);
   result.first_at_end = value_at(first.t, first.values, end);
   // Both curves are piecewise linear, so the largest difference is at a row of one of them.
@@ -57,12 +71,13 @@ double common_end(std::span<const RunData> runs) {
 std::vector<Difference> differences(const RunData& first, const RunData& run, double end) {
   std::vector<Difference> list;
   for (const char* column : compared_columns) {
-    const std::vector<HistoryCurve> of_first = history_curves(measure(column), first);
-    for (const HistoryCurve& curve : history_curves(measure(column), run)) {
-      const auto other = curve_of_drop(of_first, curve.drop);
-      if (!other) continue;
-      list.push_back(difference(*other, curve, end));
+    const std::map<int, DropCurve> of_first = drop_curves(first, column);
+    for (const auto& [drop, curve] : drop_curves(run, column)) {
+      const auto other = of_first.find(drop);
+      if (other == of_first.end()) continue;
+      list.push_back(difference(other->second, curve, end));
       list.back().quantity = column;
+      list.back().drop = drop;
     }
   }
   return list;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <map>
 #include <string>
@@ -11,10 +10,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/atomic_file.hpp"
 #include "meniscus/report/comparison.hpp"
-#include "meniscus/report/history_plots.hpp"
-#include "meniscus/report/interface_picture.hpp"
 #include "meniscus/report/page.hpp"
-#include "meniscus/report/page_bundle.hpp"
 #include "meniscus/report/page_data.hpp"
 #include "meniscus/report/report.hpp"
 #include "meniscus/report/text.hpp"
@@ -25,10 +21,7 @@ namespace {
 using namespace report;
 namespace fs = std::filesystem;
 
-constexpr double frame_width = 280.0;  // [px]
-constexpr int num_times = 4;
 constexpr std::size_t most_runs = 8;  // a browser can hold no more 3-D views
-constexpr int most_faces = 36000;     // in all pictures together, 65 bytes each
 
 /// The names of the folders, each with enough of its path to be unique.
 std::vector<std::string> names_of(std::span<const fs::path> folders) {
@@ -110,55 +103,6 @@ std::string differences_html(const RunData& first, const RunData& run,
       markup_text(first_name), markup_text(name), number_text(end, 4), rows);
 }
 
-/// The shapes at equal times, one row of pictures per run.
-std::string shapes_html(std::span<RunData> runs, std::span<const std::string> names, double end) {
-  std::vector<double> times;
-  times.reserve(num_times);
-  for (int k = 0; k < num_times; ++k) times.push_back(end * k / (num_times - 1));
-  std::vector<std::vector<SurfaceFrame>> frames;
-  std::vector<SurfaceFrame> all;
-  for (RunData& run : runs) {
-    frames.push_back(load_surfaces(run, nearest_frames(run.frames, times)));
-    for (SurfaceFrame& frame : frames.back()) {
-      frame = coarse_frame(frame, most_faces / num_times / static_cast<int>(runs.size()));
-      all.push_back(frame);
-    }
-  }
-  if (all.empty()) return {};
-  const View view = common_view(all, frame_width);
-  const ValueRange range = curvature_range(all);
-  std::string text = "<h2>Shapes at equal times</h2>\n";
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    text += fmt::format("<div class=\"card\"><h3>{}</h3><div class=\"frames\">\n",
-                        markup_text(names[r]));
-    for (const SurfaceFrame& frame : frames[r]) {
-      const std::string time = number_text(frame.t, 3);
-      text += fmt::format("<figure>{}<figcaption><i>t</i> = {}</figcaption></figure>\n",
-                          inline_svg(draw_surface(frame, view, range), view.width, view.height,
-                                     names[r] + " at t = " + time),
-                          time);
-    }
-    text += "</div></div>\n";
-  }
-  return text + "<div class=\"key\">" +
-         inline_svg(draw_key(view, range, have_curvature(all)), PictureKey::width,
-                    PictureKey::height, "Scale of colour, length and axes") +
-         "</div>\n";
-}
-
-std::string overlaid_html(std::span<const RunData> runs, std::span<const std::string> names) {
-  std::string text;
-  for (const PlotGroup& group : overlaid_plots(runs, names)) {
-    text += fmt::format("<h2>{}</h2>\n<div class=\"plots\">\n", group.heading);
-    for (const Plot& plot : group.plots) {
-      text += "<figure class=\"card\">" +
-              inline_svg(draw_plot(plot), plot.width, plot.height, plot.title) + "</figure>\n";
-    }
-    text += "</div>\n";
-  }
-  return text;
-}
-
 std::string faults_html(std::span<const RunData> runs, std::span<const std::string> names) {
   std::string text;
   for (std::size_t r = 0; r < runs.size(); ++r) {
@@ -181,29 +125,23 @@ void write_comparison(std::span<const fs::path> run_directories, const fs::path&
   const double end = common_end(runs);
 
   PageParts parts{.title = fmt::format("{}", fmt::join(names, ", ")), .content = {}, .data = {}};
-  if (has_page_bundle()) {
-    PageBudget budget;
-    budget.frames /= runs.size();
-    budget.cuts = 0;
-    budget.most_cuts = 0;
-    std::vector<PageRun> pages;
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-      pages.push_back(page_run(runs[r], budget));
-      pages.back().name = names[r];
-    }
-    parts.data = data_elements("comparison", runs, pages, budget);
+  PageBudget budget;
+  budget.frames /= runs.size();
+  budget.cuts = 0;
+  budget.most_cuts = 0;
+  std::vector<PageRun> pages;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    pages.push_back(page_run(runs[r], budget));
+    pages.back().name = names[r];
   }
-  const std::string stills = "<section class=\"still view\">\n" +
-                             (std::isfinite(end) ? shapes_html(runs, names, end) : "") +
-                             "</section>\n<section class=\"still plots-of-run\">\n" +
-                             overlaid_html(runs, names) + "</section>\n";
+  parts.data = data_elements(drawing_data("comparison", runs, pages, budget));
   std::string tables = runs_html(runs, names);
   for (std::size_t r = 1; r < runs.size(); ++r)
     tables += differences_html(runs.front(), runs[r], names.front(), names[r], end);
   parts.content =
       fmt::format("<header><h1>{} runs compared</h1>\n<p class=\"lead\">{}</p>\n{}</header>\n",
                   runs.size(), markup_text(parts.title), faults_html(runs, names)) +
-      "<div id=\"app\"></div>\n" + stills + "<h2>Differences</h2>\n" + tables;
+      "<div id=\"app\"></div>\n<h2>Differences</h2>\n" + tables;
   io::write_file(out, whole_page(parts));
 }
 

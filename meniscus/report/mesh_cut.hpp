@@ -1,13 +1,11 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "meniscus/core/vec.hpp"
 #include "meniscus/io/vtk_file.hpp"
-#include "meniscus/report/colormap.hpp"
 
 namespace meniscus::report {
 
@@ -45,15 +43,5 @@ struct MeshCut {
 /// their values. Corners on the plane count as above it, so that no cell is cut twice and none is
 /// missed.
 void add_polygons(MeshCut& cut, const io::VolumeFrame& mesh);
-
-/// The colour range for smallest dihedral angles, in degrees.
-[[nodiscard]] ValueRange quality_range();
-
-enum class CutColors { liquid, quality };
-/// The cut as the content of an `svg` element, `width` px wide and `cut_height` high.
-[[nodiscard]] std::string draw_cut(const MeshCut& cut, CutColors colors, double width);
-[[nodiscard]] double cut_height(const MeshCut& cut, double width);
-/// The key to the colours of the liquids, starting at (x, y) and running to the right.
-[[nodiscard]] std::string draw_liquid_key(double x, double y);
 
 }  // namespace meniscus::report

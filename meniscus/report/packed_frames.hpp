@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "meniscus/core/vec.hpp"
-#include "meniscus/report/colormap.hpp"
 #include "meniscus/report/mesh_cut.hpp"
 #include "meniscus/report/surface_frames.hpp"
+#include "meniscus/report/value_range.hpp"
 
 namespace meniscus::report {
 

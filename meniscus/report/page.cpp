@@ -4,16 +4,18 @@
 
 #include "meniscus/report/page_bundle.hpp"
 #include "meniscus/report/page_style.hpp"
-#include "meniscus/report/svg_plot.hpp"
 #include "meniscus/report/text.hpp"
 
 namespace meniscus::report {
 namespace {
 
-constexpr std::string_view plain_page_note =
-    "<p>This is the plain page. A program built where node and npm are found makes one whose drop "
-    "turns with the mouse and whose plots give their values: install both, then build again and "
-    "run <code>meniscus report</code> on this folder.</p>";
+// Where pictures are missing, the page says why.
+constexpr std::string_view unbuilt_note =
+    "<p class=\"notice\">This page has no pictures: the program was built without node and npm. "
+    "Install both, build again and run <code>meniscus report</code> on this folder.</p>\n";
+constexpr std::string_view no_script_note =
+    "<noscript><p class=\"notice\">The pictures of this page need scripts. "
+    "<code>meniscus report --svg</code> writes them as files.</p></noscript>\n";
 
 /// The content security policy: the page loads nothing, so that it is the same wherever it is
 /// stored. Scripts are inline. Only a live page may send requests, and only to its own server.
@@ -26,19 +28,23 @@ std::string policy(bool is_live) {
 }  // namespace
 
 std::string whole_page(const PageParts& parts) {
+  const bool has_script = has_page_bundle() && !parts.data.empty();
   const std::string script =
-      has_page_bundle() ? fmt::format("{}<script>{}</script>\n", parts.data, page_script()) : "";
+      has_script ? fmt::format("{}<script>{}</script>\n", parts.data, page_script()) : "";
+  const std::string_view note = !has_page_bundle() && !parts.data.empty() ? unbuilt_note
+                                : has_script                              ? no_script_note
+                                                                          : "";
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\"/>\n"
-      "<title>{}</title>\n<style>{}{}{}</style>\n</head>\n"
-      "<body>\n<main>\n{}<footer>Lengths in R₀, times in 1/G, stresses in μG; G is the rate of "
+      "<title>{}</title>\n<style>{}{}</style>\n</head>\n"
+      "<body>\n<main>\n{}{}<footer>Lengths in R₀, times in 1/G, stresses in μG; G is the rate of "
       "strain or shear, μ the outer viscosity. The figures behind the plots are in history.csv and "
-      "drops.csv beside this page, the meshes in the .pvd files.{}</footer>\n</main>\n{}</body>\n"
+      "drops.csv beside this page, the meshes in the .pvd files.</footer>\n</main>\n{}</body>\n"
       "</html>\n",
-      policy(parts.is_live), markup_text(parts.title), page_style(), plot_style(), page_sheet(),
-      parts.content, has_page_bundle() ? "" : plain_page_note, script);
+      policy(parts.is_live), markup_text(parts.title), page_style(), page_sheet(), parts.content,
+      note, script);
 }
 
 }  // namespace meniscus::report

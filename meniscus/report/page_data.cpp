@@ -13,7 +13,6 @@
 #include "meniscus/io/atomic_file.hpp"
 #include "meniscus/io/run_files.hpp"
 #include "meniscus/report/packing.hpp"
-#include "meniscus/report/plot_catalogue.hpp"
 
 namespace meniscus::report {
 namespace {
@@ -126,8 +125,8 @@ std::string rows_at_every(const std::string& text, std::int64_t n) {
 }
 
 /// A table of the run for the page, with fewer steps where it would be too large.
-std::string table_element_text(PageRun& page, const io::RunTableFile& table, const fs::path& file,
-                               std::size_t budget) {
+std::string table_text(PageRun& page, const io::RunTableFile& table, const fs::path& file,
+                       std::size_t budget) {
   const std::string text = io::read_file(file);
   std::string result = base64(zlib_bytes(text));
   if (result.size() <= budget || !text.starts_with("step,")) return result;
@@ -135,10 +134,6 @@ std::string table_element_text(PageRun& page, const io::RunTableFile& table, con
   page.notes.push_back(
       fmt::format("The plots of {} show every {}th step; the file has them all.", table.file, n));
   return base64(zlib_bytes(rows_at_every(text, n)));
-}
-
-std::string text_element(const std::string& id, const std::string& text) {
-  return fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, text);
 }
 
 Json in_json(const Vec3& x) { return Json::array({x.x(), x.y(), x.z()}); }
@@ -160,14 +155,6 @@ Json entries(const std::vector<PackedFrame>& frames) {
   return list;
 }
 
-Json fields_json() {
-  Json fields = Json::array();
-  for (const auto& [name, label, unit] : shown_quantities()) {
-    fields.push_back({{"name", name}, {"label", label}, {"unit", unit}});
-  }
-  return fields;
-}
-
 Json run_json(const RunData& run, const PageRun& page) {
   return {{"name", page.name},
           {"title", run.facts.title},
@@ -180,16 +167,14 @@ Json run_json(const RunData& run, const PageRun& page) {
           {"notes", page.notes}};
 }
 
-std::string page_data_element(std::string_view kind, const Json& runs) {
-  const Json page{{"kind", kind},
-                  {"runs", runs},
-                  {"fields", fields_json()},
-                  {"plots", Json::parse(plot_catalogue_json())}};
-  std::string text = page.dump(-1, ' ', false, Json::error_handler_t::replace);
-  // JSON allows an escaped slash; HTML forbids "</script" inside a script.
-  for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at))
-    text.replace(at, 2, "<\\/");
-  return "<script type=\"application/json\" id=\"page-data\">" + text + "</script>\n";
+std::string text_of(const Json& page) {
+  return page.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+void add_frames(DrawingData& data, const std::string& prefix,
+                const std::vector<PackedFrame>& frames) {
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    data.texts.emplace_back(fmt::format("{}{}", prefix, i), base64(frames[i].bytes));
 }
 
 }  // namespace
@@ -209,13 +194,51 @@ PageRun page_run(RunData& run, const PageBudget& budget) {
 
 std::string entry_json(const PackedFrame& frame) { return entry(frame).dump(); }
 
-std::string live_data_element(const RunData& run) {
-  return page_data_element("live", Json::array({run_json(run, {})}));
+PageRun picture_run(RunData& run, std::span<const io::PvdEntry> frames,
+                    std::span<const io::PvdEntry> volume_frames) {
+  PageRun page;
+  page.frames = load_all(run, frames, [](const fs::path& path, double t) {
+    return packed_surface(load_surface(path, t));
+  });
+  page.cuts = load_all(run, volume_frames, [](const fs::path& path, double t) {
+    return packed_cuts(t, load_cuts(path));
+  });
+  return page;
 }
 
-std::string data_elements(std::string_view kind, std::span<const RunData> runs,
-                          std::span<PageRun> pages, const PageBudget& budget) {
-  std::string elements;
+std::string data_elements(const DrawingData& data) {
+  std::string text = data.page;
+  // JSON allows an escaped slash; HTML forbids "</script" inside a script.
+  for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at))
+    text.replace(at, 2, "<\\/");
+  std::string elements =
+      "<script type=\"application/json\" id=\"page-data\">" + text + "</script>\n";
+  for (const auto& [id, bytes] : data.texts)
+    elements += fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, bytes);
+  return elements;
+}
+
+DrawingData live_drawing_data(const RunData& run) {
+  return {text_of({{"kind", "live"}, {"runs", Json::array({run_json(run, {})})}})};
+}
+
+DrawingData study_drawing_data(std::string_view plots, std::string_view shapes,
+                               const std::vector<PackedFrame>& frames) {
+  const Json run{{"name", ""},
+                 {"tables", Json::array()},
+                 {"frames", entries(frames)},
+                 {"cuts", Json::array()}};
+  DrawingData data{text_of({{"kind", "study"},
+                            {"plots", Json::parse(plots)},
+                            {"shapes", Json::parse(shapes)},
+                            {"runs", Json::array({run})}})};
+  add_frames(data, "run0-frame", frames);
+  return data;
+}
+
+DrawingData drawing_data(std::string_view kind, std::span<const RunData> runs,
+                         std::span<PageRun> pages, const PageBudget& budget) {
+  DrawingData data;
   Json list = Json::array();
   MENISCUS_ASSERT(runs.size() == pages.size(), "{} pages of {} runs", pages.size(), runs.size());
   for (std::size_t r = 0; r < runs.size(); ++r) {
@@ -227,19 +250,17 @@ std::string data_elements(std::string_view kind, std::span<const RunData> runs,
       if (!fs::exists(file)) continue;
       tables.push_back(table.name);
       // Each of the two long tables may take half of the run's budget for tables.
-      const std::string text =
-          table_element_text(page, table, file, budget.tables / runs.size() / 2);
-      elements += text_element(prefix + table.name, text);
+      data.texts.emplace_back(prefix + table.name,
+                              table_text(page, table, file, budget.tables / runs.size() / 2));
     }
-    for (std::size_t i = 0; i < page.frames.size(); ++i)
-      elements += text_element(fmt::format("{}frame{}", prefix, i), base64(page.frames[i].bytes));
-    for (std::size_t i = 0; i < page.cuts.size(); ++i)
-      elements += text_element(fmt::format("{}cut{}", prefix, i), base64(page.cuts[i].bytes));
+    add_frames(data, prefix + "frame", page.frames);
+    add_frames(data, prefix + "cut", page.cuts);
     Json entry = run_json(runs[r], page);
     entry["tables"] = tables;
     list.push_back(entry);
   }
-  return page_data_element(kind, list) + elements;
+  data.page = text_of({{"kind", kind}, {"runs", list}});
+  return data;
 }
 
 }  // namespace meniscus::report

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "meniscus/report/packed_frames.hpp"
@@ -23,17 +26,39 @@ struct PageBudget {
   std::size_t most_frames = 400, most_cuts = 24;  ///< a slider resolves no more
 };
 
+/// For pictures that no page has to carry: tables with all their rows.
+inline constexpr PageBudget whole_tables{.tables = std::numeric_limits<std::size_t>::max()};
+
 /// Packs the frames of a run and cuts of its volume meshes. Where they exceed the budget, some are
 /// left out or coarsened, and the notes say so. Unreadable files are added to the run's faults.
 [[nodiscard]] PageRun page_run(RunData& run, const PageBudget& budget);
 
-/// The data elements for the page's script: a `script` element of JSON with the id `page-data`, and
-/// one of base-64 text for every frame, cut and table. `kind` is report, live or comparison.
-[[nodiscard]] std::string data_elements(std::string_view kind, std::span<const RunData> runs,
-                                        std::span<PageRun> pages, const PageBudget& budget);
+/// What pictures are drawn from, by the page's script or by node: `page`, JSON that says what there
+/// is, and by id a base-64 text for every frame, cut and table.
+struct DrawingData {
+  std::string page;
+  std::vector<std::pair<std::string, std::string>> texts = {};
+};
 
-/// The `page-data` of a run that still computes: the page asks for tables and frames.
-[[nodiscard]] std::string live_data_element(const RunData& run);
+/// The data of runs. `kind` is report or comparison.
+[[nodiscard]] DrawingData drawing_data(std::string_view kind, std::span<const RunData> runs,
+                                       std::span<PageRun> pages, const PageBudget& budget);
+
+/// The data of a run that still computes: the page asks for tables and frames.
+[[nodiscard]] DrawingData live_drawing_data(const RunData& run);
+
+/// The data of a study: `plots` and `shapes` in JSON (web/src/study.js), and the frames of the
+/// shapes.
+[[nodiscard]] DrawingData study_drawing_data(std::string_view plots, std::string_view shapes,
+                                             const std::vector<PackedFrame>& frames);
+
+/// The data as `script` elements, the JSON with the id `page-data`.
+[[nodiscard]] std::string data_elements(const DrawingData& data);
+
+/// Packs given frames and volume meshes of a run, as they are. Unreadable files are added to the
+/// run's faults.
+[[nodiscard]] PageRun picture_run(RunData& run, std::span<const io::PvdEntry> frames,
+                                  std::span<const io::PvdEntry> volume_frames);
 
 /// The facts about a frame or cut that the page needs before its bytes, as JSON.
 [[nodiscard]] std::string entry_json(const PackedFrame& frame);

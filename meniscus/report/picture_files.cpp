@@ -1,33 +1,50 @@
 #include <string>
-#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/atomic_file.hpp"
+#include "meniscus/report/drawer.hpp"
 #include "meniscus/report/rasterize.hpp"
 #include "meniscus/report/report.hpp"
 #include "meniscus/report/run_data.hpp"
-#include "meniscus/report/stills.hpp"
 
 namespace meniscus {
+namespace {
 
-namespace fs = std::filesystem;
 using namespace report;
+namespace fs = std::filesystem;
+
+/// The frames nearest to `times`, or six between the first and the last when none are given.
+std::vector<io::PvdEntry> chosen_frames(const RunData& run, std::span<const double> times) {
+  constexpr int num_frames = 6;
+  return times.empty() ? evenly_spaced_frames(run.frames, num_frames)
+                       : nearest_frames(run.frames, times);
+}
+
+/// The volume meshes nearest to `times`, or the last one when none are given.
+std::vector<io::PvdEntry> chosen_meshes(const RunData& run, std::span<const double> times) {
+  if (times.empty() && !run.volume_frames.empty()) return {run.volume_frames.back()};
+  return nearest_frames(run.volume_frames, times);
+}
+
+}  // namespace
 
 std::vector<std::string> write_stills(const fs::path& run_directory, StillFormat format,
                                       std::span<const double> times) {
   constexpr double png_scale = 2.0;  // at least 300 dots per inch in a journal column of 85 mm
+  const bool is_png = format == StillFormat::png;
   RunData run = load_run(run_directory);
-  const std::pair<const char*, std::string> pictures[] = {{"interface", interface_svg(run, times)},
-                                                          {"deformation", deformation_svg(run)},
-                                                          {"mesh", mesh_svg(run, times)},
-                                                          {"history", history_svg(run)}};
+  PageRun page = picture_run(run, chosen_frames(run, times), chosen_meshes(run, times));
+  const DrawingData data =
+      drawing_data("report", std::span(&run, 1), std::span(&page, 1), whole_tables);
+  Drawer drawer(is_png ? "--png" : "--svg", data, {"interface", "deformation", "mesh", "history"});
   std::vector<std::string> names;
-  for (const auto& [name, svg] : pictures) {
-    if (svg.empty()) continue;
-    const bool is_png = format == StillFormat::png;
-    names.push_back(std::string(name) + (is_png ? ".png" : ".svg"));
-    io::write_file(run_directory / names.back(), is_png ? png_of(svg, png_scale) : svg);
+  while (const auto picture = drawer.next()) {
+    names.push_back(picture->name + (is_png ? ".png" : ".svg"));
+    io::write_file(run_directory / names.back(),
+                   is_png ? png_of(picture->svg, png_scale) : picture->svg);
   }
   if (names.empty()) {
     reject_input("{}: no frame, mesh or history that a picture could show{}",

@@ -8,10 +8,10 @@
 namespace meniscus {
 
 /// Writes `report.html` into a run's folder (its files: docs/notation.md). The page shows what ran,
-/// pictures of the interface, plots of the history and the time spent. It needs neither network nor
-/// scripts. Parts whose files are missing are left out; unreadable files are named. Throws
-/// InvalidInput when the folder holds neither run.json nor history.csv, RunFailure when writing
-/// fails.
+/// pictures of the interface, plots of the history and the time spent. It needs no
+/// network; its script draws the pictures. Parts whose files are missing are left out; unreadable
+/// files are named. Throws InvalidInput when the folder holds neither run.json nor history.csv,
+/// RunFailure when writing fails.
 void write_report(const std::filesystem::path& run_directory);
 
 /// The page of a run that still computes, for a server. It asks for tables and frames as they

@@ -1,12 +1,14 @@
 #include "meniscus/report/study_page.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "meniscus/io/atomic_file.hpp"
-#include "meniscus/report/interface_picture.hpp"
 #include "meniscus/report/page.hpp"
+#include "meniscus/report/page_data.hpp"
 #include "meniscus/report/run_data.hpp"
 #include "meniscus/report/surface_frames.hpp"
 #include "meniscus/report/text.hpp"
@@ -14,7 +16,8 @@
 namespace meniscus::report {
 namespace {
 
-constexpr double kFrameWidth = 220.0;  // [px]
+using Json = nlohmann::ordered_json;
+
 constexpr std::size_t kMostShapes = 60;
 constexpr int kMostFaces = 36000;     // in all pictures together, 65 bytes each
 constexpr int kMostFacesEach = 1500;  // a picture of this width shows no more
@@ -24,13 +27,31 @@ std::string linked(const std::string& text, const std::string& link) {
   return fmt::format("<a href=\"{}\">{}</a>", markup_text(link), markup_text(text));
 }
 
-std::string plots_html(const std::vector<Plot>& plots) {
-  if (plots.empty()) return {};
-  std::string text = "<h2>Against the axes</h2>\n<div class=\"plots\">\n";
-  for (const Plot& plot : plots)
-    text += "<figure class=\"card\">" +
-            inline_svg(draw_plot(plot), plot.width, plot.height, plot.title) + "</figure>\n";
-  return text + "</div>\n";
+Json in_json(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(std::isfinite(value) ? Json(value) : Json());
+  return list;
+}
+
+/// The plots as plot.js draws them; null where a value is not finite.
+Json in_json(const std::vector<Plot>& plots) {
+  Json list = Json::array();
+  for (const Plot& plot : plots) {
+    Json curves = Json::array();
+    for (const Curve& curve : plot.curves)
+      curves.push_back({{"name", curve.label},
+                        {"legend", curve.label},
+                        {"x", in_json(curve.x)},
+                        {"y", in_json(curve.y)},
+                        {"color", curve.color},
+                        {"dash", curve.dash}});
+    list.push_back({{"title", plot.title},
+                    {"unit", plot.unit},
+                    {"xLabel", plot.x_label},
+                    {"isLog", plot.is_log},
+                    {"curves", curves}});
+  }
+  return list;
 }
 
 /// A run and its last surface.
@@ -57,28 +78,18 @@ std::vector<Shape> shapes_of(const std::vector<StudyPageRun>& runs) {
   return shapes;
 }
 
-std::string shapes_html(const std::vector<StudyPageRun>& runs) {
-  std::vector<Shape> shapes = shapes_of(runs);
-  if (shapes.empty()) return {};
-  const int most = std::min(kMostFacesEach, kMostFaces / static_cast<int>(shapes.size()));
-  std::vector<SurfaceFrame> frames;
-  for (Shape& shape : shapes) {
-    shape.frame = coarse_frame(shape.frame, most);
-    frames.push_back(shape.frame);
+DrawingData data_of(const StudyPage& page) {
+  const std::vector<Shape> shapes = shapes_of(page.runs);
+  const int most =
+      std::min(kMostFacesEach, kMostFaces / std::max(1, static_cast<int>(shapes.size())));
+  Json names = Json::array();
+  std::vector<PackedFrame> frames;
+  for (const Shape& shape : shapes) {
+    frames.push_back(packed_surface(coarse_frame(shape.frame, most)));
+    names.push_back(
+        {{"name", shape.run->name}, {"link", shape.run->link}, {"outcome", shape.run->outcome}});
   }
-  const View view = common_view(frames, kFrameWidth);
-  const ValueRange range = curvature_range(frames);
-  std::string text = "<h2>Shapes at the end</h2>\n<div class=\"card\"><div class=\"frames\">\n";
-  for (const Shape& shape : shapes)
-    text += fmt::format("<figure>{}<figcaption>{}<br>{}, <i>t</i> = {}</figcaption></figure>\n",
-                        inline_svg(draw_surface(shape.frame, view, range), view.width, view.height,
-                                   shape.run->name),
-                        linked(shape.run->name, shape.run->link), markup_text(shape.run->outcome),
-                        number_text(shape.frame.t, 3));
-  return text + "</div></div>\n<div class=\"key\">" +
-         inline_svg(draw_key(view, range, have_curvature(frames)), PictureKey::width,
-                    PictureKey::height, "Scale of colour, length and axes") +
-         "</div>\n";
+  return study_drawing_data(in_json(page.plots).dump(), names.dump(), frames);
 }
 
 std::string table_html(const StudyPage& page) {
@@ -109,8 +120,10 @@ void write_study_page(const StudyPage& page, const std::filesystem::path& file) 
   const std::string content =
       fmt::format("<header><h1>{}</h1>\n<p class=\"lead\">{}</p>\n</header>\n",
                   markup_text(page.title), markup_text(page.lead)) +
-      plots_html(page.plots) + shapes_html(page.runs) + table_html(page) + runs_html(page.runs);
-  io::write_file(file, whole_page({.title = page.title, .content = content, .data = {}}));
+      "<div id=\"app\"></div>\n" + table_html(page) + runs_html(page.runs);
+  io::write_file(
+      file,
+      whole_page({.title = page.title, .content = content, .data = data_elements(data_of(page))}));
 }
 
 }  // namespace meniscus::report

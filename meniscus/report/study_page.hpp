@@ -5,9 +5,24 @@
 #include <utility>
 #include <vector>
 
-#include "meniscus/report/svg_plot.hpp"
-
 namespace meniscus::report {
+
+/// One line of a plot; it has a gap where y is not finite.
+struct Curve {
+  std::string label = {};  ///< text in the legend
+  std::vector<double> x = {}, y = {};
+  int color = 0;  ///< number of the colour, from 0 on
+  int dash = 0;   ///< 0 solid, 1 dashed, 2 dotted
+};
+
+/// A plot that the page's script draws (web/src/plot.js).
+struct Plot {
+  std::string title = {};    ///< the quantity
+  std::string unit = {};     ///< of y, shown beside the title; empty: none
+  std::string x_label = {};  ///< label of the x-axis
+  std::vector<Curve> curves = {};
+  bool is_log = false;  ///< of y
+};
 
 /// A run of a study on its page.
 struct StudyPageRun {

@@ -21,17 +21,6 @@ const io::NamedArray* find_scalar(const std::vector<io::NamedArray>& arrays, con
 
 }  // namespace
 
-std::span<const ShownQuantity> shown_quantities() {
-  static constexpr std::array<ShownQuantity, 6> quantities = {
-      {{"curvature", "Curvature κ = k₁ + k₂", "1/R₀"},
-       {"normal_velocity", "Normal velocity v·n", "G R₀"},
-       {"pressure_jump", "Pressure jump p_out − p_in", "μG"},
-       {"pressure", "Pressure p", "μG"},
-       {"surfactant", "Surfactant concentration Γ", ""},
-       {"node_density", "Nodes per area", "1/R₀²"}}};
-  return quantities;
-}
-
 std::vector<const io::NamedArray*> one_value_arrays(const std::vector<io::NamedArray>& arrays,
                                                     std::size_t size) {
   std::vector<const io::NamedArray*> scalars;
@@ -43,9 +32,7 @@ std::vector<const io::NamedArray*> one_value_arrays(const std::vector<io::NamedA
 SurfaceFrame load_surface(const std::filesystem::path& path, double t) {
   const io::SurfaceFrame file = io::read_vtp(path);
   if (!is_finite(file.mesh)) reject_input("{}: a coordinate is not finite", path.string());
-  SurfaceFrame frame{.t = t, .mesh = file.mesh, .curvature = {}, .drop = {}};
-  const auto* kappa = find_scalar(file.data.on_vertices, "curvature", frame.mesh.num_vertices());
-  if (kappa != nullptr) frame.curvature = VertexField<double>(kappa->values);
+  SurfaceFrame frame{.t = t, .mesh = file.mesh, .drop = {}};
   for (const io::NamedArray* array :
        one_value_arrays(file.data.on_vertices, frame.mesh.x.span().size()))
     frame.fields.push_back({array->name, VertexField<double>(array->values)});
@@ -121,7 +108,7 @@ SurfaceFrame coarse_frame(const SurfaceFrame& frame, int num_faces) {
                   frame.drop.size(), frame.mesh.num_faces());
   // A surface of area S crosses about 1.5 S/h² cells of edge h, each with two faces around it.
   const double h = std::sqrt(3.0 * surface_area(frame.mesh) / num_faces);
-  SurfaceFrame result{.t = frame.t, .mesh = {}, .curvature = {}, .drop = {}};
+  SurfaceFrame result{.t = frame.t, .mesh = {}, .drop = {}};
   std::map<std::array<long, 3>, VertexId> cell_to_vertex;
   VertexField<VertexId> to_coarse(frame.mesh.num_vertices());
   VertexField<double> count;
@@ -139,7 +126,6 @@ SurfaceFrame coarse_frame(const SurfaceFrame& frame, int num_faces) {
     Vec3& mean = result.mesh.x[to_coarse[v]];
     mean += (x - mean) / n;
   }
-  result.curvature = cluster_means(frame.curvature, to_coarse, count);
   for (const SurfaceField& field : frame.fields) {
     result.fields.push_back({field.name, cluster_means(field.values, to_coarse, count)});
   }

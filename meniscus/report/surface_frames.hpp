@@ -10,15 +10,6 @@
 
 namespace meniscus::report {
 
-/// An array of the frames by which the page can colour the interface or a cut.
-struct ShownQuantity {
-  const char* name;   ///< of the array in the file
-  const char* label;  ///< for readers
-  const char* unit;
-};
-/// The quantities of every run, in the order of the page; the first that a frame has is shown by
-/// default. Other arrays follow, such as those of bulk scalars, under their own names.
-[[nodiscard]] std::span<const ShownQuantity> shown_quantities();
 /// The arrays with one value for each of `size` points.
 [[nodiscard]] std::vector<const io::NamedArray*> one_value_arrays(
     const std::vector<io::NamedArray>& arrays, std::size_t size);
@@ -33,7 +24,6 @@ struct SurfaceField {
 struct SurfaceFrame {
   double t = 0.0;
   SurfaceMesh mesh;
-  VertexField<double> curvature;          ///< kappa = k1 + k2 [1/R0]; empty if the file has none
   FaceField<int> drop;                    ///< id of the drop each face belongs to
   std::vector<SurfaceField> fields = {};  ///< all arrays of one value per vertex
 };

@@ -120,20 +120,6 @@ TEST(MeshCut, PolygonsHaveTheValuesOfPoints) {
   }
 }
 
-TEST(MeshCut, PictureHasOnePathPerCell) {
-  const test::TemporaryFolder folder;
-  const MeshCut cut = cut_through_drops(box_frame(folder), 2);
-  for (const CutColors colors : {CutColors::liquid, CutColors::quality}) {
-    const std::string svg = draw_cut(cut, colors, 400.0);
-    std::size_t num_paths = 0;
-    for (std::size_t at = svg.find("<path"); at != std::string::npos;
-         at = svg.find("<path", at + 1))
-      ++num_paths;
-    EXPECT_EQ(num_paths, cut.polygons.size());
-  }
-  EXPECT_GT(cut_height(cut, 400.0), 200.0);
-}
-
 TEST(MeshCut, RefusesWhatIsNoMesh) {
   const test::TemporaryFolder folder;
   put(folder / "torn.vtu", "torn");

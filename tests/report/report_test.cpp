@@ -1,5 +1,7 @@
 #include "meniscus/report/report.hpp"
 
+#include <cstdlib>
+
 #include <gtest/gtest.h>
 
 #include "meniscus/core/error.hpp"
@@ -51,37 +53,14 @@ TEST(Report, ShowsARun) {
   test::write_synthetic_run(folder.path(), {});
   const std::string page = page_of(folder.path());
   EXPECT_LT(page.size(), 2'000'000U);
-  for (const char* part : {"Drop in simple shear, &lt;subcritical&gt; &amp; steady",
-                           "class=\"status done\"",
-                           "0123456789ab",
-                           "cases/shear/case.toml",
-                           "<i>Ca</i> = 0.3",
-                           "1 min 55 s",
-                           "52.4 s",
-                           "Curvature κ",
-                           "Sections in the x–y plane",
-                           "Deformation D",
-                           "Half lengths",
-                           "Inclination",
-                           "Volume drift",
-                           "Volume corrections, sum",
-                           "Size of the meshes",
-                           "Time step",
-                           "Power",
-                           "Energy residual",
-                           "Shear stress",
-                           "N₁",
-                           "Linear iterations",
-                           "Wall time per step",
-                           "kind = &quot;simple-shear&quot;",
-                           "flow.capillary-number",
-                           "prefers-color-scheme"}) {
+  for (const char* part :
+       {"Drop in simple shear, &lt;subcritical&gt; &amp; steady", "class=\"status done\"",
+        "0123456789ab", "cases/shear/case.toml", "<i>Ca</i> = 0.3", "1 min 55 s", "52.4 s",
+        "Volume drift", "Volume corrections, sum", "kind = &quot;simple-shear&quot;",
+        "flow.capillary-number", "prefers-color-scheme"}) {
     EXPECT_TRUE(has(page, part)) << part;
   }
-  EXPECT_EQ(count(page, "class=\"mesh\""), 8);  // the first and the last frame among them
-  EXPECT_TRUE(has(page, "<i>t</i> = 0<"));
-  EXPECT_TRUE(has(page, "<i>t</i> = 6<"));
-  EXPECT_FALSE(has(page, "Smallest gap"));  // a lone drop has none
+  EXPECT_TRUE(has(page, "id=\"app\""));
   EXPECT_FALSE(has(page, "class=\"notice\""));
 }
 
@@ -90,31 +69,6 @@ TEST(Report, ShowsTheLastDeformationOfTheTable) {
   test::write_synthetic_run(folder.path(), {});
   put(folder / "drops.csv", "step,t,drop,D,angle_deg\n0,0,0,0,45\n1,1,0,0.123449,26\n");
   EXPECT_TRUE(has(page_of(folder.path()), "<dd>0.1234</dd>"));
-}
-
-TEST(Report, SeveralDropsAreSeveralCurves) {
-  const test::TemporaryFolder folder;
-  test::write_synthetic_run(folder.path(), {.num_drops = 2});
-  const std::string page = page_of(folder.path());
-  EXPECT_TRUE(has(page, "<title>drop 0</title>"));
-  EXPECT_TRUE(has(page, "<title>drop 1</title>"));
-  EXPECT_TRUE(has(page, "Smallest gap"));
-  EXPECT_TRUE(has(page, "L solid, B dashed, W dotted"));
-}
-
-TEST(Report, BulkScalarsHavePlotsOfTheirOwn) {
-  const test::TemporaryFolder folder;
-  test::write_synthetic_run(folder.path(), {.num_frames = 1, .has_scalars = true});
-  const std::string page = page_of(folder.path());
-  for (const std::string name : {"temperature", "dye"})
-    for (const char* plot : {"amount", "amount in the drops", "amount gained per time", "range"})
-      EXPECT_TRUE(has(page, name + ": " + plot)) << name << ", " << plot;
-  EXPECT_TRUE(has(page, "temperature: Nusselt number"));
-  EXPECT_TRUE(has(page, "dye: Sherwood number"));
-  EXPECT_FALSE(has(page, "dye: Nusselt number"));
-  EXPECT_EQ(count(page, "<h2>Temperature and species</h2>"), 1);
-  test::write_synthetic_run(folder.path(), {.num_frames = 1});
-  EXPECT_FALSE(has(page_of(folder.path()), "Temperature and species"));
 }
 
 TEST(Report, EveryFileButOneMayBeMissing) {
@@ -126,41 +80,8 @@ TEST(Report, EveryFileButOneMayBeMissing) {
     }
     const std::string page = page_of(folder.path());
     EXPECT_FALSE(has(page, "class=\"notice\"")) << kept;
-    EXPECT_EQ(has(page, "Size of the meshes"), std::string(kept) == "history.csv");
     EXPECT_EQ(has(page, "Time by phase"), std::string(kept) == "run.json");
   }
-}
-
-TEST(Report, OneRowAndOneFrame) {
-  const test::TemporaryFolder folder;
-  test::write_synthetic_run(folder.path(), {.num_drops = 1, .num_frames = 1, .num_steps = 0});
-  const std::string page = page_of(folder.path());
-  EXPECT_TRUE(has(page, "<circle"));
-  EXPECT_EQ(count(page, "class=\"mesh\""), 1);
-}
-
-TEST(Report, HeaderWithoutRows) {
-  const test::TemporaryFolder folder;
-  put(folder / "history.csv", "step,t,dt,drops\n");
-  put(folder / "drops.csv", "step,t,drop,D\n");
-  EXPECT_FALSE(has(page_of(folder.path()), "<h2>Shape</h2>"));
-}
-
-TEST(Report, EmptyAndWildCells) {
-  const test::TemporaryFolder folder;
-  put(folder / "history.csv",
-      "step,t,dt,drops,surface_nodes,nodes,tetrahedra,linear_iterations,power_in,power_residual\n"
-      "0,0,0,1,110,,,5,0,0\n1,0.1,0.1,1,nan,,,6,inf,1\n2,0.2,0.1,1,112,,,nan,1e308,-1e308\n");
-  const std::string page = page_of(folder.path());
-  EXPECT_TRUE(has(page, "surface nodes"));
-  EXPECT_FALSE(has(page, ">tetrahedra<"));
-}
-
-TEST(Report, EventsAreMarked) {
-  const test::TemporaryFolder folder;
-  test::write_synthetic_run(folder.path(), {});
-  put(folder / "events.csv", "step,t,kind\n30,3,breakup\n");
-  EXPECT_TRUE(has(page_of(folder.path()), "<title>breakup at t = 3</title>"));
 }
 
 TEST(Report, NamesWhatCannotBeRead) {
@@ -173,7 +94,6 @@ TEST(Report, NamesWhatCannotBeRead) {
   EXPECT_TRUE(has(page, "run.json cannot be read"));
   EXPECT_TRUE(has(page, "drops.csv:2: 1 cells where the header has 2"));
   EXPECT_TRUE(has(page, "surface-0001.vtp: not a surface file"));
-  EXPECT_EQ(count(page, "class=\"mesh\""), 2);
 }
 
 TEST(Report, RunJsonOfUnexpectedTypesIsBorne) {
@@ -194,15 +114,6 @@ TEST(Report, FailedRunsSayWhy) {
   EXPECT_TRUE(has(page, "class=\"status failed\">failed<"));
   EXPECT_TRUE(has(page, "failed: disk &lt;full&gt;"));
   EXPECT_TRUE(has(page, "w &amp; w"));
-}
-
-TEST(Report, LargeRunsStaySmallPages) {
-  const test::TemporaryFolder folder;
-  test::write_synthetic_run(
-      folder.path(), {.num_drops = 2, .num_frames = 9, .num_steps = 3000, .num_vertices = 4000});
-  const std::string page = page_of(folder.path());
-  EXPECT_LT(page.size(), 2'000'000U);
-  EXPECT_TRUE(has(page, "fewer triangles"));
 }
 
 TEST(Report, PicturesStandAlone) {
@@ -227,15 +138,39 @@ TEST(Report, PicturesStandAlone) {
   EXPECT_TRUE(has(get(folder / "mesh.svg"), "t = 0,"));
 }
 
-TEST(Report, ReferenceIsDrawn) {
+TEST(Report, PicturesOfWildTables) {
   const test::TemporaryFolder folder;
-  test::write_synthetic_run(folder.path(), {});
-  EXPECT_FALSE(has(page_of(folder.path()), "<title>reference</title>"));
-  put(folder / "reference.csv", "# Where it comes from.\nt,D\n0,0\n1,0.12\n6,0.2\n");
-  const std::string page = page_of(folder.path());
-  EXPECT_EQ(count(page, "<title>reference</title>"), 1);  // D has one, no other quantity
-  put(folder / "reference.csv", "# Where it comes from.\nt,D\n0\n1,2\n");
-  EXPECT_TRUE(has(page_of(folder.path()), "reference.csv:2: 1 cells where the header has 2"));
+  put(folder / "history.csv",
+      "step,t,dt,drops,surface_nodes,nodes,tetrahedra,linear_iterations,power_in,power_residual\n"
+      "0,0,0,1,110,,,5,0,0\n1,0.1,0.1,1,nan,,,6,inf,1\n2,0.2,0.1,1,112,,,nan,1e308,-1e308\n");
+  put(folder / "drops.csv", "step,t,drop,D\n0,0,0,0\n1,0.1,0,0.1\n0,0,1,0\n1,0.1,1,0.2\n");
+  put(folder / "events.csv", "step,t,kind\n1,0.1,breakup\n");
+  put(folder / "reference.csv", "# Where it comes from.\nt,D\n0,0\n0.1,0.12\n");
+  EXPECT_EQ(write_stills(folder.path(), StillFormat::svg),
+            (std::vector<std::string>{"deformation.svg", "history.svg"}));
+  const std::string history = get(folder / "history.svg");
+  const test::Xml xml = test::parse_xml(history);
+  EXPECT_EQ(xml.fault, "");
+  EXPECT_EQ(test::bad_coordinate(xml), "");
+  for (const char* part : {"<title>D of drop 0</title>", "<title>D of drop 1</title>",
+                           "<title>breakup at t = 0.1</title>", "surface nodes"})
+    EXPECT_TRUE(has(history, part)) << part;
+  EXPECT_FALSE(has(history, ">tetrahedra<"));
+  EXPECT_EQ(count(history, "<title>D, reference</title>"), 1);
+}
+
+TEST(Report, NamesNodeWhereItIsMissing) {
+  const test::TemporaryFolder folder;
+  test::write_synthetic_run(folder / "run", {.num_frames = 2, .num_vertices = 60});
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", folder.path().c_str(), 1);
+  const std::string message =
+      message_of<InvalidInput>([&] { (void)write_stills(folder / "run", StillFormat::png); });
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(message,
+            "--png: the program node cannot be started: No such file or directory (Debian: apt "
+            "install nodejs)");
+  write_report(folder / "run");  // needs none
 }
 
 TEST(Report, RefusesWhatIsNoRun) {

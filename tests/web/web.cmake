@@ -17,6 +17,10 @@ if(MENISCUS_HAS_PAGE)
   endif()
 endif()
 
+if(MENISCUS_HAS_PAGE)
+  add_test(NAME web_drawing COMMAND ${NODE} ${WEB_TESTS}/drawing_test.mjs ${PROJECT_SOURCE_DIR}/web/src)
+endif()
+
 # Pages are the same whatever the program was built with, and a browser is slow enough.
 if(NOT MENISCUS_HAS_PAGE OR MENISCUS_SANITIZE OR MENISCUS_COVERAGE)
   return()

@@ -1,15 +1,19 @@
-// What the tables of a run give for a plot of the catalogue, as the program computes it for its
-// pictures (meniscus/report/history_curves.cpp).
+// From the tables of runs to plots of their history.
+import { CATALOGUE } from "./catalogue.js";
+import { hasValues } from "./plot.js";
+import { readable } from "./text.js";
+
+const MOST_DROPS_IN_LEGEND = 6; // the number of colours
 
 /** The plots of runs: the catalogue, its plots of bulk scalars (named `*`) for each that the tables name. */
-export function plotsOf(catalogue, runs) {
-  return catalogue.flatMap((plot) => {
-    const [first] = plot.quantities;
-    if (!first.column.startsWith("*")) return [plot];
-    return scalarNames(first.column.slice(1), runs.map((run) => run.tables[plot.table])).map((name) => {
+export function specsOf(runs) {
+  return CATALOGUE.flatMap((spec) => {
+    const [first] = spec.quantities;
+    if (!first.column.startsWith("*")) return [spec];
+    return scalarNames(first.column.slice(1), runs.map((run) => run.tables[spec.table])).map((name) => {
       const named = (text) => text.replace("*", () => name);
-      const quantities = plot.quantities.map(({ column, label }) => ({ column: named(column), label: named(label) }));
-      return { ...plot, title: named(plot.title), quantities };
+      const quantities = spec.quantities.map(({ column, label }) => ({ column: named(column), label: named(label) }));
+      return { ...spec, title: named(spec.title), quantities };
     });
   });
 }
@@ -19,63 +23,129 @@ function scalarNames(suffix, tables) {
   return [...new Set(columns.filter((c) => c.endsWith(suffix)).map((c) => c.slice(0, -suffix.length)))];
 }
 
-/** [{label, drop, quantity, column, table, t, values}] of one run. */
-export function curvesOf(plot, run) {
-  const table = run.tables[plot.table];
+/** [{label, drop, quantity, x, y}] of one run; `drop` is -1 where a table has none. */
+function curvesOf(spec, run) {
+  const table = run.tables[spec.table];
   if (!table) return [];
-  if (plot.derivation === "sum") return sumCurve(table);
-  const curves = plot.table === "drops" ? dropCurves(plot, table) : plainCurves(plot, table);
-  if (plot.derivation === "percent") {
+  if (spec.derivation === "sum") return sumCurve(table);
+  const curves = spec.table === "drops" ? dropCurves(spec, table) : plainCurves(spec, table);
+  if (spec.derivation === "percent") {
     if (curves.length !== 2) return [];
     const [part, whole] = curves;
-    return [{ ...part, values: part.values.map((v, i) => (100 * v) / Math.abs(whole.values[i])) }];
+    return [{ ...part, y: part.y.map((v, i) => (100 * v) / Math.abs(whole.y[i])) }];
   }
-  if (plot.derivation === "gap-at-zeros") {
-    return curves.map((curve) => ({ ...curve, values: curve.values.map((v) => (v === 0 ? NaN : v)) }));
+  if (spec.derivation === "gap-at-zeros") {
+    return curves.map((curve) => ({ ...curve, y: curve.y.map((v) => (v === 0 ? NaN : v)) }));
   }
   return curves;
 }
 
 /** The same columns of the reference. */
-export function referenceOf(plot, run) {
-  if (!run.tables.reference || plot.derivation !== "none") return [];
-  return plainCurves(plot, run.tables.reference);
+function referencesOf(spec, run) {
+  return run.tables.reference && !spec.derivation ? plainCurves(spec, run.tables.reference) : [];
 }
 
-function plainCurves(plot, table) {
-  return plot.quantities.flatMap(({ column, label }, quantity) =>
-    table.has(column)
-      ? [{ label, quantity, column, t: table.column("t"), values: table.column(column) }]
+function plainCurves(spec, table) {
+  return spec.quantities.flatMap(({ column, label }, quantity) =>
+    table.has(column) && table.has("t")
+      ? [{ label, quantity, drop: -1, x: table.column("t"), y: table.column(column) }]
       : [],
   );
 }
 
-function dropCurves(plot, table) {
+function dropCurves(spec, table) {
   const rows = new Map();
   table.column("drop").forEach((drop, i) => {
     if (!Number.isFinite(drop)) return;
     if (!rows.has(drop)) rows.set(drop, []);
     rows.get(drop).push(i);
   });
-  const whole = plainCurves(plot, table);
+  const whole = plainCurves(spec, table);
   return [...rows.keys()].sort((a, b) => a - b).flatMap((drop) =>
     whole.map((curve) => ({
       ...curve, drop,
       label: rows.size === 1 ? curve.label : `${curve.label} of drop ${drop}`,
-      t: rows.get(drop).map((i) => curve.t[i]),
-      values: rows.get(drop).map((i) => curve.values[i]),
+      x: rows.get(drop).map((i) => curve.x[i]),
+      y: rows.get(drop).map((i) => curve.y[i]),
     })),
   );
 }
 
 function sumCurve(table) {
-  const t = table.column("t");
-  const values = t.map(() => 0);
+  const x = table.column("t");
+  const y = x.map(() => 0);
   for (const name of table.names) {
     if (name === "step" || name === "t") continue;
     table.column(name).forEach((v, i) => {
-      if (Number.isFinite(v)) values[i] += v;
+      if (Number.isFinite(v)) y[i] += v;
     });
   }
-  return t.length === 0 ? [] : [{ label: "wall time", quantity: 0, column: "", t, values }];
+  return x.length === 0 ? [] : [{ label: "wall time", quantity: 0, drop: -1, x, y }];
+}
+
+/**
+ * The curves of one run. With one drop or none, colours tell quantities apart; with several, colours tell
+ * drops and dashes quantities apart.
+ */
+function curvesOfRun(spec, run) {
+  const curves = curvesOf(spec, run);
+  const drops = [...new Set(curves.map(({ drop }) => drop))];
+  const isSingle = drops.length <= 1;
+  const hasSeveral = spec.quantities.length > 1 && !spec.derivation;
+  const styled = curves.map(({ label, quantity, drop, x, y }) => {
+    const rank = drops.indexOf(drop);
+    const isNamed = isSingle ? hasSeveral : quantity === 0 && rank < MOST_DROPS_IN_LEGEND;
+    return {
+      name: label, x, y, color: isSingle ? quantity : rank, dash: isSingle ? 0 : quantity,
+      legend: isNamed ? (isSingle ? label : `drop ${drop}`) : "",
+    };
+  });
+  if (curves.length === 0) return styled;
+  const references = referencesOf(spec, run).map(({ label, x, y }, i) => ({
+    name: `${label}, reference`, legend: i === 0 ? "reference" : "", x, y, dash: 2, isReference: true,
+  }));
+  return [...styled, ...references];
+}
+
+/** The curves of several runs: colours tell runs apart, dashes quantities. */
+function curvesOfRuns(spec, runs) {
+  return runs.flatMap((run, r) => curvesOf(spec, run).map(({ label, drop, quantity, x, y }, i) => ({
+    name: spec.quantities.length > 1 || drop > 0 ? `${run.name}: ${label}` : run.name,
+    legend: i === 0 ? run.name : "", x, y, color: r, dash: quantity,
+  })));
+}
+
+/** A plot of the history of one run, or of several in one; marks at its events. */
+export function historyPlot(spec, runs, events) {
+  const curves = runs.length > 1 ? curvesOfRuns(spec, runs) : curvesOfRun(spec, runs[0]);
+  const isOfDrops = runs.length === 1 && new Set(curves.map(({ color }) => color)).size > 1 && curves.some(({ dash }) => dash === 1);
+  const [first, second, third] = spec.quantities.map(({ label }) => label);
+  const { group, title, unit, isLog, includesZero } = spec;
+  return {
+    group, unit, isLog, includesZero, curves,
+    title: isOfDrops && third ? `${title}: ${first} solid, ${second} dashed, ${third} dotted` : title,
+    xLabel: "time t [1/G]",
+    marks: events.map(({ t, label }) => ({ x: t, label })),
+    width: 560, height: 300,
+  };
+}
+
+/** All plots of the history that runs have values for. */
+export function historyPlots(runs, events) {
+  return specsOf(runs).map((spec) => historyPlot(spec, runs, events)).filter(hasValues);
+}
+
+/** Rows of events.csv: [{t, kind, label, x}], x the place. */
+export function eventsOf(table) {
+  if (!table || !table.names.includes("t")) return [];
+  const kinds = table.texts("kind");
+  const number = (name, i) => table.column(name)[i];
+  return table.column("t").flatMap((t, i) =>
+    Number.isFinite(t)
+      ? [{
+          t, kind: kinds[i] ?? "event", label: `${kinds[i] ?? "event"} at t = ${readable(t, 4)}`,
+          x: [number("x", i), number("y", i), number("z", i)],
+        }]
+      : [],
+  );
 }

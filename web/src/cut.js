@@ -1,16 +1,18 @@
-// The cut through the tetrahedral mesh, coloured by liquid, by quality or by a field.
-import { css, liquidColor, variable, viridis, VIRIDIS_GRADIENT } from "./colors.js";
+// The cut through the tetrahedral mesh, coloured by liquid, by quality or by a field: the picture that
+// stills have, with zoom.
+import { FIELDS } from "./catalogue.js";
+import { liquidOf, VIRIDIS_GRADIENT } from "./colors.js";
+import { BEST_ANGLE, cutHeight, drawCut, planeText } from "./cut-picture.js";
 import { fieldsOf, rangeOf } from "./data.js";
 import { make, readable } from "./text.js";
 
-const BEST_ANGLE = 60; // degrees; the regular tetrahedron has 70.5, a good mesh little above 60
-
+const WIDTH = 760; // px, of the picture at most
 const OF_FIELD = "field "; // begins the names of colourings by a field
 
 export class CutView {
-  constructor(run, fields) {
+  constructor(run) {
     this.cuts = run.cuts;
-    this.fields = fieldsOf(this.cuts.entries, fields);
+    this.fields = fieldsOf(this.cuts.entries, FIELDS);
     this.plane = 0;
     this.coloring = "liquid";
     this.at = this.cuts.length - 1;
@@ -19,7 +21,7 @@ export class CutView {
   }
 
   makeElement() {
-    this.canvas = make("canvas", { role: "img", tabindex: 0,
+    this.stage = make("div", { class: "cut-stage", role: "img", tabindex: 0,
       "aria-label": "Cut through the tetrahedral mesh; + and − zoom, arrow keys move" });
     this.timeSelect = make("select", { change: () => this.choose({ at: Number(this.timeSelect.value) }) });
     this.planeSelect = make("select", { change: () => this.choose({ plane: Number(this.planeSelect.value) }) });
@@ -32,16 +34,14 @@ export class CutView {
     this.caption = make("figcaption", {});
     this.fillTimes();
     this.element = make(
-      "figure", { class: "dynamic card cut" },
+      "figure", { class: "card cut" },
       make("div", { class: "controls" },
         make("label", {}, "Time ", this.timeSelect), make("label", {}, "Plane ", this.planeSelect),
         make("label", {}, "Colour ", colorSelect), this.key,
         make("button", { type: "button", click: () => this.resetZoom() }, "Show all")),
-      make("div", { class: "cut-stage" }, this.canvas), this.caption,
+      this.stage, this.caption,
     );
     this.listen();
-    new ResizeObserver(() => this.draw()).observe(this.element);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
   }
 
   fillTimes() {
@@ -68,22 +68,23 @@ export class CutView {
     if (at !== this.at) return;
     this.cut = planes[this.plane];
     this.planeSelect.replaceChildren(...planes.map((cut, k) =>
-      make("option", { value: k, selected: k === this.plane }, `${"xyz"[cut.normal]} = ${readable(Math.abs(cut.offset) < 1e-9 ? 0 : cut.offset, 3)}`)));
+      make("option", { value: k, selected: k === this.plane }, planeText(cut))));
     this.draw();
   }
 
   listen() {
-    this.canvas.addEventListener("wheel", (event) => {
+    this.stage.addEventListener("wheel", (event) => {
       event.preventDefault();
-      this.zoomBy(event.deltaY < 0 ? 1.2 : 1 / 1.2, event.offsetX, event.offsetY);
+      const { left, top } = this.stage.getBoundingClientRect();
+      this.zoomBy(event.deltaY < 0 ? 1.2 : 1 / 1.2, event.clientX - left, event.clientY - top);
     }, { passive: false });
-    this.canvas.addEventListener("pointerdown", (event) => this.canvas.setPointerCapture(event.pointerId));
-    this.canvas.addEventListener("pointermove", (event) => {
-      if (!this.canvas.hasPointerCapture(event.pointerId)) return;
+    this.stage.addEventListener("pointerdown", (event) => this.stage.setPointerCapture(event.pointerId));
+    this.stage.addEventListener("pointermove", (event) => {
+      if (!this.stage.hasPointerCapture(event.pointerId)) return;
       this.move(event.movementX, event.movementY);
     });
-    this.canvas.addEventListener("keydown", (event) => {
-      const { clientWidth: w, clientHeight: h } = this.canvas;
+    this.stage.addEventListener("keydown", (event) => {
+      const { clientWidth: w, clientHeight: h } = this.stage;
       const keys = {
         "+": () => this.zoomBy(1.2, w / 2, h / 2), "=": () => this.zoomBy(1.2, w / 2, h / 2),
         "-": () => this.zoomBy(1 / 1.2, w / 2, h / 2), ArrowLeft: () => this.move(30, 0),
@@ -100,84 +101,49 @@ export class CutView {
     const scale = Math.min(40, Math.max(1, this.zoom.scale * factor));
     const share = scale / this.zoom.scale;
     this.zoom = { scale, x: x - share * (x - this.zoom.x), y: y - share * (y - this.zoom.y) };
-    this.draw();
+    this.place();
   }
 
   move(dx, dy) {
     this.zoom = { ...this.zoom, x: this.zoom.x + dx, y: this.zoom.y + dy };
-    this.draw();
+    this.place();
   }
 
   resetZoom() {
     this.zoom = { scale: 1, x: 0, y: 0 };
-    this.draw();
+    this.place();
   }
 
+  /** Draws the cut anew; zoom and place are those of its box alone (`place`). */
   draw() {
-    if (!this.cut || this.isDue) return;
-    this.isDue = true;
-    requestAnimationFrame(() => {
-      this.isDue = false;
-      this.drawNow();
-    });
+    const { cut } = this;
+    const field = this.coloringField();
+    const coloring = field ? { kind: "field", field: field.name, low: field.range[0], high: field.range[1] } : { kind: this.coloring };
+    this.stage.innerHTML = `<svg>${drawCut(cut, coloring, WIDTH)}</svg>`;
+    this.place();
+    this.caption.textContent =
+      `${cut.polygons} cells of the mesh at t = ${readable(cut.t, 4)} in the plane ${planeText(cut)}; ` +
+      `${cut.axes[0]} to the right, ${cut.axes[1]} upwards. The wheel zooms.`;
+    this.key.replaceChildren(...this.keyParts());
   }
 
-  drawNow() {
-    const { cut, canvas } = this;
-    const [left, bottom, right, top] = cut.window;
-    const width = Math.min(this.element.querySelector(".cut-stage").clientWidth, 760);
-    const height = Math.round((width * (top - bottom)) / Math.max(right - left, 1e-12));
-    const ratio = Math.min(window.devicePixelRatio || 1, 2);
-    Object.assign(canvas, { width: width * ratio, height: height * ratio });
-    Object.assign(canvas.style, { width: `${width}px`, height: `${height}px` });
-    const unit = (width / (right - left)) * this.zoom.scale;
-    const context = canvas.getContext("2d");
-    context.setTransform(ratio, 0, 0, ratio, this.zoom.x * ratio, this.zoom.y * ratio);
-    this.drawPolygons(context, (x) => (x - left) * unit, (y) => (top - y) * unit);
-    this.describe();
+  /** Shows the part of the picture that zoom and moves have chosen. */
+  place() {
+    const { scale, x, y } = this.zoom;
+    const [width, height] = [WIDTH, cutHeight(this.cut, WIDTH)].map((length) => length / scale);
+    const unit = this.unit();
+    this.stage.firstChild.setAttribute("viewBox", `${-x * unit / scale} ${-y * unit / scale} ${width} ${height}`);
+  }
+
+  /** Lengths of the picture per px of the page. */
+  unit() {
+    return WIDTH / Math.max(1, this.stage.clientWidth);
   }
 
   /** The field that colours the cut, with its range over all times; undefined where none does. */
   coloringField() {
     const field = this.fields.find(({ name }) => OF_FIELD + name === this.coloring);
     return field && { ...field, range: rangeOf(this.cuts.entries, field.name) };
-  }
-
-  /** A function from a polygon's number to its colour. */
-  polygonColors() {
-    const { cut } = this;
-    if (this.coloring === "liquid") {
-      const liquids = Array.from({ length: 7 }, (_, region) => liquidColor(region));
-      return (p) => liquids[cut.region[p] === 0 ? 0 : 1 + ((cut.region[p] - 1) % 6)];
-    }
-    if (this.coloring === "quality") return (p) => css(viridis(cut.quality[p] / BEST_ANGLE));
-    const { name, range: [low, high] } = this.coloringField();
-    return (p) => css(viridis((cut.values[name]?.[p] - low) / (high - low)));
-  }
-
-  drawPolygons(context, toX, toY) {
-    const { cut } = this;
-    const colorOf = this.polygonColors();
-    context.lineWidth = 0.7;
-    context.strokeStyle = variable(this.coloring === "liquid" ? "--soft" : "--card");
-    let first = 0;
-    for (let p = 0; p < cut.polygons; ++p) {
-      context.beginPath();
-      for (let k = 0; k < cut.corners[p]; ++k) context.lineTo(toX(cut.x[first + k]), toY(cut.y[first + k]));
-      context.closePath();
-      first += cut.corners[p];
-      context.fillStyle = colorOf(p);
-      context.fill();
-      context.stroke();
-    }
-  }
-
-  describe() {
-    const { cut } = this;
-    this.caption.textContent =
-      `${cut.polygons} cells of the mesh at t = ${readable(cut.t, 4)} in the plane ${"xyz"[cut.normal]} = ` +
-      `${readable(Math.abs(cut.offset) < 1e-9 ? 0 : cut.offset, 3)}; ${cut.axes[0]} to the right, ${cut.axes[1]} upwards. The wheel zooms.`;
-    this.key.replaceChildren(...this.keyParts());
   }
 
   /** What the colours mean. */
@@ -189,6 +155,6 @@ export class CutView {
     if (field) return scale(readable(field.range[0], 4), readable(field.range[1], 4), field.unit);
     const chip = (color, label) => make("span", { class: "chip" }, make("i", { style: `background:${color}` }), label);
     const regions = [...new Set(this.cut.region)].sort((a, b) => a - b).slice(0, 7);
-    return regions.map((region) => chip(liquidColor(region), region === 0 ? "matrix" : `drop ${region - 1}`));
+    return regions.map((region) => chip(`var(--liquid${liquidOf(region)})`, region === 0 ? "matrix" : `drop ${region - 1}`));
   }
 }

@@ -1,4 +1,5 @@
-// What the page shows, out of the texts it carries (or a server sends): tables, frames, cuts.
+// What is drawn, out of the texts that a page carries (or a server sends): tables, frames, cuts.
+import { edgesOfFaces } from "./surface.js";
 
 /** Bytes of a text in base 64. */
 function bytesOfBase64(text) {
@@ -18,13 +19,13 @@ export function pageData() {
   return JSON.parse(document.getElementById("page-data").textContent);
 }
 
-/** Bytes of an element of the page, inflated; the element goes, its text is not needed twice. */
-export async function embedded(id) {
+/** The text of an element of the page; the element goes, its text is not needed twice. */
+export function takenElement(id) {
   const element = document.getElementById(id);
   if (!element) throw new Error(`the page lacks ${id}`);
   const text = element.textContent;
   element.remove();
-  return inflated(bytesOfBase64(text));
+  return text;
 }
 
 export async function fetched(url) {
@@ -144,22 +145,27 @@ function ungridded(indices, low, high) {
   return Float32Array.from(indices, (i) => (i === GRID_NONE ? NaN : low + step * i));
 }
 
-/** A surface as the 3-D view draws it. */
+/** A surface: {t, index, position, values, low, high}, and where faces are curved as `surface.js` says. */
 export function unpackedFrame(bytes) {
   const reader = new Reader(bytes);
-  const { t, vertices, faces, wide, low, high, fields } = reader.header;
+  const { t, vertices, faces, middles: edges, wide, low, high, fields } = reader.header;
   const index = reader.takeFaces(wide ? Uint32Array : Uint16Array, faces);
-  const position = new Float32Array(3 * vertices);
-  for (let axis = 0; axis < 3; ++axis) {
-    const grid = reader.takeSums(vertices);
-    const step = (high[axis] - low[axis]) / GRID_STEPS;
-    for (let v = 0; v < vertices; ++v) position[3 * v + axis] = low[axis] + step * grid[v];
-  }
+  const takePoints = (count) => {
+    const points = new Float32Array(3 * count);
+    for (let axis = 0; axis < 3; ++axis) {
+      const grid = reader.takeSums(count);
+      const step = (high[axis] - low[axis]) / GRID_STEPS;
+      for (let v = 0; v < count; ++v) points[3 * v + axis] = low[axis] + step * grid[v];
+    }
+    return points;
+  };
+  const position = takePoints(vertices);
+  const curved = edges > 0 ? { middles: takePoints(edges), faceEdges: edgesOfFaces(index).faceEdges } : {};
   const values = {};
   for (const field of fields) {
     values[field.name] = ungridded(reader.takeSums(vertices), field.low, field.high);
   }
-  return { t, index, position, values, low, high };
+  return { t, index, position, values, low, high, ...curved };
 }
 
 /** The cuts of one moment, each a list of polygons. */
@@ -228,6 +234,9 @@ export class Frames {
     });
     return best;
   }
+  all() {
+    return Promise.all(this.entries.map((_, k) => this.get(k)));
+  }
   /** Unpacks all, a few at a time, so that the page stays awake. */
   async prepare() {
     for (let k = 0; k < this.length; ++k) {
@@ -237,17 +246,18 @@ export class Frames {
   }
 }
 
-/** A run of a page that carries all it shows. */
-export async function embeddedRun(run, number) {
+/** A run out of the texts that a page carries: `textOf(id)` gives each, compressed and in base 64. */
+export async function embeddedRun(run, number, textOf) {
   const prefix = `run${number}-`;
+  const bytesOf = async (id) => inflated(bytesOfBase64(await textOf(id)));
   const tables = {};
   for (const name of run.tables) {
-    tables[name] = new Table().append(new TextDecoder().decode(await embedded(prefix + name)));
+    tables[name] = new Table().append(new TextDecoder().decode(await bytesOf(prefix + name)));
   }
   return {
     ...run,
     tables,
-    frames: new Frames(run.frames, (k) => embedded(`${prefix}frame${k}`), unpackedFrame),
-    cuts: new Frames(run.cuts, (k) => embedded(`${prefix}cut${k}`), unpackedCuts),
+    frames: new Frames(run.frames, (k) => bytesOf(`${prefix}frame${k}`), unpackedFrame),
+    cuts: new Frames(run.cuts, (k) => bytesOf(`${prefix}cut${k}`), unpackedCuts),
   };
 }

@@ -1,5 +1,6 @@
 // The interface in 3-D with its controls: of one run, or of several side by side at equal times.
 import { Vector3 } from "three";
+import { FIELDS } from "./catalogue.js";
 import { VIRIDIS_GRADIENT } from "./colors.js";
 import { fieldsOf, rangeOf } from "./data.js";
 import { make, readable } from "./text.js";
@@ -26,10 +27,10 @@ const VIEWS = [
 ];
 
 export class Explorer {
-  constructor(runs, timeline, fields) {
+  constructor(runs, timeline) {
     this.runs = runs;
     this.timeline = timeline;
-    this.fields = fieldsOf(this.entries(), fields);
+    this.fields = fieldsOf(this.entries(), FIELDS);
     this.field = this.fields[0]?.name;
     this.requests = runs.map(() => 0);
     this.makeViews();

@@ -1,13 +1,16 @@
-// The page: what report.html, the comparison and the live view do in the browser.
-import "uplot/dist/uPlot.min.css";
+// The page: what report.html, comparisons, studies and the live view do in the browser.
 import "./page.css";
+import { pageVariables, pictureStyle } from "./colors.js";
+import { eventsOf } from "./curves.js";
 import { CutView } from "./cut.js";
-import { embeddedRun, pageData } from "./data.js";
+import { embeddedRun, pageData, takenElement } from "./data.js";
 import { Explorer } from "./explorer.js";
 import { LiveRun } from "./live.js";
 import { History } from "./plots.js";
+import { drawForPaper } from "./printed.js";
+import { showStudy } from "./study.js";
 import { download, make } from "./text.js";
-import { eventsOf, Timeline } from "./timeline.js";
+import { Timeline } from "./timeline.js";
 
 const app = document.getElementById("app");
 
@@ -20,32 +23,31 @@ function timesOf(runs) {
   return lists.length === 1 ? all : all.filter((t) => t <= end);
 }
 
-/** Whether the 3-D view could be made; without WebGL the pictures stay in its place. */
-function addExplorer(page, runs, fields) {
+/** The 3-D view; without WebGL the pictures for paper stand in its place. */
+function addExplorer(page, runs) {
   try {
-    page.explorer = new Explorer(runs, page.timeline, fields);
-  } catch (error) {
+    page.explorer = new Explorer(runs, page.timeline);
+  } catch {
     app.append(make("p", { class: "dynamic notice" },
       "This browser shows no 3-D view (WebGL is missing or switched off)."));
+    page.paper?.classList.remove("printed");
     return;
   }
   app.append(make("h2", { class: "dynamic" }, runs.length > 1 ? "Shapes at equal times" : "The interface"));
   app.append(page.explorer.element);
-  document.documentElement.classList.add("has-view");
 }
 
-function addCut(page, run, fields) {
+function addCut(page, run) {
   if (run.cuts.length === 0 || page.cut) return;
-  page.cut = new CutView(run, fields);
-  page.cutPlace.replaceChildren(make("h2", { class: "dynamic" }, "A cut through the mesh"), page.cut.element);
+  page.cut = new CutView(run);
+  page.cutPlace.replaceChildren(make("h2", {}, "A cut through the mesh"), page.cut.element);
   return page.cut.show();
 }
 
-function addHistory(page, catalogue, runs) {
+function addHistory(page, runs) {
   const events = () => runs.flatMap((run) => eventsOf(run.tables.events));
-  page.history = new History(catalogue, runs, page.timeline, events);
+  page.history = new History(runs, page.timeline, events);
   page.historyPlace.replaceChildren(page.history.element);
-  document.documentElement.classList.add("has-plots");
   page.history.draw();
 }
 
@@ -96,27 +98,32 @@ function newPage(runs) {
   return page;
 }
 
-async function showRuns({ runs: entries, fields, plots }) {
-  const runs = await Promise.all(entries.map(embeddedRun));
+async function showRuns({ runs: entries }) {
+  const runs = await Promise.all(entries.map((entry, number) => embeddedRun(entry, number, takenElement)));
   const page = newPage(runs);
-  if (runs.some((run) => run.frames.length > 0)) addExplorer(page, runs, fields);
+  if (runs.some((run) => run.frames.length > 0)) {
+    page.paper = make("section", { class: "printed" });
+    addExplorer(page, runs);
+    app.append(page.paper);
+  }
   app.append(page.cutPlace, page.historyPlace);
   page.timeline.set(page.timeline.times.length - 1); // how it ended is what most want to see first
   await page.explorer?.show();
   await Promise.all(page.explorer?.views.map((view) => view.frame && view.drawn) ?? []);
   performance.mark("first-picture");
-  addHistory(page, plots, runs);
+  addHistory(page, runs);
   if (runs.length === 1) {
-    await addCut(page, runs[0], fields);
+    await addCut(page, runs[0]);
     addCaseButtons(runs[0]);
   }
   window.meniscus = page; // for tests, and for the curious
   performance.mark("ready");
   for (const run of runs) await run.frames.prepare();
+  if (page.paper) drawForPaper(page.paper, runs);
   performance.mark("prepared");
 }
 
-async function showLive({ runs: [entry], fields, plots }) {
+async function showLive({ runs: [entry] }) {
   const live = new LiveRun(entry);
   const { run } = live;
   const page = newPage([run]);
@@ -128,7 +135,7 @@ async function showLive({ runs: [entry], fields, plots }) {
     const events = eventsOf(run.tables.events);
     if (news.frames || news.rows) page.timeline.extend(run.frames.times, events);
     if (news.frames && !page.explorer && !page.hasNoView) {
-      addExplorer(page, [run], fields);
+      addExplorer(page, [run]);
       page.hasNoView = !page.explorer;
       viewPlace.append(...app.querySelectorAll(":scope > h2, :scope > .explorer, :scope > .notice"));
       await page.explorer?.show();
@@ -137,15 +144,16 @@ async function showLive({ runs: [entry], fields, plots }) {
     }
     if (news.rows) live.showPhases();
     if (news.cuts && page.cut) page.cut.extend();
-    else if (news.cuts) await addCut(page, run, fields);
+    else if (news.cuts) await addCut(page, run);
     if (news.rows && page.history) page.history.extend();
-    else if (news.rows) addHistory(page, plots, [run]);
+    else if (news.rows) addHistory(page, [run]);
   });
 }
 
+document.head.append(make("style", {}, pictureStyle() + pageVariables()));
 const data = pageData();
+const SHOW = { report: showRuns, comparison: showRuns, live: showLive, study: (study) => showStudy(app, study) };
 document.documentElement.classList.add(`${data.kind}-page`);
-(data.kind === "live" ? showLive(data) : showRuns(data)).catch((error) => {
-  app.prepend(make("p", { class: "dynamic notice" }, `This page could not be shown in full: ${error.message}`));
-  document.documentElement.classList.remove("has-view", "has-plots");
+SHOW[data.kind](data).catch((error) => {
+  app.prepend(make("p", { class: "notice" }, `This page could not be shown in full: ${error.message}`));
 });

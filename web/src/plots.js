@@ -1,280 +1,218 @@
-// The plots of the history: linked, with values under the mouse, zoom, logarithmic axes, download.
-import uPlot from "uplot";
-import { lineColor, variable } from "./colors.js";
-import { curvesOf, plotsOf, referenceOf } from "./curves.js";
-import { plotSvg } from "./plot-svg.js";
+// The plots of the page: drawn as in pictures, and with values under the cursor, zoom, logarithmic axes,
+// download. The cursor is one for all plots of the history.
+import { NUM_CURVE_COLORS } from "./colors.js";
+import { historyPlots } from "./curves.js";
+import { drawPlot, plotArea } from "./plot.js";
+import { escaped, svgFile } from "./svg.js";
 import { download, fileName, make, readable } from "./text.js";
 
-const HEIGHT = 250;
-const DASHES = [[], [6, 4], [2, 4], [8, 3, 2, 3]];
+const HEIGHT = 290; // px
+const LEAST_WIDTH = 260;
+const MOST_VALUES = 8; // in the line below a plot
+const LEAST_DRAG = 6; // px; less is a click
 
-/** The curves of a plot for one or several runs, with how they are drawn. */
-function styledCurves(plot, runs) {
-  if (runs.length > 1) {
-    return runs.flatMap((run, r) =>
-      curvesOf(plot, run).map((curve) => ({
-        ...curve,
-        label: plot.quantities.length > 1 || curve.drop > 0 ? `${run.name}: ${curve.label}` : run.name,
-        color: r, dash: curve.quantity,
-      })),
-    );
-  }
-  const curves = curvesOf(plot, runs[0]);
-  const drops = [...new Set(curves.map((curve) => curve.drop))];
-  const styled = curves.map((curve) => ({
-    ...curve,
-    color: drops.length > 1 ? drops.indexOf(curve.drop) : curve.quantity,
-    dash: drops.length > 1 ? curve.quantity : 0,
-  }));
-  if (curves.length === 0) return styled;
-  const references = referenceOf(plot, runs[0]).map((curve) => ({
-    ...curve, label: `${curve.label}, reference`, isReference: true, dash: 2,
-  }));
-  return [...styled, ...references];
+const isDrawable = (plot, i, { y }) => Number.isFinite(y[i]) && (y[i] > 0 || !plot.isLog);
+
+/** The row with a value that can be drawn nearest to x; -1 where a curve has none. */
+function rowAt(plot, curve, x) {
+  let best = -1;
+  curve.x.forEach((value, i) => {
+    if (!isDrawable(plot, i, curve)) return;
+    if (best < 0 || Math.abs(value - x) < Math.abs(curve.x[best] - x)) best = i;
+  });
+  return best;
 }
 
-/**
- * One axis of times for all curves: rows [t, values of curve 0, …], null where a curve has none that can
- * be drawn.
- */
-function joined(curves, isLog) {
-  const isDrawable = (v) => Number.isFinite(v) && (v > 0 || !isLog);
-  return uPlot.join(curves.map(({ t, values }) => [t, values.map((v) => (isDrawable(v) ? v : null))]));
-}
+/** All x of the curves, rising. */
+const allX = (plot) => [...new Set(plot.curves.flatMap(({ x }) => x.filter(Number.isFinite)))].sort((a, b) => a - b);
 
-class HistoryPlot {
-  constructor(spec, runs, timeline, events) {
-    Object.assign(this, { spec, runs, timeline, events, isLog: spec.log });
-    this.curves = styledCurves(spec, runs);
-    this.isLog &&= this.canBeLog();
-    this.isDrawable = this.curves.some(({ values }) => values.some(Number.isFinite));
-    if (!this.isDrawable) return;
-    this.body = make("div", { class: "plot-body" });
-    this.readout = make("div", { class: "readout", "aria-live": "off" });
-    this.element = make("figure", { class: "card plot" }, this.heading(), this.readout, this.body);
+/** One plot. `cursor` is shared: an EventTarget with `x` (undefined: none) that tells of a `change`. */
+export class PlotView {
+  constructor(plot, cursor, { momentOf = () => undefined, onChoose = () => {} } = {}) {
+    Object.assign(this, { plot, cursor, momentOf, onChoose });
+    this.picture = make("div", { class: "picture" });
+    this.line = make("div", { class: "cursor", hidden: true });
+    this.now = make("div", { class: "now", hidden: true });
+    this.band = make("div", { class: "band", hidden: true });
+    this.over = make("div", { class: "over" }, this.now, this.line, this.band);
+    this.body = make("div", { class: "plot-body", tabindex: 0, role: "group",
+      "aria-label": `${plot.title}; left and right move the cursor, + and − zoom, 0 shows all, Enter goes to the time` },
+      this.picture, this.over);
+    this.readout = make("div", { class: "readout", "aria-live": "polite" });
+    this.element = make("figure", { class: "card plot" }, this.body, make("figcaption", {}, this.readout, this.tools()));
+    this.listen();
     new IntersectionObserver(([entry]) => {
       this.isSeen = entry.isIntersecting;
       this.showMoment();
     }).observe(this.element);
   }
 
-  heading() {
-    const { title, unit } = this.spec;
+  tools() {
     this.logButton = make("button", {
-      type: "button", class: "log", title: "Logarithmic axis of values", "aria-pressed": String(this.isLog),
+      type: "button", class: "log", title: "Logarithmic axis of values", "aria-pressed": String(this.plot.isLog),
       click: () => this.toggleLog(),
     }, "log");
-    const button = (name, title2, click) => make("button", { type: "button", title: title2, click }, name);
-    return make(
-      "figcaption", {},
-      make("span", { class: "plot-title" }, title, " ", make("small", {}, unit ? `[${unit}]` : "")),
-      make("span", { class: "tools" }, this.logButton,
-        button("⤢", "Show all (double click)", () => this.unzoom()),
-        button("SVG", "Download the picture", () => this.downloadSvg()),
-        button("CSV", "Download the values", () => this.downloadCsv())),
-    );
+    const button = (name, title, click) => make("button", { type: "button", title, click }, name);
+    return make("span", { class: "tools" }, this.logButton,
+      button("⤢", "Show all (double click)", () => this.show(undefined)),
+      button("SVG", "Download the picture", () => this.downloadSvg()),
+      button("CSV", "Download the values", () => this.downloadCsv()));
   }
 
-  /** Draws (again, after a change of size, colours or axes). */
   draw() {
-    const zoom = this.uplot && this.isZoomed ? { ...this.uplot.scales.x } : null;
-    this.uplot?.destroy();
-    this.data = joined(this.curves, this.isLog);
-    this.uplot = new uPlot(this.options(), this.data, this.body);
-    this.uplot.over.addEventListener("click", () => this.jump());
-    this.now = make("div", { class: "now" });
-    this.uplot.over.append(this.now);
-    if (zoom) this.uplot.setScale("x", { min: zoom.min, max: zoom.max });
+    const width = Math.max(LEAST_WIDTH, this.body.clientWidth);
+    Object.assign(this.plot, { width, height: HEIGHT });
+    this.area = plotArea(this.plot);
+    const { left, right, top, bottom } = this.area;
+    this.picture.innerHTML =
+      `<svg viewBox="0 0 ${width} ${HEIGHT}" role="img" aria-label="${escaped(this.plot.title)}">${drawPlot(this.plot, this.area)}</svg>`;
+    Object.assign(this.over.style, { left: `${left}px`, top: `${top}px`, width: `${right - left}px`, height: `${bottom - top}px` });
     this.showMoment();
   }
 
-  options() {
-    const axis = {
-      stroke: variable("--soft"), font: `12px ${variable("--font")}`, labelFont: `12px ${variable("--font")}`,
-      grid: { stroke: variable("--grid"), width: 1 }, ticks: { show: false },
-    };
-    const values = (_, splits) => splits.map((v) => (v === null ? null : readable(v, 5)));
-    return {
-      width: Math.max(200, this.body.clientWidth), height: HEIGHT,
-      legend: { show: false },
-      cursor: {
-        sync: { key: "history", setSeries: false, scales: ["x", null] },
-        drag: { x: true, y: false },
-        points: { size: 7 },
-        dataIdx: (u, series, nearest) => this.nearestValue(series, nearest),
-      },
-      scales: { x: { time: false }, y: { distr: this.isLog ? 3 : 1, range: this.range() } },
-      axes: [
-        { ...axis, values, label: "time t [1/G]", labelSize: 16, labelGap: 0, size: 26, gap: 3 },
-        { ...axis, values: this.isLog ? undefined : values, size: (u, labels) => this.axisSize(labels) },
-      ],
-      series: [{}, ...this.curves.map((curve) => this.series(curve))],
-      hooks: {
-        setCursor: [() => this.showValues()],
-        drawAxes: [(u) => this.drawEvents(u)],
-        setScale: [(u, key) => key === "x" && this.noteZoom(u)],
-        draw: [() => this.moveNow()],
-      },
-    };
+  /** x under a place of the page. */
+  xAt(clientX) {
+    return this.area.ofX(this.area.left + clientX - this.over.getBoundingClientRect().left);
   }
 
-  /** At least from 0 where the quantity is one of those; a constant gets some room. */
-  range() {
-    if (this.isLog) return undefined;
-    return (u, low, high) => {
-      const least = this.spec.zero ? Math.min(0, low) : low;
-      const most = this.spec.zero ? Math.max(0, high) : high;
-      const room = Math.max(0.06 * (most - least), 1e-3 * Math.max(Math.abs(most), Math.abs(least)), 1e-300);
-      return [this.spec.zero && least === 0 ? 0 : least - room, this.spec.zero && most === 0 ? 0 : most + room];
-    };
-  }
-
-  series(curve) {
-    const color = curve.isReference ? variable("--soft") : lineColor(curve.color);
-    const isSparse = curve.values.length < 30 && curve.isReference;
-    return {
-      label: curve.label, stroke: color, width: curve.isReference ? 1.5 : 2, dash: DASHES[curve.dash % 4],
-      spanGaps: false, points: { show: isSparse || curve.values.length === 1, size: 6, fill: color },
-    };
-  }
-
-  axisSize(labels) {
-    const longest = Math.max(3, ...(labels ?? []).map((label) => (label ?? "").length));
-    return 14 + 7 * longest;
-  }
-
-  canBeLog() {
-    return this.curves.some(({ values }) => values.some((v) => v > 0));
-  }
-
-  /** The row nearest to the mouse in which the curve has a value. */
-  nearestValue(series, nearest) {
-    const values = this.data[series];
-    if (series === 0 || values[nearest] != null) return nearest;
-    for (let d = 1; d < values.length; ++d) {
-      if (values[nearest - d] != null) return nearest - d;
-      if (values[nearest + d] != null) return nearest + d;
-    }
-    return nearest;
-  }
-
-  /** The values under the mouse, or those of the moment the 3-D view shows. */
-  showValues() {
-    const isHovered = this.uplot.cursor.idx != null;
-    const entries = this.curves.map((curve, k) => {
-      const row = isHovered ? this.nearestValue(k + 1, this.uplot.cursor.idx) : this.rowAt(this.timeline.t, k + 1);
-      const value = this.data[k + 1][row];
-      const color = curve.isReference ? "var(--soft)" : `var(--curve${curve.color % 6})`;
-      return make(
-        "span", { class: "value", "data-curve": curve.label, "data-t": this.data[0][row], "data-value": value ?? "",
-          title: `t = ${this.data[0][row]}: ${value}` },
-        make("i", { style: `border-top:2px ${["solid", "dashed", "dotted", "dashed"][curve.dash % 4]} ${color}` }),
-        `${curve.label} = ${readable(value, 6)}`,
-      );
+  listen() {
+    const { over, body } = this;
+    let start; // of a drag
+    over.addEventListener("pointerdown", (event) => {
+      start = event.clientX;
+      over.setPointerCapture(event.pointerId);
     });
-    const t = isHovered ? this.data[0][this.uplot.cursor.idx] : this.timeline.t;
-    this.readout.replaceChildren(make("span", { class: "value-t" }, `t = ${readable(t, 5)}`), ...entries.slice(0, 8));
+    over.addEventListener("pointermove", (event) => {
+      this.cursor.move(this.nearest(this.xAt(event.clientX)));
+      if (start === undefined) return;
+      const edge = over.getBoundingClientRect().left;
+      const [from, to] = [Math.min(start, event.clientX), Math.max(start, event.clientX)];
+      this.band.hidden = to - from < LEAST_DRAG;
+      Object.assign(this.band.style, { left: `${from - edge}px`, width: `${to - from}px` });
+    });
+    over.addEventListener("pointerup", (event) => {
+      const [from, to] = [Math.min(start, event.clientX), Math.max(start, event.clientX)];
+      start = undefined;
+      this.band.hidden = true;
+      if (to - from < LEAST_DRAG) this.onChoose(this.nearest(this.xAt(event.clientX)));
+      else this.show([this.xAt(from), this.xAt(to)]);
+    });
+    over.addEventListener("pointerleave", () => this.cursor.move(undefined));
+    over.addEventListener("dblclick", () => this.show(undefined));
+    body.addEventListener("keydown", (event) => this.onKey(event));
+    body.addEventListener("blur", () => this.cursor.move(undefined));
   }
 
-  /** The row with a value nearest to a time. */
-  rowAt(t, series) {
-    const times = this.data[0];
-    let [low, high] = [0, times.length - 1];
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (times[middle] <= t) low = middle;
-      else high = middle;
-    }
-    return this.nearestValue(series, t - times[low] <= times[high] - t ? low : high);
+  onKey(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const keys = {
+      ArrowLeft: () => this.step(-1), ArrowRight: () => this.step(1), "+": () => this.zoom(0.5), "=": () => this.zoom(0.5),
+      "-": () => this.zoom(2), 0: () => this.show(undefined), Enter: () => this.onChoose(this.shownX()),
+    };
+    if (!keys[event.key]) return;
+    event.preventDefault();
+    event.stopPropagation();
+    keys[event.key]();
   }
 
-  drawEvents(u) {
-    const { ctx } = u;
-    ctx.save();
-    ctx.strokeStyle = variable("--event");
-    ctx.lineWidth = devicePixelRatio;
-    ctx.setLineDash([4, 3]);
-    for (const { t } of this.events()) {
-      if (t < u.scales.x.min || t > u.scales.x.max) continue;
-      const x = Math.round(u.valToPos(t, "x", true)) + 0.5;
-      ctx.beginPath();
-      ctx.moveTo(x, u.bbox.top);
-      ctx.lineTo(x, u.bbox.top + u.bbox.height);
-      ctx.stroke();
-    }
-    ctx.restore();
+  /** The x nearest to a place that any curve has. */
+  nearest(x) {
+    return allX(this.plot).reduce((best, each) => (Math.abs(each - x) < Math.abs(best - x) ? each : best), Infinity);
   }
 
-  /** A line at the moment the 3-D view shows: an element, as a plot takes long to draw again. */
-  moveNow() {
-    const u = this.uplot;
-    if (!u || !this.now) return;
-    const { t, times } = this.timeline;
-    this.now.hidden = times.length < 2 || t < u.scales.x.min || t > u.scales.x.max;
-    this.now.style.transform = `translateX(${u.valToPos(t, "x").toFixed(1)}px)`;
+  /** The cursor's x, or that of the moment; of a plot that knows none the first. */
+  shownX() {
+    return this.cursor.x ?? this.momentOf() ?? allX(this.plot)[0];
   }
 
-  showMoment() {
-    if (!this.uplot || !this.isSeen) return;
-    this.moveNow();
-    if (this.uplot.cursor.idx == null) this.showValues();
+  step(by) {
+    const all = allX(this.plot);
+    const at = all.indexOf(this.nearest(this.shownX()));
+    this.cursor.move(all[Math.max(0, Math.min(all.length - 1, at + by))]);
   }
 
-  jump() {
-    if (this.uplot.cursor.idx != null) this.timeline.setTime(this.data[0][this.uplot.cursor.idx]);
+  zoom(factor) {
+    const { min, max } = this.area.x;
+    const [x, half] = [this.shownX(), (factor * (max - min)) / 2];
+    const all = allX(this.plot);
+    if (2 * half >= all.at(-1) - all[0]) this.show(undefined);
+    else this.show([x - half, x + half]);
   }
 
-  noteZoom(u) {
-    const t = u.data[0];
-    this.isZoomed = u.scales.x.min > t[0] || u.scales.x.max < t[t.length - 1];
-  }
-
-  unzoom() {
-    this.uplot.setScale("x", { min: this.data[0][0], max: this.data[0].at(-1) });
-  }
-
-  toggleLog() {
-    this.isLog = !this.isLog && this.canBeLog();
-    this.logButton.setAttribute("aria-pressed", String(this.isLog));
+  /** Shows a window of x, or all. */
+  show(window) {
+    this.plot.window = window;
     this.draw();
   }
 
-  /** New rows have come. */
-  extend() {
-    this.curves = styledCurves(this.spec, this.runs);
-    if (this.uplot?.series.length !== this.curves.length + 1) return this.draw();
-    this.data = joined(this.curves, this.isLog);
-    this.uplot.setData(this.data, !this.isZoomed);
-    this.showValues();
+  toggleLog() {
+    const canBeLog = this.plot.curves.some(({ y }) => y.some((v) => v > 0));
+    this.plot.isLog = !this.plot.isLog && canBeLog;
+    this.logButton.setAttribute("aria-pressed", String(this.plot.isLog));
+    this.draw();
+  }
+
+  /** The values at the cursor, or at the moment that the 3-D view shows. */
+  showMoment() {
+    if (!this.area || !this.isSeen) return;
+    const place = (line, x) => {
+      line.hidden = !(x >= this.area.x.min && x <= this.area.x.max);
+      line.style.transform = `translateX(${(this.area.toX(x) - this.area.left).toFixed(1)}px)`;
+    };
+    place(this.line, this.cursor.x);
+    place(this.now, this.momentOf());
+    const x = this.shownX();
+    const entries = this.plot.curves.slice(0, MOST_VALUES).map((curve) => {
+      const row = rowAt(this.plot, curve, x);
+      const [t, value] = [curve.x[row], curve.y[row]];
+      const color = curve.isReference ? "var(--soft)" : `var(--curve${curve.color % NUM_CURVE_COLORS})`;
+      return make("span", { class: "value", "data-curve": curve.name, "data-t": t ?? "", "data-value": value ?? "",
+        title: `${curve.name} = ${value} at ${t}` },
+        make("i", { style: `border-top:2px ${["solid", "dashed", "dotted", "dashed"][curve.dash % 4]} ${color}` }),
+        `${curve.name || "value"} = ${readable(value, 6)}`);
+    });
+    this.readout.replaceChildren(make("span", { class: "value-t" }, `${this.plot.xName ?? "t"} = ${readable(x, 5)}`), ...entries);
+  }
+
+  /** New curves, of a run that goes on; zoom and axes stay. */
+  extend(plot) {
+    this.plot = { ...plot, window: this.plot.window, isLog: this.plot.isLog };
+    this.draw();
   }
 
   downloadSvg() {
-    const colors = this.curves.map((curve) => (curve.isReference ? "#5c6671" : PRINT_COLORS[curve.color % 6]));
-    const text = plotSvg(this.uplot, this.spec, this.curves.map((curve, k) => ({
-      label: curve.label, color: colors[k], dash: DASHES[curve.dash % 4], values: this.data[k + 1],
-    })), this.events());
-    download(`${fileName(this.spec.title)}.svg`, text, "image/svg+xml");
+    download(`${fileName(this.plot.title)}.svg`, svgFile(drawPlot(this.plot, this.area), this.plot.width, this.plot.height), "image/svg+xml");
   }
 
   downloadCsv() {
     const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
-    const lines = [["t", ...this.curves.map((curve) => quoted(curve.label))].join(",")];
-    this.data[0].forEach((t, i) => lines.push(this.data.map((column) => column[i] ?? "").join(",")));
-    download(`${fileName(this.spec.title)}.csv`, `${lines.join("\n")}\n`, "text/csv");
+    const { curves } = this.plot;
+    const columns = curves.map((curve) => new Map(curve.x.map((x, i) => [x, curve.y[i]])));
+    const lines = [[this.plot.xName ?? "t", ...curves.map(({ name }) => quoted(name))].join(",")];
+    for (const x of allX(this.plot)) {
+      lines.push([x, ...columns.map((column) => (Number.isFinite(column.get(x)) ? column.get(x) : ""))].join(","));
+    }
+    download(`${fileName(this.plot.title)}.csv`, `${lines.join("\n")}\n`, "text/csv");
   }
 }
 
-// As in the style sheet by day: a file is printed or pasted into a paper.
-const PRINT_COLORS = ["#0072b2", "#d55e00", "#009e73", "#b5548a", "#c98a00", "#3a9bdc"];
+/** The place under the mouse, for all plots that share it. */
+export class Cursor extends EventTarget {
+  move(x) {
+    if (x === this.x) return;
+    this.x = x;
+    this.dispatchEvent(new Event("change"));
+  }
+}
 
-/** All plots of the catalogue that the runs have values for. */
+/** All plots of the history that runs have values for, with the moment that the timeline shows. */
 export class History {
-  constructor(catalogue, runs, timeline, events) {
-    this.element = make("section", { class: "dynamic history", "aria-label": "History" });
-    Object.assign(this, { catalogue, runs, timeline, events, plots: [] });
+  constructor(runs, timeline, events) {
+    Object.assign(this, { runs, timeline, events, cursor: new Cursor(), plots: [] });
+    this.element = make("section", { class: "history", "aria-label": "History" });
     this.addPlots();
+    this.cursor.addEventListener("change", () => this.showMoment());
     timeline.addEventListener("change", () => this.showMoment());
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
     let width = 0;
     new ResizeObserver(() => {
       if (this.element.clientWidth !== width) this.draw();
@@ -284,14 +222,15 @@ export class History {
 
   addPlots() {
     const groups = new Map();
-    this.plots = [];
-    for (const spec of plotsOf(this.catalogue, this.runs)) {
-      const plot = new HistoryPlot(spec, this.runs, this.timeline, this.events);
-      if (!plot.isDrawable) continue;
-      this.plots.push(plot);
-      if (!groups.has(spec.group)) groups.set(spec.group, make("div", { class: "plots" }));
-      groups.get(spec.group).append(plot.element);
-    }
+    this.plots = historyPlots(this.runs, this.events()).map((plot) => {
+      const view = new PlotView(plot, this.cursor, {
+        momentOf: () => (this.timeline.times.length > 0 ? this.timeline.t : undefined),
+        onChoose: (t) => this.timeline.setTime(t),
+      });
+      if (!groups.has(plot.group)) groups.set(plot.group, make("div", { class: "plots" }));
+      groups.get(plot.group).append(view.element);
+      return view;
+    });
     this.element.replaceChildren(...[...groups].flatMap(([name, group]) => [make("h2", {}, name), group]));
   }
 
@@ -310,14 +249,12 @@ export class History {
   }
 
   extend() {
-    const drawable = plotsOf(this.catalogue, this.runs).filter((spec) =>
-      styledCurves(spec, this.runs).some(({ values }) => values.some(Number.isFinite)),
-    );
-    if (drawable.length !== this.plots.length) {
+    const plots = historyPlots(this.runs, this.events());
+    if (plots.length !== this.plots.length) {
       this.addPlots();
       this.draw();
     } else {
-      this.plots.forEach((plot) => plot.extend());
+      plots.forEach((plot, k) => this.plots[k].extend(plot));
     }
   }
 }

@@ -137,18 +137,3 @@ export class Timeline extends EventTarget {
     return event.key in keys;
   }
 }
-
-/** Rows of events.csv as marks. */
-export function eventsOf(table) {
-  if (!table || !table.names.includes("t")) return [];
-  const kinds = table.texts("kind");
-  const number = (name, i) => table.column(name)[i];
-  return table.column("t").flatMap((t, i) =>
-    Number.isFinite(t)
-      ? [{
-          t, kind: kinds[i] ?? "event", label: `${kinds[i] ?? "event"} at t = ${readable(t, 4)}`,
-          x: [number("x", i), number("y", i), number("z", i)],
-        }]
-      : [],
-  );
-}

@@ -6,11 +6,13 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { variable, viridis } from "./colors.js";
-import { make, readable } from "./text.js";
+import { viridis } from "./colors.js";
+import { drawAxes, FIRST_VIEW, LIGHT, longestRoundLength, SHADING } from "./interface.js";
+import { numFaces, refined } from "./surface.js";
+import { make, readable, variable } from "./text.js";
 
-// Where the pictures of the program look from: 20° above the flow plane, 17° beside it.
-const FIRST_VIEW = new Vector3(0.3, 0.38, 1).normalize();
+const MOST_TRIANGLES = 20000; // of the pieces of curved faces
+const MOST_PARTS = 4; // of their edges
 const NO_VALUE = -1e30; // GLSL has no portable test for NaN
 
 const VERTEX_SHADER = `
@@ -23,7 +25,7 @@ void main() {
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }`;
 
-// Light from above the viewer's left shoulder; even the darkest side shows its colour.
+const number = (value) => value.toFixed(4); // as GLSL writes it
 const FRAGMENT_SHADER = `
 uniform sampler2D scale;
 uniform float low, high, opacity;
@@ -32,11 +34,11 @@ varying vec3 vNormal;
 void main() {
   vec3 n = normalize(vNormal);
   if (!gl_FrontFacing) n = -n;
-  float share = max(0.0, dot(n, normalize(vec3(-0.45, 0.6, 0.75))));
+  float share = max(0.0, dot(n, normalize(vec3(${LIGHT.map(number).join(",")}))));
   float s = clamp((vValue - low) / (high - low), 0.0, 1.0);
   vec3 color = vValue < -1e29 ? vec3(0.6, 0.65, 0.7) : texture2D(scale, vec2((s * 255.0 + 0.5) / 256.0, 0.5)).rgb;
-  color = color * (0.72 + 0.36 * share);
-  color += (1.0 - color) * 0.16 * share * share;
+  color = color * (${number(SHADING.dark)} + ${number(SHADING.lit)} * share);
+  color += (1.0 - color) * ${number(SHADING.white)} * share * share;
   gl_FragColor = vec4(color, opacity);
 }`;
 
@@ -64,6 +66,13 @@ function edgesOf(index) {
     }
   }
   return edges.slice(0, n);
+}
+
+/** Flat triangles of a frame, curved faces in so many pieces as the view can turn. */
+function drawnFaces(frame) {
+  if (!frame.middles) return frame;
+  const parts = Math.floor(Math.sqrt(MOST_TRIANGLES / numFaces(frame)));
+  return refined(frame, Math.max(1, Math.min(MOST_PARTS, parts)));
 }
 
 export class View3D {
@@ -119,16 +128,17 @@ export class View3D {
     this.frame = frame;
     this.field = field;
     if (!frame.geometry) {
+      frame.drawn = drawnFaces(frame);
       frame.geometry = new BufferGeometry();
-      frame.geometry.setAttribute("position", new BufferAttribute(frame.position, 3));
-      frame.geometry.setIndex(new BufferAttribute(frame.index, 1));
+      frame.geometry.setAttribute("position", new BufferAttribute(frame.drawn.position, 3));
+      frame.geometry.setIndex(new BufferAttribute(frame.drawn.index, 1));
       frame.geometry.computeVertexNormals();
     }
     const geometry = new BufferGeometry();
     for (const name of ["position", "normal"]) geometry.setAttribute(name, frame.geometry.getAttribute(name));
     geometry.setIndex(frame.geometry.index);
-    const values = frame.values[field];
-    const drawn = new Float32Array(frame.position.length / 3).fill(NO_VALUE);
+    const values = frame.drawn.values[field];
+    const drawn = new Float32Array(frame.drawn.position.length / 3).fill(NO_VALUE);
     values?.forEach((value, v) => {
       if (Number.isFinite(value)) drawn[v] = value;
     });
@@ -142,7 +152,7 @@ export class View3D {
 
   updateLines() {
     if (!this.lines.visible || !this.frame) return;
-    this.frame.edges ??= edgesOf(this.frame.index);
+    this.frame.edges ??= this.frame.drawn.edges ?? edgesOf(this.frame.index);
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", this.frame.geometry.getAttribute("position"));
     geometry.setIndex(new BufferAttribute(this.frame.edges, 1));
@@ -189,7 +199,7 @@ export class View3D {
   }
 
   /** Looks along `toward` (at the eye), everything in view. */
-  lookFrom(toward = FIRST_VIEW) {
+  lookFrom(toward = new Vector3(...FIRST_VIEW)) {
     const low = new Vector3(...this.box.low);
     const high = new Vector3(...this.box.high);
     const center = low.clone().add(high).multiplyScalar(0.5);
@@ -303,17 +313,10 @@ export class View3D {
   drawOverlay() {
     const { height } = this.size();
     const px = (height / (2 * this.halfHeight)) * this.camera.zoom; // of R0
-    const power = 10 ** Math.floor(Math.log10(120 / px));
-    const length = [5, 2, 1].map((k) => k * power).find((l) => l * px <= 120) ?? power;
-    const arrow = 24;
-    const axes = ["x", "y", "z"].map((name, k) => {
-      const axis = new Vector3().setComponent(k, 1).transformDirection(this.camera.matrixWorldInverse);
-      const x = 36 + arrow * axis.x;
-      const y = 36 - arrow * axis.y;
-      return `<path d="M36 36L${x.toFixed(1)} ${y.toFixed(1)}"/><text x="${(36 + 1.4 * arrow * axis.x).toFixed(1)}" y="${(40 - 1.4 * arrow * axis.y).toFixed(1)}">${name}</text>`;
-    });
+    const length = longestRoundLength(120 / px);
+    const [right, up] = [0, 1].map((k) => new Vector3().setFromMatrixColumn(this.camera.matrixWorld, k).toArray());
     const text =
-      `<svg class="axes" width="72" height="72">${axes.join("")}</svg>` +
+      `<svg class="axes" width="72" height="72">${drawAxes({ right, up }, 36, 36, 24)}</svg>` +
       `<span class="length" style="width:${(length * px).toFixed(1)}px">${readable(length, 2)} R₀</span>`;
     if (text !== this.overlayText) this.overlay.innerHTML = this.overlayText = text;
   }
