@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <sys/wait.h>
 
 #include "meniscus/core/error.hpp"
@@ -40,9 +39,9 @@ Answer ask(const std::string& command) {
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 std::string command_line(std::span<const std::string> words) {
-  std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_word(word);
-  return line;
+  std::vector<std::string> quoted;
+  for (const std::string& word : words) quoted.push_back(shell_word(word));
+  return fmt::format("{}", fmt::join(quoted, " "));
 }
 
 }  // namespace
