@@ -116,7 +116,7 @@ struct PackageReader {
 };
 
 SurfaceFrame sphere_frame(int num_vertices) {
-  SurfaceFrame frame{.t = 1.5, .mesh = sphere(num_vertices), .curvature = {}, .drop = {}};
+  SurfaceFrame frame{.t = 1.5, .mesh = sphere(num_vertices), .drop = {}};
   VertexField<double> height;
   for (const Vec3& x : frame.mesh.x) height.add(x.z());
   frame.fields.push_back({"curvature", height});
