@@ -145,9 +145,10 @@ TEST(StopRules, APatchIsComeToWithinAnEdge) {
   const Scene probe = ball_in_box(0.0);
   const SurfaceMesh& mesh = probe.interfaces.front().mesh;
   const VertexField<double> edges = mean_edges(mesh);
-  const auto foremost =
-      std::ranges::max_element(mesh.x.ids(), {}, [&](const VertexId v) { return mesh.x[v].x(); });
-  const double reach = mesh.x[*foremost].x(), edge = edges[*foremost];
+  VertexId foremost{0};
+  for (const VertexId v : mesh.x.ids())
+    if (mesh.x[v].x() > mesh.x[foremost].x()) foremost = v;
+  const double reach = mesh.x[foremost].x(), edge = edges[foremost];
   EXPECT_FALSE(find_patch_contact(ball_in_box(2.0 - reach - 1.1 * edge), {}));
   EXPECT_TRUE(find_patch_contact(ball_in_box(2.0 - reach - 0.9 * edge), {}));
 }
