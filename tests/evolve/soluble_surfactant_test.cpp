@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -170,29 +171,23 @@ name = "soap"
 kind = "species"
 peclet = 4.0
 initial = 2.0
+convection = false
 [[scalar.drop]]
 partition = 1e-3
 diffusivity-ratio = 1e-3
 [time]
-end = 0.8
+end = 0.1999
 max-step = {0}
 tolerance = 1.0
 )",
                      step);
 }
 
-/// The mean of Γ² over the vertices.
-double mean_square(const Evolution& evolution) {
-  double sum = 0.0;
-  const VertexField<double>& concentration =
-      *surfactant_concentration(evolution.scene().interfaces[0]);
-  for (const double each : concentration) sum += each * each / concentration.size();
-  return sum;
-}
-
-TEST(SolubleSurfactant, ExchangeInAFlowIsOfSecondOrder) {
-  std::vector<double> reached, gathered;
-  for (const double step : {0.2, 0.1, 0.05}) {
+// What is adsorbed in a step is carried in it too. Where it is not, the least and the largest Γ
+// differ by 1.3e-3 and 2.3e-3 between the first and the last of these steps, and at first order.
+TEST(SolubleSurfactant, WhatIsAdsorbedInAStepIsCarriedInIt) {
+  std::vector<double> least, largest;
+  for (const double step : {0.025, 0.0125, 0.00625}) {
     const Case c = parse_case(stretched_drop(step), "test");
     EvolutionOptions options = c.evolution;
     options.remesh_every = 1000000;
@@ -202,12 +197,17 @@ TEST(SolubleSurfactant, ExchangeInAFlowIsOfSecondOrder) {
     ASSERT_TRUE(evolution.solve().ok());
     const double before = total(evolution, 0.5);
     run(evolution);
+    ASSERT_NEAR(evolution.t(), 0.2, 1e-12);
     EXPECT_NEAR(total(evolution, 0.5), before, 1e-10 * before);
-    reached.push_back(mean_concentration(evolution));
-    gathered.push_back(mean_square(evolution));
+    const auto [low, high] =
+        std::ranges::minmax(*surfactant_concentration(evolution.scene().interfaces[0]));
+    least.push_back(low);
+    largest.push_back(high);
   }
-  EXPECT_NEAR(std::log2((reached[1] - reached[0]) / (reached[2] - reached[1])), 2.0, 0.3);
-  EXPECT_NEAR(std::log2((gathered[1] - gathered[0]) / (gathered[2] - gathered[1])), 2.0, 0.3);
+  // Measured: 4.3e-5, 4.0e-6 and 1.2e-4, 5.0e-5.
+  EXPECT_LT(std::abs(least[0] - least[2]), 1e-4);
+  EXPECT_GT(std::log2((least[1] - least[0]) / (least[2] - least[1])), 1.7);
+  EXPECT_LT(std::abs(largest[0] - largest[2]), 3e-4);
 }
 
 }  // namespace
