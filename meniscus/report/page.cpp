@@ -11,10 +11,10 @@ namespace {
 
 // Where pictures are missing, the page says why.
 constexpr std::string_view unbuilt_note =
-    "<p class=\"notice\">This page has no pictures: the program was built without node and npm. "
+    "<p class=\"lead\">This page has no pictures: the program was built without node and npm. "
     "Install both, build again and run <code>meniscus report</code> on this folder.</p>\n";
 constexpr std::string_view no_script_note =
-    "<noscript><p class=\"notice\">The pictures of this page need scripts. "
+    "<noscript><p class=\"lead\">The pictures of this page need scripts. "
     "<code>meniscus report --svg</code> writes them as files.</p></noscript>\n";
 
 /// The content security policy: the page loads nothing, so that it is the same wherever it is

@@ -144,15 +144,6 @@ TEST(BadScene, VerticesThatAreNotFiniteAreNamed) {
   }
 }
 
-TEST(BadScene, InsideOutSurfaceIsRefused) {
-  const test::TemporaryFolder folder;
-  SurfaceMesh mesh = sphere(100);
-  for (FaceVertices& f : mesh.faces) std::swap(f[1], f[2]);
-  folder.write_stl("inside-out.stl", mesh);
-  expect_parts(message_of(file_case("inside-out.stl"), {}, folder.path()),
-               {"case.toml:4: drop.surface = \"inside-out.stl\" is unfit: ", "volume"});
-}
-
 TEST(BadScene, SelfIntersectingSurfaceIsRefused) {
   const test::TemporaryFolder folder;
   SurfaceMesh mesh = sphere(200);

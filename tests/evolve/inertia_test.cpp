@@ -120,14 +120,34 @@ TEST(InertialDrop, RisesSlowerWithSurfactant) {
   EXPECT_LT(speed(rows), 0.97 * kSpeedOfBubble);
 }
 
+/// D of drop 0 at a time that the last step passes, from the parabola through the last three rows.
+double deformation_at(double t, Evolution evolution) {
+  std::vector<double> times, D;
+  EXPECT_TRUE(evolution.prepare().ok());
+  while (!testing::Test::HasFailure()) {
+    EXPECT_TRUE(evolution.solve().ok());
+    times.push_back(evolution.t());
+    D.push_back(evolution.rows().drops[0].shape.D);
+    if (evolution.is_finished()) break;
+    EXPECT_TRUE(evolution.advance().ok());
+  }
+  double result = 0.0;
+  for (std::size_t a = D.size() - 3; a < D.size(); ++a) {
+    double weight = 1.0;
+    for (std::size_t b = D.size() - 3; b < D.size(); ++b)
+      if (b != a) weight *= (t - times[b]) / (times[a] - times[b]);
+    result += weight * D[a];
+  }
+  return result;
+}
+
 TEST(InertialDrop, ThinsInShearAsInStokesFlowWhereInertiaIsSmall) {
   const auto deformation = [](const std::string& more) {
-    const Evolution::Rows rows = run_to_end(
-        evolution_of("[flow]\nkind = \"simple-shear\"\ncapillary-number = 0.3\n" + more +
-                     "[domain]\nhalf-width = 4\nnodes = 150\n[time]\nend = 1\n"
-                     "[[drop]]\nradius = 1\nnodes = 60\nviscosity-law = \"carreau-yasuda\"\n"
-                     "power-index = 0.4\ntime-constant = 2\nviscosity-ratio = 3\n"));
-    return rows.drops[0].shape.D;
+    return deformation_at(
+        1.0, evolution_of("[flow]\nkind = \"simple-shear\"\ncapillary-number = 0.3\n" + more +
+                          "[domain]\nhalf-width = 4\nnodes = 150\n[time]\nend = 1\n"
+                          "[[drop]]\nradius = 1\nnodes = 60\nviscosity-law = \"carreau-yasuda\"\n"
+                          "power-index = 0.4\ntime-constant = 2\nviscosity-ratio = 3\n"));
   };
   EXPECT_NEAR(deformation("reynolds-number = 0.001\n") / deformation(""), 1.0, 0.003);
 }
