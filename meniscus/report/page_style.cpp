@@ -34,7 +34,7 @@ background:var(--line);border:1px solid var(--line);border-radius:8px;overflow:h
 figure{margin:0;break-inside:avoid}
 figcaption{font-size:14px;color:var(--soft);text-align:center;font-variant-numeric:tabular-nums}
 .card>figcaption{text-align:left;padding-top:8px}
-svg{display:block;width:100%;height:auto}
+:not(svg)>svg{display:block;width:100%;height:auto}
 .key{max-width:560px;margin:8px 0 0}
 .plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,460px),1fr));gap:16px}
 .sections{margin-top:16px}

@@ -67,7 +67,7 @@ export class PlotView {
     this.picture.innerHTML =
       `<svg viewBox="0 0 ${width} ${HEIGHT}" role="img" aria-label="${escaped(this.plot.title)}">${drawPlot(this.plot, this.area)}</svg>`;
     Object.assign(this.over.style, { left: `${left}px`, top: `${top}px`, width: `${right - left}px`, height: `${bottom - top}px` });
-    this.showMoment();
+    this.showMoment(true);
   }
 
   /** x under a place of the page. */
@@ -152,9 +152,9 @@ export class PlotView {
     this.draw();
   }
 
-  /** The values at the cursor, or at the moment that the 3-D view shows. */
-  showMoment() {
-    if (!this.area || !this.isSeen) return;
+  /** The values at the cursor, or at the moment that the 3-D view shows; of a plot out of sight if `always`. */
+  showMoment(always = false) {
+    if (!this.area || (!this.isSeen && !always)) return;
     const place = (line, x) => {
       line.hidden = !(x >= this.area.x.min && x <= this.area.x.max);
       line.style.transform = `translateX(${(this.area.toX(x) - this.area.left).toFixed(1)}px)`;
@@ -211,7 +211,7 @@ export class History {
     Object.assign(this, { runs, timeline, events, cursor: new Cursor(), plots: [] });
     this.element = make("section", { class: "history", "aria-label": "History" });
     this.addPlots();
-    this.cursor.addEventListener("change", () => this.showMoment());
+    this.cursor.addEventListener("change", () => this.showMoment(true));
     timeline.addEventListener("change", () => this.showMoment());
     let width = 0;
     new ResizeObserver(() => {
@@ -239,12 +239,13 @@ export class History {
   }
 
   /** Once for all changes of the moment before the next picture. */
-  showMoment() {
+  showMoment(always = false) {
+    this.isForAll ||= always;
     if (this.isDue) return;
     this.isDue = true;
     requestAnimationFrame(() => {
-      this.isDue = false;
-      this.plots.forEach((plot) => plot.showMoment());
+      this.plots.forEach((plot) => plot.showMoment(this.isForAll));
+      this.isDue = this.isForAll = false;
     });
   }
 

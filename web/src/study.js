@@ -18,7 +18,7 @@ const withGaps = (plot) => ({
 function addPlots(app, plots) {
   const cursor = new Cursor();
   const views = plots.map((plot) => new PlotView(withGaps(plot), cursor));
-  cursor.addEventListener("change", () => views.forEach((view) => view.showMoment()));
+  cursor.addEventListener("change", () => views.forEach((view) => view.showMoment(true)));
   app.append(make("h2", {}, "Against the axes"), make("div", { class: "plots" }, ...views.map(({ element }) => element)));
   const draw = () => views.forEach((view) => view.draw());
   new ResizeObserver(draw).observe(app);
