@@ -20,7 +20,7 @@ long=(clang-tidy-16 libbenchmark-dev)
 coverage=(gcovr)
 docs=(python3 mkdocs mkdocs-material doxygen)
 deb=(dpkg-dev file gzip)
-release=(mmdebstrap libcgal-demo)
+release=(mmdebstrap libcgal-demo slurm-wlm munge)
 
 case "${1:-}" in
   bare) wanted=("${build[@]}") ;;
