@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Studies under Slurm: the same study.csv as without, one killed and resumed, a bisection, runs on two ranks.
 
-    slurm.py PROGRAM WORK       # as root; starts munged, slurmctld and slurmd on loopback, and ends them
+    slurm.py PROGRAM [WORK]     # as root; starts munged, slurmctld and slurmd on loopback, and ends them
+
+Studies are left in WORK; without it they are in a temporary folder and removed.
 
 Needs slurm-wlm (with munge) and the privilege of root; fails, and names it, where one is missing.
 """
@@ -272,9 +274,16 @@ def check_silence(program, work):
 
 
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
-    program, work = sys.argv[1], Path(sys.argv[2]).resolve()
+    if len(sys.argv) == 3:
+        test(sys.argv[1], Path(sys.argv[2]).resolve())
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        test(sys.argv[1], Path(folder) / "studies")
+
+
+def test(program, work):
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
     (work / "case.toml").write_text(CASE, encoding="utf-8")
