@@ -81,13 +81,13 @@ end = 1
 """
 
 
-def study(program, file, output, *more):
-    return subprocess.Popen([program, "study", str(file), "-o", str(output), *more],
+def study(program, file, output, *more, environment=None):
+    return subprocess.Popen([program, "study", str(file), "-o", str(output), *more], env=environment,
                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 
-def finish(process, what, status):
-    output, _ = process.communicate()
+def finish(process, what, status=0):
+    output, _ = process.communicate(timeout=500)
     print(f"{what} -> {process.returncode}\n{output.strip()}", flush=True)
     if process.returncode != status:
         sys.exit(f"expected status {status}")

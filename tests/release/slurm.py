@@ -18,30 +18,9 @@ import tempfile
 import time
 from pathlib import Path
 
-CASE = """
-[flow]
-kind = "uniaxial-extension"
-capillary-number = 0.1
-[[drop]]
-radius = 1
-nodes = 42
-[domain]
-shape = "unbounded"
-frame = "drops"
-[solver]
-method = "boundary-integral"
-[time]
-end = 1
-[output]
-interval = 100
-checkpoint-every = 3
-"""
-STOP = """
-[time.stop-when]
-steady-rate = 0.02
-broken = true
-broken-length = 2
-"""
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "end_to_end"))
+from study import CASE, check, finish, rows, same_bytes, study  # noqa: E402
+
 POINTS = """
 [study]
 case = "case.toml"
@@ -90,11 +69,6 @@ PartitionName=all Nodes={host} Default=YES MaxTime=INFINITE State=UP
 
 def fail(text):
     sys.exit(f"FAILED: {text}")
-
-
-def check(is_held, what):
-    if not is_held:
-        fail(what)
 
 
 def free_ports(count):
@@ -181,28 +155,6 @@ class Cluster:
         return self.ask(["squeue", "--noheader", "--array", "-o", "%F_%K %T"]).splitlines()
 
 
-def study(program, file, output, *more, environment=None):
-    return subprocess.Popen([program, "study", str(file), "-o", str(output), *more], text=True, env=environment,
-                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-
-
-def finish(process, what, status=0):
-    said, _ = process.communicate(timeout=500)
-    print(f"{what} -> {process.returncode}\n{said.strip()}", flush=True)
-    check(process.returncode == status, f"expected status {status}")
-    return said
-
-
-def same_bytes(one, other, what):
-    check((one / "study.csv").read_bytes() == (other / "study.csv").read_bytes(), f"{what}: study.csv differs")
-    print(f"{what}: the same bytes", flush=True)
-
-
-def rows(output):
-    with open(output / "study.csv", encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
-
-
 def scripts(output):
     return sorted(output.glob("slurm/*.sh"))
 
@@ -286,8 +238,8 @@ def main():
 def test(program, work):
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
-    (work / "case.toml").write_text(CASE, encoding="utf-8")
-    (work / "long.toml").write_text(CASE.replace("end = 1", "end = 20") + STOP, encoding="utf-8")
+    (work / "case.toml").write_text(CASE.format(end=1), encoding="utf-8")
+    (work / "long.toml").write_text(CASE.format(end=20), encoding="utf-8")
     (work / "points.toml").write_text(POINTS, encoding="utf-8")
     (work / "bisection.toml").write_text(BISECTION, encoding="utf-8")
     with Cluster() as cluster:

@@ -244,15 +244,8 @@ export class History {
     if (this.isDue) return;
     this.isDue = true;
     requestAnimationFrame(() => {
-      this.plots.forEach((plot) => plot.showMoment());
-      this.isDue = false;
-      if (!this.isForAll) return;
-      // Plots out of sight follow once the cursor rests.
-      clearTimeout(this.rest);
-      this.rest = setTimeout(() => {
-        this.isForAll = false;
-        this.plots.forEach((plot) => plot.showMoment(true));
-      }, 100);
+      this.plots.forEach((plot) => plot.showMoment(this.isForAll));
+      this.isDue = this.isForAll = false;
     });
   }
 
