@@ -5,7 +5,7 @@ SHELL := /bin/bash
 .NOTPARALLEL:
 
 PREFIX ?= /usr/local
-JOBS   ?= $(shell nproc)
+JOBS   ?= $(shell env -u OMP_NUM_THREADS nproc)
 CASE   := examples/shear-subcritical.toml
 RUN    := out/shear-subcritical
 

@@ -8,6 +8,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/mesh/surface_tree.hpp"
+#include "meniscus/surface/edge_interpolation.hpp"
 #include "meniscus/surface/face_reconstruction.hpp"
 #include "meniscus/surface/keep_amounts.hpp"
 #include "meniscus/surface/polynomial_fit.hpp"
@@ -23,6 +24,17 @@ struct Range {
   }
   [[nodiscard]] double clamped_value(double value) const { return std::clamp(value, low, high); }
 };
+
+/// How far a smooth function may pass the values at the vertices around, over their spread: at its
+/// extremum amid an equilateral face it passes them by a sixth.
+constexpr double kOvershoot = 0.25;
+
+/// A range with room for an extremum between the vertices. Zero stays a bound.
+Range with_overshoot(const Range& range) {
+  const double room = kOvershoot * (range.high - range.low);
+  return {range.low < 0.0 ? range.low - room : std::max(0.0, range.low - room),
+          range.high > 0.0 ? range.high + room : std::min(0.0, range.high + room)};
+}
 
 /// The value at a vertex plus monomials in the frame of the smooth surface's patch.
 struct Quadratic {
@@ -56,11 +68,16 @@ bool fit(std::span<const Sample> samples, Quadratic& quadratic) {
   return true;
 }
 
-/// A vertex field as a function on the old surface.
+/// A vertex field as a function on the old surface. One that is conserved may pass the range of its
+/// values where it is smooth.
 class VertexInterpolant {
  public:
-  VertexInterpolant(const SurfaceChange& change, const VertexField<double>& values)
-      : change_(change), patches_(values.size()), ranges_(values.size()) {
+  VertexInterpolant(const SurfaceChange& change, const CarriedField<VertexId>& field)
+      : change_(change),
+        passes_range_(field.transfer == FieldTransfer::conserved),
+        patches_(field.values.size()),
+        ranges_(field.values.size()) {
+    const VertexField<double>& values = field.values;
     MENISCUS_ASSERT(values.size() == change.before.num_vertices(), "{} values of {} vertices",
                     values.size(), change.before.num_vertices());
     std::vector<Sample> samples;
@@ -92,11 +109,12 @@ class VertexInterpolant {
                patches_[corners[k]].at(d.dot(frame.t1), d.dot(frame.t2));
       range.include(ranges_[corners[k]]);
     }
-    return range.clamped_value(value);
+    return (passes_range_ ? with_overshoot(range) : range).clamped_value(value);
   }
 
  private:
   const SurfaceChange& change_;
+  bool passes_range_;
   VertexField<Quadratic> patches_;
   VertexField<Range> ranges_;
 };
@@ -142,11 +160,37 @@ std::vector<Part> parts_of(const SurfaceChange& change, const FaceField<double>&
   return parts;
 }
 
-double linear(const SurfaceMesh& mesh, const VertexField<double>& values, FaceId f,
-              const Vec3& weights) {
-  const FaceVertices& v = mesh.faces[f];
-  return weights[0] * values[v[0]] + weights[1] * values[v[1]] + weights[2] * values[v[2]];
-}
+/// A vertex field as a function on the new surface.
+class NewFunction {
+ public:
+  NewFunction(const SurfaceMesh& mesh, const SurfaceTopology& topology,
+              const VertexField<double>& values)
+      : mesh_(mesh), values_(values) {
+    const VertexField<Vec3> area = vertex_area_vectors(mesh);
+    around_.reserve(static_cast<std::size_t>(mesh.num_vertices()));
+    for (const VertexId v : mesh.x.ids())
+      around_.emplace_back(mesh, topology, v, area[v].normalized());
+  }
+  /// Where a flat face has these barycentric weights.
+  [[nodiscard]] double at(FaceId f, const Vec3& weights) const {
+    const FaceVertices& v = mesh_.faces[f];
+    const Vec3 x =
+        weights[0] * mesh_.x[v[0]] + weights[1] * mesh_.x[v[1]] + weights[2] * mesh_.x[v[2]];
+    const Vec3 squares = weights.cwiseProduct(weights);
+    Stencil stencil;
+    for (std::size_t k = 0; k < 3; ++k)
+      around_[static_cast<std::size_t>(v[k].value)].add(
+          x, squares[static_cast<int>(k)] / squares.sum(), stencil);
+    double value = 0.0;
+    for (const VertexWeight& each : stencil) value += each.weight * values_[each.vertex];
+    return value;
+  }
+
+ private:
+  const SurfaceMesh& mesh_;
+  const VertexField<double>& values_;
+  std::vector<VertexInterpolation> around_;
+};
 
 /// Conserved fields: what the old surface had beyond the new values goes to where it comes to lie;
 /// what areas have gained or lost is left to the piece.
@@ -158,12 +202,14 @@ class Conservation {
         old_pieces_(vertex_pieces(change.before, change.topology)),
         parts_(parts_of(change, old_areas_)) {}
 
-  FieldExcess keep(VertexField<double>& values, const VertexField<double>& before) const {
+  FieldExcess keep(VertexField<double>& values, const VertexField<double>& before,
+                   const VertexInterpolant& old_function) const {
+    const SurfaceTopology topology(change_.after);
+    const NewFunction new_function(change_.after, topology, values);
     VertexField<double> missing(values.size(), 0.0);
     for (const Part& part : parts_) {
       const double amount =
-          part.area * (linear(change_.before, before, part.from.face, part.from.weights) -
-                       linear(change_.after, values, part.to.face, part.to.weights));
+          part.area * (old_function.at(part.from) - new_function.at(part.to.face, part.to.weights));
       for (int k = 0; k < 3; ++k)
         missing[change_.after.faces[part.to.face][static_cast<std::size_t>(k)]] +=
             part.to.weights[k] * amount;
@@ -173,8 +219,11 @@ class Conservation {
     std::vector<double> amounts(static_cast<std::size_t>(old_pieces_.count), 0.0);
     for (const VertexId v : before.ids())
       amounts[static_cast<std::size_t>(old_pieces_.piece[v])] += areas[v] * before[v];
+    FieldRange range = range_of(before);
+    for (const double value : values)
+      range = {std::min(range.low, value), std::max(range.high, value)};
     return keep_amounts(values, std::move(missing), of_new_pieces(amounts, shares.num_pieces),
-                        shares, range_of(before));
+                        shares, range);
   }
 
   /// Old and new values are compared at the centre of the new face: at the part itself the slope
@@ -239,11 +288,11 @@ ReplacedFields transferred_fields(const SurfaceFields& fields, const SurfaceChan
   std::optional<Conservation> conservation;
   if (has_conserved(fields)) conservation.emplace(change);
   for (const CarriedField<VertexId>& field : fields.on_vertices) {
-    const VertexInterpolant interpolant(change, field.values);
+    const VertexInterpolant interpolant(change, field);
     VertexField<double> values(change.after.num_vertices());
     for (const VertexId v : values.ids()) values[v] = interpolant.at(change.points[v]);
     if (field.transfer == FieldTransfer::conserved)
-      widen(result.excess, conservation->keep(values, field.values));
+      widen(result.excess, conservation->keep(values, field.values, interpolant));
     result.fields.on_vertices.push_back(
         {field.name, field.unit, field.transfer, std::move(values)});
   }

@@ -1,7 +1,5 @@
 #include "meniscus/transport/surface_mass.hpp"
 
-#include <vector>
-
 #include <Eigen/SparseCholesky>
 
 #include "meniscus/core/error.hpp"
@@ -9,24 +7,7 @@
 
 namespace meniscus {
 
-SurfaceMass::SurfaceMass(const CarrierSurface& surface)
-    : M_(surface.mesh().num_vertices(), surface.mesh().num_vertices()) {
-  const SurfaceMesh& mesh = surface.mesh();
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(9 * static_cast<std::size_t>(mesh.num_faces()));
-  for (const FaceId f : mesh.faces.ids()) {
-    Eigen::Matrix3d mass = Eigen::Matrix3d::Zero();
-    for (const CarrierSurface::Point& point : surface.points(f)) {
-      const Eigen::Map<const Vec3> value(point.value.data());
-      mass += 0.5 * point.area * (value * value.transpose() + Mat3(value.asDiagonal()));
-    }
-    for (Eigen::Index a = 0; a < 3; ++a)
-      for (Eigen::Index b = 0; b < 3; ++b)
-        entries.emplace_back(mesh.faces[f][static_cast<std::size_t>(a)].value,
-                             mesh.faces[f][static_cast<std::size_t>(b)].value, mass(a, b));
-  }
-  M_.setFromTriplets(entries.begin(), entries.end());
-}
+SurfaceMass::SurfaceMass(const CarrierSurface& surface) : M_(surface.assembled(surface.masses())) {}
 
 VertexField<double> SurfaceMass::amounts(const VertexField<double>& concentration) const {
   MENISCUS_ASSERT(concentration.size() == M_.rows(), "{} {}", concentration.size(), M_.rows());

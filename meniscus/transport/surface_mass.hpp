@@ -6,13 +6,13 @@
 
 namespace meniscus {
 
-/// What the linear functions φ_v of the vertices hold of a concentration Γ on a closed surface:
+/// What the functions φ_v of the vertices hold of a concentration Γ = Σ_w φ_w Γ_w on a closed
+/// surface:
 ///
-///   m_v = ∫φ_v Γ dS ≈ Σ_w M_vw Γ_w [R0²],   M = (S + N)/2,   N_vw = ∫φ_v φ_w dS,   S_v = ∫φ_v dS.
+///   m_v = ∫φ_v Γ dS = Σ_w M_vw Γ_w [R0²],   M_vw = ∫φ_v φ_w dS,   S_v = ∫φ_v dS.
 ///
-/// On equilateral triangles of edge h a smooth wave of number q has ∫φ_v Γ dS = S_v(1 − h²q²/16)Γ_v
-/// to fourth order. Lumped masses S, and consistent ones N of symbol 1 − h²q²/8, miss that by as
-/// much on either side. The amounts add up to Σ_v S_v Γ_v.
+/// φ_v is quadratic on every face, and what `CarrierSurface` makes of the value 1 at v and 0 at the
+/// other vertices. The φ_v add up to 1, the amounts to Σ_v S_v Γ_v.
 class SurfaceMass {
  public:
   explicit SurfaceMass(const CarrierSurface& surface);

@@ -28,29 +28,11 @@ VertexField<Vec3> along_surface(const SurfaceMesh& mesh, VertexField<Vec3> v) {
   return v;
 }
 
-Matrix matrix_of(const SurfaceMesh& mesh, const std::vector<Eigen::Triplet<double>>& entries) {
-  Matrix matrix(mesh.num_vertices(), mesh.num_vertices());
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}
-
-/// P = 2I − S⁻¹M.
-Matrix sharpening(const CarrierSurface& surface) {
-  const SurfaceMass mass(surface);
-  const Vector inverse = vector_of(mass.areas()).cwiseInverse();
-  Matrix identity(inverse.size(), inverse.size());
-  identity.setIdentity();
-  return 2.0 * identity - Matrix(inverse.asDiagonal() * mass.matrix());
-}
-
-/// A matrix times the vectors at the vertices.
-VertexField<Vec3> product(const Matrix& matrix, const VertexField<Vec3>& v) {
+/// A vector field given at the vertices, at all nodes.
+Eigen::MatrixX3d at_nodes(const CarrierSurface& surface, const VertexField<Vec3>& v) {
   Eigen::MatrixX3d rows(v.size(), 3);
   for (const VertexId i : v.ids()) rows.row(i.value) = v[i];
-  rows = matrix * rows;
-  VertexField<Vec3> result(v.size());
-  for (const VertexId i : v.ids()) result[i] = rows.row(i.value);
-  return result;
+  return surface.interpolation() * rows;
 }
 
 }  // namespace
@@ -60,24 +42,22 @@ SurfaceTransport::SurfaceTransport(const CarrierSurface& surface, const VertexFi
   const SurfaceMesh& mesh = surface.mesh();
   MENISCUS_ASSERT(slip.size() == mesh.num_vertices() && diffusivity >= 0.0, "{} {} {}", slip.size(),
                   mesh.num_vertices(), diffusivity);
-  const Matrix P = sharpening(surface);
-  const VertexField<Vec3> s = product(P, along_surface(mesh, slip));
-  std::vector<Eigen::Triplet<double>> stiffness, convection;
-  for (const FaceId f : mesh.faces.ids()) {
-    const FaceVertices& v = mesh.faces[f];
+  const Eigen::MatrixX3d s = at_nodes(surface, along_surface(mesh, slip));
+  FaceField<CarrierSurface::NodeMatrix> of_faces(mesh.num_faces(),
+                                                 CarrierSurface::NodeMatrix::Zero());
+  for (const FaceId f : mesh.faces.ids())
     for (const CarrierSurface::Point& point : surface.points(f)) {
+      const Eigen::Map<const Eigen::Vector<double, kQuadraticNodes>> value(point.value.data());
+      Eigen::Matrix<double, kQuadraticNodes, 3> gradient;
       Vec3 here = Vec3::Zero();
-      for (std::size_t a = 0; a < 3; ++a) here += point.value[a] * s[v[a]];
-      for (std::size_t a = 0; a < 3; ++a)
-        for (std::size_t b = 0; b < 3; ++b) {
-          stiffness.emplace_back(v[a].value, v[b].value,
-                                 point.area * point.gradient[a].dot(point.gradient[b]));
-          convection.emplace_back(v[a].value, v[b].value,
-                                  point.area * point.value[b] * here.dot(point.gradient[a]));
-        }
+      for (std::size_t i = 0; i < kQuadraticNodes; ++i) {
+        gradient.row(static_cast<Eigen::Index>(i)) = point.gradient[i];
+        here += point.value[i] * s.row(surface.nodes(f)[i]).transpose();
+      }
+      of_faces[f] +=
+          point.area * gradient * (diffusivity * gradient.transpose() - here * value.transpose());
     }
-  }
-  L_ = diffusivity * matrix_of(mesh, stiffness) - Matrix(matrix_of(mesh, convection) * P);
+  L_ = surface.assembled(of_faces);
 }
 
 SurfaceTransport::SurfaceTransport(double a, const SurfaceTransport& first, double b,
@@ -109,7 +89,8 @@ Vector SurfaceTransport::mean_rates(const Vector& amounts, const Vector& sources
   const auto stage = [&](const Vector& begin, double part) -> Vector {
     const Matrix mass = (1.0 - part) * path.start.matrix() + part * path.end.matrix();
     const Matrix matrix = mass + kInnerStage * path.dt * L_;
-    factors.compute(matrix);
+    if (part != 1.0) factors.analyzePattern(matrix);  // for both stages: the same entries
+    factors.factorize(matrix);
     MENISCUS_ASSERT(factors.info() == Eigen::Success, "{}", factors.lastErrorMessage());
     return sources - L_ * factors.solve(begin + kInnerStage * path.dt * sources);
   };

@@ -4,18 +4,15 @@
 
 namespace meniscus {
 
-/// Convection and diffusion of a concentration Γ on a closed surface whose vertices move, by linear
-/// finite elements on its faces (dziuk2007): for every vertex v
+/// Convection and diffusion of a concentration Γ on a closed surface whose vertices move, by finite
+/// elements that are quadratic on its faces (dziuk2007, demlow2009): for every vertex v
 ///
-///   dm_v/dt = −Σ_w L_vw Γ_w,   L = D K − C P,   P = 2I − S⁻¹M,
-///   K_vw = ∫∇φ_v·∇φ_w dS,   C_vw = ∫φ_w s·∇φ_v dS,
+///   dm_v/dt = −Σ_w L_vw Γ_w,   L = D K − C,   K_vw = ∫∇φ_v·∇φ_w dS,   C_vw = ∫φ_w s·∇φ_v dS,
 ///
-/// m_v, S and M being those of `SurfaceMass`, D the diffusivity [G R0²], s = P of the velocity of
-/// the liquid along the surface relative to the vertices [G R0]. The columns of L add up to zero:
-/// the total amount is constant to round-off. How surface is stretched and compressed is in M. P
-/// gives nodal values whose linear interpolation has the means of the smooth function. On equal
-/// equilateral triangles all is of fourth order, on the meshes of drops of second. Nothing keeps Γ
-/// within its range where it varies by much from one vertex to the next.
+/// m_v and φ_v being those of `SurfaceMass`, D the diffusivity [G R0²], s the velocity of the
+/// liquid along the surface relative to the vertices [G R0]. The columns of L add up to zero: the
+/// total amount is constant to round-off. How surface is stretched and compressed is in the mass.
+/// Nothing keeps Γ within its range where it varies by much from one vertex to the next.
 class SurfaceTransport {
  public:
   /// `slip` is v − ẋ at the vertices, of which the part along the area vector is left out.

@@ -1,19 +1,23 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "meniscus/transport/bulk/scalar_step.hpp"
 #include "meniscus/transport/bulk/transport_matrices.hpp"
+#include "meniscus/transport/carrier_surface.hpp"
 
 namespace meniscus::bulk {
 
-/// By interface, values at the vertices; empty where nothing is exchanged.
-using ByInterface = std::vector<VertexField<double>>;
+/// By interface, values at those of its nodes that the scalars have, numbered as the
+/// `CarrierSurface` does; empty where nothing is exchanged.
+using ByInterface = std::vector<std::vector<double>>;
 
 /// The exchange of a species with the surfactants of interfaces (`Adsorption`): per area and time
 ///   j = Bi [K c (1 − XΓ) − Γ]
-/// goes from the liquid outside to the surface, linear between the vertices. In a stage of length τ
-/// that begins with the concentration B, Γ = B + τj.
+/// goes from the liquid outside to the surface, at every node that the scalars have there. In a
+/// stage of length τ that begins with the concentration B, Γ = B + τj.
 class InterfaceExchange {
  public:
   /// Of scalar k on the way of a motion; on interfaces as they are at `positions`. The scene at its
@@ -29,33 +33,36 @@ class InterfaceExchange {
   /// Adds what the liquid loses to the equations of a stage, the product taken at the guess of Γ.
   void add_to(MatrixValues& system, std::vector<double>& right, double stage,
               const ByInterface& begin, const ByInterface& guess) const;
-  /// j at the vertices in a stage that led to T.
+  /// j in a stage that led to T.
   [[nodiscard]] ByInterface rates(std::span<const double> T, double stage, const ByInterface& begin,
                                   const ByInterface& guess) const;
-  /// ∮φ_v j dS.
-  [[nodiscard]] ByInterface uptake(const ByInterface& rates) const;
+  /// ∮φ_v j dS at the vertices, the mean over both ends of the step; φ_v as in `SurfaceMass`.
+  [[nodiscard]] std::vector<VertexField<double>> uptake(const ByInterface& rates) const;
   /// What the liquid loses per time.
   [[nodiscard]] double loss(const ByInterface& rates) const;
 
  private:
-  /// An entry of the matrix ∮φ_i φ_v dS.
+  /// An entry of the matrix ∮φ_i φ_n dS.
   struct Entry {
     std::size_t place = 0;  // in the values of the space's graph
-    std::size_t node = 0;   // i
-    VertexId vertex;        // v
+    std::size_t row = 0;    // i, of the space
+    std::size_t node = 0;   // n, of the interface
     double value = 0.0;
   };
   struct Side {
     double biot = 0.0, adsorption = 0.0, depth = 0.0, packing = 0.0;  // X
-    std::vector<std::size_t> node;                                    // of each vertex
-    std::vector<Entry> entries;
-    /// ∮φ_v φ_w dS by faces.
-    std::vector<std::array<VertexId, 3>> faces;
-    std::vector<Mat3> masses;
+    CarrierSurface at_start, at_end;
+    std::vector<std::size_t> in_space = {};  // of each node
+    std::vector<Entry> entries = {};
   };
+  /// The nodes of a side, and what it adds to the equations where they are at `positions`.
+  static void set_nodes(Side& side, const ScalarSpace& space, const fem::FaceNodeTable& faces,
+                        const NodePositions& positions);
+  [[nodiscard]] static VertexField<double> uptake(const Side& side,
+                                                  const std::vector<double>& rates);
   [[nodiscard]] double slope(const Side& side, double stage, double guess) const;
 
-  std::vector<Side> sides_;
+  std::vector<std::optional<Side>> sides_;  // none where nothing is exchanged
   ByInterface start_, end_;
   bool is_empty_ = true, is_linear_ = true;
 };

@@ -132,8 +132,8 @@ class ScalarStep {
     add(second.begin, (1.0 - kStage) * dt_, first.rates);
     if (Report solved = solve(second); !solved.ok()) return {std::move(solved)};
     ByInterface mean = first.rates;
-    for (VertexField<double>& field : mean)
-      for (double& each : field) each *= 1.0 - kStage;
+    for (std::vector<double>& values : mean)
+      for (double& each : values) each *= 1.0 - kStage;
     add(mean, kStage, second.rates);
     settle(first.T, second.T, exchange_.loss(mean), scalar);
     ScalarAdvance result;
@@ -154,7 +154,7 @@ class ScalarStep {
 
   static void add(ByInterface& sum, double factor, const ByInterface& term) {
     for (std::size_t i = 0; i < sum.size(); ++i)
-      for (const VertexId v : sum[i].ids()) sum[i][v] += factor * term[i][v];
+      for (std::size_t n = 0; n < sum[i].size(); ++n) sum[i][n] += factor * term[i][n];
   }
 
   /// Solves a stage, once where nothing in it is a product of unknowns.
@@ -184,8 +184,8 @@ class ScalarStep {
       add(reached, length, stage.rates);
       double change = 0.0;
       for (std::size_t i = 0; i < guess.size(); ++i)
-        for (const VertexId v : guess[i].ids())
-          change = std::max(change, std::abs(reached[i][v] - guess[i][v]));
+        for (std::size_t n = 0; n < guess[i].size(); ++n)
+          change = std::max(change, std::abs(reached[i][n] - guess[i][n]));
       guess = std::move(reached);
       if (change < kProductTolerance) return {};
     }
