@@ -218,6 +218,7 @@ void add_cut(Package& package, const MeshCut& cut, const CutGrids& grids) {
 PackedFrame packed_surface(const SurfaceFrame& frame) {
   PackedFrame result{.t = frame.t, .bytes = {}};
   result.num_faces = result.num_faces_of_run = frame.mesh.num_faces();
+  result.is_curved = !frame.middles.empty();
   const bool is_wide = frame.mesh.num_vertices() > 65536;
   std::array<Grid16, 3> grids;
   for (int k = 0; k < 3; ++k) {

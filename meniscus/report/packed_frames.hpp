@@ -18,6 +18,7 @@ struct PackedFrame {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< the box around it [R0]
   int num_faces = 0,
       num_faces_of_run = 0;  ///< packed faces, and faces of the frame before coarsening
+  bool is_curved = false;
   std::map<std::string, ValueRange> ranges = {};  ///< colour range of each field (`color_range`)
 };
 
