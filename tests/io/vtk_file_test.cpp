@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/io/surface_file.hpp"
 #include "meniscus/mesh/shapes.hpp"
 #include "tests/io/full_disk.hpp"
 #include "tests/io/temporary_folder.hpp"
@@ -109,7 +110,8 @@ struct CurvedSphere {
 
   CurvedSphere() {
     NamedArray height{.name = "height", .components = 1, .values = {}};
-    for (const SurfaceEdge& edge : SurfaceTopology(mesh).edges()) {
+    const SurfaceTopology topology(mesh);
+    for (const SurfaceEdge& edge : topology.edges()) {
       curved.ends.push_back({edge.b.value, edge.a.value});  // in any order
       curved.middles.push_back((mesh.x[edge.a] + mesh.x[edge.b]).normalized());
       height.values.push_back(curved.middles.back().z());
@@ -143,7 +145,7 @@ TEST(VtkFile, CurvedSurfaceComesBackTheSame) {
   EXPECT_EQ(frame.data.on_vertices[0].values, expected.on_vertices[0].values);
   EXPECT_EQ(frame.data.on_vertices[1].values, expected.on_vertices[1].values);
   EXPECT_EQ(frame.data.on_cells[0].values, expected.on_cells[0].values);
-  const PolygonSoup soup = read_vtu_polygons(folder / "s.vtu").soup;  // corners alone
+  const PolygonSoup soup = read_polygons(folder / "s.vtu");  // corners alone
   EXPECT_EQ(soup.points, std::vector<Vec3>(frame.mesh.x.begin(), frame.mesh.x.end()));
   EXPECT_EQ(soup.num_faces(), static_cast<std::size_t>(frame.mesh.num_faces()));
 }
