@@ -4,7 +4,7 @@
 //   remesh_surface PART.stl ERROR OUT    # the same for a closed surface of yours
 //
 // ERROR is the largest distance allowed between a face and the smooth surface, in the unit of the
-// file. Formats go by extension: stl, ply, obj, off, vtp.
+// file. Formats go by extension: stl, ply, obj, off, vtp; vtu is read alone.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

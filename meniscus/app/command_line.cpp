@@ -92,10 +92,10 @@ void add_remesh(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<RemeshArguments>();
   CLI::App* command = app.add_subcommand(
       "remesh", "Triangulate a closed surface anew; say how good it was, is, and how near to it");
-  command->add_option("surface", arguments->surface, "Surface (.stl, .ply, .obj, .off, .vtp)")
+  command->add_option("surface", arguments->surface, "Surface (.stl, .ply, .obj, .off, .vtp, .vtu)")
       ->required();
   command->add_option("-o,--output", arguments->output,
-                      "File for the result, of any of these kinds [SURFACE-remeshed.EXT]");
+                      "File for the result, of any of these kinds but .vtu [SURFACE-remeshed.EXT]");
   CLI::Option* nodes = command->add_option(
       "--nodes", arguments->nodes,
       "By number of vertices, of all pieces together, dense where curved [as there are]");

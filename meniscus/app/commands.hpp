@@ -52,7 +52,7 @@ int mesh_command(const MeshArguments& arguments);
 
 struct RemeshArguments {
   std::string surface;
-  std::string output;  ///< empty: the surface's name with "-remeshed" before its ending
+  std::string output;  ///< empty: the surface's name with "-remeshed"
   std::optional<double> nodes, edge_length,
       chordal_error;  ///< all empty: keeps the number of vertices
   double edge_floor = 0.0;

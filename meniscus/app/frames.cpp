@@ -2,16 +2,20 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <utility>
 
 #include <fmt/ranges.h>
 
 #include "meniscus/app/scalar_arrays.hpp"
 #include "meniscus/core/archive_entries.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/flow/fem/node_positions.hpp"
 #include "meniscus/io/vtk_file.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/scene/interface_tension.hpp"
 #include "meniscus/surface/curvature.hpp"
+#include "meniscus/surface/edge_middles.hpp"
 #include "meniscus/volume/quality.hpp"
 
 namespace meniscus {
@@ -144,11 +148,75 @@ io::MeshData surface_arrays(const Evolution& evolution) {
   return data;
 }
 
-void write_surface_frame(const std::filesystem::path& path, const Evolution& evolution) {
+namespace {
+
+/// The edges of all curved interfaces, with the liquid's velocity at their middles where the solver
+/// has one.
+io::CurvedEdges curved_edges(const Evolution& evolution) {
+  const std::vector<MiddleNodes>& nodes = evolution.flow().middles;
+  io::NamedArray velocity{"velocity", 3, {}};
+  io::CurvedEdges curved;
+  std::int32_t first = 0;
+  for (std::size_t i = 0; i < evolution.scene().interfaces.size(); ++i) {
+    const SurfaceMesh& mesh = evolution.scene().interfaces[i].mesh;
+    const SurfaceTopology topology(mesh);
+    for (const SurfaceEdge& edge : topology.edges()) {
+      curved.ends.push_back({first + edge.a.value, first + edge.b.value});
+      if (nodes.empty()) continue;
+      const FaceVertices& face = mesh.faces[edge.left];
+      const auto k = static_cast<std::size_t>(std::ranges::find(face, edge.a) - face.begin());
+      MENISCUS_ASSERT(k < face.size(), "an edge is not of its face");
+      append(velocity.values, nodes[i].v[edge.left][k]);
+    }
+    std::ranges::move(
+        edge_middles(mesh, topology, SmoothSurface(mesh, topology), evolution.surface_shape()),
+        std::back_inserter(curved.middles));
+    first += mesh.num_vertices();
+  }
+  if (!velocity.values.empty()) curved.values.push_back(std::move(velocity));
+  return curved;
+}
+
+/// The edges of the volume mesh that quadratic elements have curved.
+io::CurvedEdges curved_edges_in_volume(const Evolution& evolution) {
+  if (evolution.surface_shape() != SurfaceShape::splined) return {};
+  const TetMesh& mesh = evolution.state().mesh->tetrahedra();
+  const fem::FlowSpace space = fem::flow_space(mesh, fem::Elements::p2_p1);
+  const Field<fem::NodeId, Vec3> x = fem::node_positions(evolution.scene(), mesh, space).x;
+  const BulkFlow flow = evolution.flow().bulk.value_or(BulkFlow());
+  MENISCUS_ASSERT(flow.v_at_edges.empty() || flow.v_at_edges.size() == space.edges.size(),
+                  "{} velocities of {} edges", flow.v_at_edges.size(), space.edges.size());
+  io::NamedArray velocity{"velocity", 3, {}};
+  io::CurvedEdges curved;
+  for (std::size_t e = 0; e < space.edges.size(); ++e) {
+    const auto [a, b] = space.edges[e];
+    const Vec3& middle = x[fem::NodeId{space.num_vertices() + static_cast<std::int32_t>(e)}];
+    if (middle == 0.5 * (mesh.x[a] + mesh.x[b])) continue;
+    curved.ends.push_back({a.value, b.value});
+    curved.middles.push_back(middle);
+    if (!flow.v_at_edges.empty()) append(velocity.values, flow.v_at_edges[e]);
+  }
+  if (!velocity.values.empty()) curved.values.push_back(std::move(velocity));
+  return curved;
+}
+
+}  // namespace
+
+std::filesystem::path write_surface_frame(const std::filesystem::path& path,
+                                          const Evolution& evolution) {
   std::vector<const SurfaceMesh*> surfaces;
   for (const Interface& interface : evolution.scene().interfaces)
     surfaces.push_back(&interface.mesh);
-  io::write_vtp(path, surfaces, surface_arrays(evolution), evolution.t());
+  const io::MeshData data = surface_arrays(evolution);
+  std::filesystem::path file = path;
+  if (evolution.surface_shape() == SurfaceShape::faceted) {
+    file += ".vtp";
+    io::write_vtp(file, surfaces, data, evolution.t());
+  } else {
+    file += ".vtu";
+    io::write_surface_vtu(file, surfaces, data, evolution.t(), curved_edges(evolution));
+  }
+  return file;
 }
 
 VolumeArrays volume_arrays(const Evolution& evolution) {
@@ -177,7 +245,7 @@ VolumeArrays volume_arrays(const Evolution& evolution) {
 void write_volume_frame(const std::filesystem::path& path, const Evolution& evolution) {
   const VolumeArrays arrays = volume_arrays(evolution);
   io::write_vtu(path, evolution.state().mesh->tetrahedra(), arrays.data, evolution.t(),
-                arrays.on_corners);
+                arrays.on_corners, curved_edges_in_volume(evolution));
 }
 
 }  // namespace meniscus

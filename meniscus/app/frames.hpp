@@ -22,10 +22,14 @@ struct VolumeArrays {
 [[nodiscard]] VolumeArrays volume_arrays(const Evolution& evolution);
 
 /// Writes all interfaces with curvature κ, normal velocity, velocity, vertex density, pressure jump
-/// p_out − p_in (where the solver has a pressure), drop id, carried fields and bulk scalars.
-void write_surface_frame(const std::filesystem::path& path, const Evolution& evolution);
+/// p_out − p_in (where the solver has a pressure), drop id, carried fields and bulk scalars. Flat
+/// faces make a .vtp, curved ones a .vtu of quadratic triangles. `path` has no extension; returns
+/// the file's, with it.
+std::filesystem::path write_surface_frame(const std::filesystem::path& path,
+                                          const Evolution& evolution);
 /// Writes the volume mesh with velocity, pressure and concentrations of species (double valued on
-/// interfaces), region, cell quality, carried fields and temperatures.
+/// interfaces), region, cell quality, carried fields and temperatures. Cells with curved edges,
+/// those of quadratic elements at interfaces and walls, are quadratic.
 void write_volume_frame(const std::filesystem::path& path, const Evolution& evolution);
 
 }  // namespace meniscus

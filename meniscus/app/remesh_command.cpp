@@ -22,8 +22,9 @@ using Json = nlohmann::ordered_json;
 fs::path output_file(const RemeshArguments& arguments) {
   if (!arguments.output.empty()) return arguments.output;
   const fs::path surface = arguments.surface;
+  const std::string extension = surface.extension().string();
   return surface.parent_path() /
-         (surface.stem().string() + "-remeshed" + surface.extension().string());
+         (surface.stem().string() + "-remeshed" + (extension == ".vtu" ? ".vtp" : extension));
 }
 
 void require_free(const fs::path& file, bool is_overwrite) {

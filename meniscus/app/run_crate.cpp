@@ -32,9 +32,8 @@ constexpr Described kFiles[] = {
      "Times and files of the volume meshes, for ParaView"},
 };
 constexpr Described kFolders[] = {
-    {RunFiles::surface_folder, "", "Interfaces with their fields, VTK PolyData, one file a time"},
-    {RunFiles::volume_folder, "",
-     "Volume meshes with velocity and pressure, VTK UnstructuredGrid, one file a time"},
+    {RunFiles::surface_folder, "", "Interfaces with their fields, one VTK file a time"},
+    {RunFiles::volume_folder, "", "Volume meshes with velocity and pressure, one VTK file a time"},
 };
 
 Json reference_to(const std::string& id) { return {{"@id", id}}; }

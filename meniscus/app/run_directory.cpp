@@ -102,10 +102,10 @@ void RunDirectory::add_timing(std::int64_t step, double t, const PhaseSeconds& s
 
 void RunDirectory::add_surface_frame(const Evolution& evolution) {
   fs::create_directories(path_ / RunFiles::surface_folder);
-  const std::string file =
-      fmt::format("{0}/{0}-{1:06}.vtp", RunFiles::surface_folder, evolution.step());
-  write_surface_frame(path_ / file, evolution);
-  surface_frames_.push_back({evolution.t(), file});
+  const std::string name =
+      fmt::format("{0}/{0}-{1:06}", RunFiles::surface_folder, evolution.step());
+  const fs::path file = write_surface_frame(path_ / name, evolution);
+  surface_frames_.push_back({evolution.t(), name + file.extension().string()});
   io::write_pvd(path_ / RunFiles::surface_frames, surface_frames_);
 }
 

@@ -96,8 +96,9 @@ const std::vector<Key> kLiquidKeys{
     {.path = "drop[].surface",
      .type = path,
      .default_note = kShapeRequired,
-     .sentence = "A closed surface in one piece, of polygons (stl, ply, obj, off, vtp), relative "
-                 "to the case file."},
+     .sentence =
+         "A closed surface in one piece, of polygons (stl, ply, obj, off, vtp, vtu), relative "
+         "to the case file."},
     {.path = "drop[].repair",
      .type = flag,
      .value = false,

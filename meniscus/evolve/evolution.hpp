@@ -42,6 +42,8 @@ class Evolution {
   [[nodiscard]] double t() const { return state_.t; }
   [[nodiscard]] std::int64_t step() const { return state_.step; }
   [[nodiscard]] const Scene& scene() const { return state_.scene; }
+  /// What the interfaces' vertices stand for.
+  [[nodiscard]] SurfaceShape surface_shape() const { return options_.surface; }
   [[nodiscard]] bool is_finished() const { return state_.t >= options_.end; }
   /// The flow at t_k, and the velocity ẋ = n n·v of the interfaces' vertices at t_k.
   [[nodiscard]] const FlowSolution& flow() const { return first_.flow; }

@@ -26,9 +26,12 @@ std::string lower_extension(const fs::path& path) {
   return extension;
 }
 
-[[noreturn]] void reject_extension(const fs::path& path) {
-  reject_input("{}: unknown kind of surface file; known are .stl, .ply, .obj, .off and .vtp",
-               path.string());
+// A .vtu is read, for the frames of runs with curved faces, but not written.
+constexpr const char *kRead = ".stl, .ply, .obj, .off, .vtp and .vtu",
+                     *kWritten = ".stl, .ply, .obj, .off and .vtp";
+
+[[noreturn]] void reject_extension(const fs::path& path, const char* known) {
+  reject_input("{}: unknown kind of surface file; known are {}", path.string(), known);
 }
 
 /// Tags of the cell array `patch`, if the file has one.
@@ -51,20 +54,20 @@ std::vector<int> patch_tags(const fs::path& path, const PolygonFrame& frame) {
   return tags;
 }
 
-PolygonSoup parse_vtp(const fs::path& path) {
-  PolygonFrame frame = read_vtp_polygons(path);
+PolygonSoup tagged_soup(const fs::path& path, PolygonFrame frame) {
   frame.soup.tags = patch_tags(path, frame);
   return std::move(frame.soup);
 }
 
 PolygonSoup parse(const fs::path& path) {
   const std::string extension = lower_extension(path);
-  if (extension == ".vtp") return parse_vtp(path);
+  if (extension == ".vtp") return tagged_soup(path, read_vtp_polygons(path));
+  if (extension == ".vtu") return tagged_soup(path, read_vtu_polygons(path));
   if (extension == ".stl") return parse_stl(path, read_file(path));
   if (extension == ".ply") return parse_ply(path, read_file(path));
   if (extension == ".obj") return parse_obj(path, read_file(path));
   if (extension == ".off") return parse_off(path, read_file(path));
-  reject_extension(path);
+  reject_extension(path, kRead);
 }
 
 void check(const fs::path& path, const PolygonSoup& soup) {
@@ -96,7 +99,8 @@ void check(const fs::path& path, const PolygonSoup& soup) {
 
 void require_surface_extension(const fs::path& path) {
   constexpr std::array<std::string_view, 5> known{".stl", ".ply", ".obj", ".off", ".vtp"};
-  if (std::ranges::find(known, lower_extension(path)) == known.end()) reject_extension(path);
+  if (std::ranges::find(known, lower_extension(path)) == known.end())
+    reject_extension(path, kWritten);
 }
 
 PolygonSoup read_polygons(const fs::path& path) {
@@ -119,7 +123,7 @@ void write_surface(const fs::path& path, const SurfaceMesh& mesh) {
   if (extension == ".ply") return write_file(path, format_ply(mesh));
   if (extension == ".obj") return write_file(path, format_obj(mesh));
   if (extension == ".off") return write_file(path, format_off(mesh));
-  reject_extension(path);
+  reject_extension(path, kWritten);
 }
 
 }  // namespace meniscus::io

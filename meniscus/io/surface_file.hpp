@@ -7,19 +7,19 @@
 
 namespace meniscus::io {
 
-/// Reads the faces of a surface by the file's extension: stl, ply, obj, off, vtp. Coincident points
-/// of an STL file are merged. Tags come from the cell array `patch` of a vtp file, from the groups
-/// of an obj file and from the solids of an ascii STL file, in the order in which they first get a
-/// face; else all are 0.
-/// Throws InvalidInput naming the file and the fault (missing, empty, unreadable, faces of fewer
-/// than three corners, corners without a point, coordinates not finite).
+/// Reads the faces of a surface by the file's extension: stl, ply, obj, off, vtp, vtu. Coincident
+/// points of an STL file are merged; curved faces are read by their corners. Tags come from the
+/// cell array `patch` of a vtp or vtu file, from the groups of an obj file and from the solids of
+/// an ascii STL file, in the order in which they first get a face; else all are 0. Throws
+/// InvalidInput naming the file and the fault (missing, empty, unreadable, faces of fewer than
+/// three corners, corners without a point, coordinates not finite).
 [[nodiscard]] PolygonSoup read_polygons(const std::filesystem::path& path);
 
 /// The surface of a file's faces: triangulated, oriented and, if wished, mended (`surface_of`).
 /// Throws as `read_polygons`.
 [[nodiscard]] RepairedSurface read_surface(const std::filesystem::path& path, bool mends = false);
 
-/// Throws InvalidInput naming the file unless its extension is one that is read and written.
+/// Throws InvalidInput naming the file unless its extension is one that `write_surface` knows.
 void require_surface_extension(const std::filesystem::path& path);
 
 /// Writes by extension (stl, ply, obj, off, vtp). Throws RunFailure when the disk refuses.

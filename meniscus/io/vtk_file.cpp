@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numeric>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -18,6 +19,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/atomic_file.hpp"
+#include "meniscus/io/vtk_grid.hpp"
 
 namespace meniscus::io {
 namespace {
@@ -100,26 +102,59 @@ NamedArray spread_to_corners(const TetMesh& mesh, const NamedArray& array) {
   return result;
 }
 
-/// The cells; with corners of their own, point 4 c + k is corner k of cell c.
-vtkNew<vtkUnstructuredGrid> to_grid(const TetMesh& mesh, bool has_own_corners) {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkCellArray> cells;
-  cells->Use32BitStorage();
-  if (!has_own_corners) {
-    for (const Vec3& x : mesh.x) points->InsertNextPoint(x.data());
+std::array<std::int32_t, 3> numbers(const FaceVertices& face, std::int32_t first) {
+  return {first + face[0].value, first + face[1].value, first + face[2].value};
+}
+
+std::array<std::int32_t, 4> numbers(const CellVertices& cell) {
+  return {cell[0].value, cell[1].value, cell[2].value, cell[3].value};
+}
+
+GridBuilder grid_of(std::span<const SurfaceMesh* const> surfaces, const CurvedEdges& curved) {
+  std::size_t num_vertices = 0;
+  for (const SurfaceMesh* surface : surfaces) num_vertices += surface->x.span().size();
+  GridBuilder grid(curved, num_vertices);
+  std::int32_t first = 0;
+  for (const SurfaceMesh* surface : surfaces) {
+    for (const Vec3& x : surface->x) grid.add_point(x);
+    for (const FaceVertices& face : surface->faces) {
+      const auto vertices = numbers(face, first);
+      grid.add_cell(vertices, {vertices[0], vertices[1], vertices[2]});
+    }
+    first += surface->num_vertices();
   }
-  for (const CellVertices& cell : mesh.cells) {
-    std::array<vtkIdType, 4> corners;
-    std::ranges::transform(cell, corners.begin(), [&](TetVertexId v) -> vtkIdType {
-      return has_own_corners ? points->InsertNextPoint(mesh.x[v].data()) : v.value;
-    });
-    cells->InsertNextCell(4, corners.data());
-  }
-  vtkNew<vtkUnstructuredGrid> grid;
-  grid->SetPoints(points);
-  grid->SetCells(VTK_TETRA, cells);
   return grid;
+}
+
+/// The cells; with corners of their own, point 4 c + k is corner k of cell c.
+GridBuilder grid_of(const TetMesh& mesh, bool has_own_corners, const CurvedEdges& curved) {
+  GridBuilder grid(curved, static_cast<std::size_t>(has_own_corners ? 4 * mesh.num_cells()
+                                                                    : mesh.num_vertices()));
+  if (!has_own_corners)
+    for (const Vec3& x : mesh.x) grid.add_point(x);
+  for (const CellId c : mesh.cells.ids()) {
+    const auto vertices = numbers(mesh.cells[c]);
+    std::array<vtkIdType, 4> corners{vertices[0], vertices[1], vertices[2], vertices[3]};
+    if (has_own_corners) {
+      for (const TetVertexId v : mesh.cells[c]) grid.add_point(mesh.x[v]);
+      std::iota(corners.begin(), corners.end(), vtkIdType{4} * c.value);
+    }
+    grid.add_cell(vertices, corners);
+  }
+  return grid;
+}
+
+void write_grid(const fs::path& path, const GridBuilder& builder,
+                std::span<const NamedArray> at_corner_points, std::span<const NamedArray> on_cells,
+                double t) {
+  const vtkNew<vtkUnstructuredGrid> grid = builder.grid();
+  std::vector<NamedArray> at_points;
+  for (const NamedArray& array : at_corner_points)
+    at_points.push_back(builder.at_all_points(array));
+  add_arrays(*grid->GetPointData(), at_points, grid->GetNumberOfPoints());
+  add_arrays(*grid->GetCellData(), on_cells, grid->GetNumberOfCells());
+  add_time(*grid, t);
+  write_file(path, to_xml<vtkXMLUnstructuredGridWriter>(*grid));
 }
 
 }  // namespace
@@ -131,19 +166,20 @@ void write_vtp(const fs::path& path, std::span<const SurfaceMesh* const> surface
   write_file(path, to_xml<vtkXMLPolyDataWriter>(*poly));
 }
 
+void write_surface_vtu(const fs::path& path, std::span<const SurfaceMesh* const> surfaces,
+                       const MeshData& data, double t, const CurvedEdges& curved) {
+  write_grid(path, grid_of(surfaces, curved), data.on_vertices, data.on_cells, t);
+}
+
 void write_vtu(const fs::path& path, const TetMesh& mesh, const MeshData& data, double t,
-               std::span<const NamedArray> on_corners) {
+               std::span<const NamedArray> on_corners, const CurvedEdges& curved) {
   const bool has_own_corners = !on_corners.empty();
-  const vtkNew<vtkUnstructuredGrid> grid = to_grid(mesh, has_own_corners);
-  std::vector<NamedArray> at_points = data.on_vertices;
+  std::vector<NamedArray> at_corner_points = data.on_vertices;
   if (has_own_corners) {
-    for (NamedArray& array : at_points) array = spread_to_corners(mesh, array);
-    at_points.insert(at_points.end(), on_corners.begin(), on_corners.end());
+    for (NamedArray& array : at_corner_points) array = spread_to_corners(mesh, array);
+    at_corner_points.insert(at_corner_points.end(), on_corners.begin(), on_corners.end());
   }
-  add_arrays(*grid->GetPointData(), at_points, grid->GetNumberOfPoints());
-  add_arrays(*grid->GetCellData(), data.on_cells, grid->GetNumberOfCells());
-  add_time(*grid, t);
-  write_file(path, to_xml<vtkXMLUnstructuredGridWriter>(*grid));
+  write_grid(path, grid_of(mesh, has_own_corners, curved), at_corner_points, data.on_cells, t);
 }
 
 }  // namespace meniscus::io

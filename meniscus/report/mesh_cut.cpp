@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/report/cell_section.hpp"
 #include "meniscus/report/surface_frames.hpp"
 
 namespace meniscus::report {
@@ -41,83 +42,39 @@ Boxes boxes_of(const io::VolumeFrame& mesh) {
   return {all, drops.isEmpty() ? all : drops};
 }
 
-/// The axes that span the plane; the first points to the right.
-std::array<int, 2> plane_axes(int normal) {
-  return normal == 2 ? std::array{0, 1} : std::array{0, 2};
+/// The sections of cell c with a plane, flat or curved.
+std::vector<CellSection> sections_of_cell(const io::VolumeFrame& mesh, std::size_t c,
+                                          const CutPlane& plane) {
+  const auto point = [&](std::int32_t i) { return mesh.points[static_cast<std::size_t>(i)]; };
+  std::array<Vec3, 4> corners;
+  std::ranges::transform(mesh.cells[c], corners.begin(), point);
+  if (mesh.middles.empty() || mesh.middles[c].front() < 0) return section_of(corners, plane);
+  std::array<Vec3, 10> nodes;
+  std::ranges::copy(corners, nodes.begin());
+  std::ranges::transform(mesh.middles[c], nodes.begin() + 4, point);
+  return sections_of(nodes, plane);
 }
 
-class Cutter {
- public:
-  Cutter(MeshCut& cut, const io::VolumeFrame& mesh) : cut_(cut), mesh_(mesh) {}
-
-  /// Appends the polygon of cell c and returns its number of points: 0 if the plane misses the cell
-  /// or the polygon lies beyond the window.
-  int add_points(std::size_t c) {
-    const std::size_t first = cut_.points.size();
-    crossings_.clear();
-    std::vector<std::size_t> above, below;
-    for (const std::int32_t v : mesh_.cells[c]) {
-      const auto point = static_cast<std::size_t>(v);
-      (height(point) >= 0.0 ? above : below).push_back(point);
-    }
-    if (above.empty() || below.empty()) return 0;
-    if (above.size() == 2) {  // in the order round the quadrangle
-      add_crossing(above[0], below[0]);
-      add_crossing(above[0], below[1]);
-      add_crossing(above[1], below[1]);
-      add_crossing(above[1], below[0]);
-    } else {
-      for (const std::size_t a : above) {
-        for (const std::size_t b : below) add_crossing(a, b);
-      }
-    }
-    if (is_beyond_window(first)) cut_.points.resize(first);
-    return static_cast<int>(cut_.points.size() - first);
+bool is_beyond_window(const MeshCut& cut, const CellSection& section) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto is_left = [&](const auto& x) { return x[k] < cut.low[k]; };
+    const auto is_right = [&](const auto& x) { return x[k] > cut.high[k]; };
+    if (std::ranges::all_of(section.points, is_left) ||
+        std::ranges::all_of(section.points, is_right))
+      return true;
   }
+  return false;
+}
 
-  /// The mean of point values over the corners of the last polygon, linear along edges.
-  [[nodiscard]] double mean(const std::vector<double>& values) const {
-    MENISCUS_ASSERT(!crossings_.empty(), "a mean over no corner");
-    double sum = 0.0;
-    for (const auto& [a, b, share] : crossings_)
-      sum += (1.0 - share) * values[a] + share * values[b];
-    return sum / static_cast<double>(crossings_.size());
-  }
-
- private:
-  /// The point of an edge that lies on the plane, by its share of the way from a to b.
-  struct Crossing {
-    std::size_t a, b;
-    double share;
-  };
-
-  [[nodiscard]] double height(std::size_t point) const {
-    return mesh_.points[point][cut_.normal] - cut_.offset;
-  }
-  void add_crossing(std::size_t a, std::size_t b) {
-    const Vec3 &xa = mesh_.points[a], &xb = mesh_.points[b];
-    const double share = height(a) / (height(a) - height(b));
-    crossings_.push_back({a, b, share});
-    const Vec3 x = xa + share * (xb - xa);
-    const auto [right, up] = plane_axes(cut_.normal);
-    cut_.points.push_back({x[right], x[up]});
-  }
-  [[nodiscard]] bool is_beyond_window(std::size_t first) const {
-    for (std::size_t k = 0; k < 2; ++k) {
-      const auto of_polygon = std::span(cut_.points).subspan(first);
-      const auto is_left = [&](const auto& x) { return x[k] < cut_.low[k]; };
-      const auto is_right = [&](const auto& x) { return x[k] > cut_.high[k]; };
-      if (std::ranges::all_of(of_polygon, is_left) || std::ranges::all_of(of_polygon, is_right)) {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  MeshCut& cut_;
-  const io::VolumeFrame& mesh_;
-  std::vector<Crossing> crossings_;  // of the last polygon
-};
+/// The mean of point values over the corners of a section of cell c.
+double mean(const io::VolumeFrame& mesh, std::size_t c, const CellSection& section,
+            const std::vector<double>& values) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < 4; ++k)
+    if (section.weights[k] != 0.0)  // a value that counts for nothing may be infinite
+      sum += section.weights[k] * values[static_cast<std::size_t>(mesh.cells[c][k])];
+  return sum;
+}
 
 }  // namespace
 
@@ -128,16 +85,17 @@ void add_polygons(MeshCut& cut, const io::VolumeFrame& mesh) {
   const auto arrays = one_value_arrays(mesh.data.on_vertices, mesh.points.size());
   MENISCUS_ASSERT(cut.polygons.empty() && cut.fields.empty(), "a cut is filled twice");
   for (const io::NamedArray* array : arrays) cut.fields.push_back({array->name, {}});
-  Cutter cutter(cut, mesh);
+  const CutPlane plane{cut.normal, cut.offset};
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const std::size_t first = cut.points.size();
-    const int num_points = cutter.add_points(c);
-    if (num_points == 0) continue;
-    MENISCUS_ASSERT(num_points == 3 || num_points == 4, "a section of {} corners", num_points);
     const int in = region == nullptr ? 0 : static_cast<int>(std::lround((*region)[c]));
-    cut.polygons.push_back({first, num_points, in, quality == nullptr ? nan : (*quality)[c]});
-    for (std::size_t k = 0; k < arrays.size(); ++k)
-      cut.fields[k].values.push_back(cutter.mean(arrays[k]->values));
+    for (const CellSection& section : sections_of_cell(mesh, c, plane)) {
+      if (is_beyond_window(cut, section)) continue;
+      cut.polygons.push_back({cut.points.size(), static_cast<int>(section.points.size()), in,
+                              quality == nullptr ? nan : (*quality)[c]});
+      cut.points.insert(cut.points.end(), section.points.begin(), section.points.end());
+      for (std::size_t k = 0; k < arrays.size(); ++k)
+        cut.fields[k].values.push_back(mean(mesh, c, section, arrays[k]->values));
+    }
   }
 }
 
@@ -145,7 +103,7 @@ MeshCut cut_through_drops(const io::VolumeFrame& mesh, int normal) {
   MENISCUS_ASSERT(normal == 1 || normal == 2, "a cut normal to axis {}", normal);
   MeshCut cut;
   cut.normal = normal;
-  const std::array<int, 2> axes = plane_axes(normal);
+  const std::array<int, 2> axes = CutPlane{normal}.axes();
   cut.axes = {"xyz"[axes[0]], "xyz"[axes[1]]};
   const auto [all, box] = boxes_of(mesh);
   if (box.isEmpty()) return cut;

@@ -9,7 +9,8 @@
 
 namespace meniscus::report {
 
-/// The section of one tetrahedron: a triangle or a quadrangle.
+/// The section of one tetrahedron: a triangle or a quadrangle; of a curved one with more corners,
+/// along its curved faces.
 struct CutPolygon {
   std::size_t first_point = 0;
   int num_points = 0;
@@ -41,7 +42,7 @@ struct MeshCut {
 
 /// Fills an empty cut with the polygons of the tetrahedra that reach into its window, and with
 /// their values. Corners on the plane count as above it, so that no cell is cut twice and none is
-/// missed.
+/// missed. A curved tetrahedron may be cut in several polygons.
 void add_polygons(MeshCut& cut, const io::VolumeFrame& mesh);
 
 }  // namespace meniscus::report

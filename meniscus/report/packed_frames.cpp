@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -71,26 +72,36 @@ std::vector<T> values_in_order(const Field<VertexId, T>& values,
   return result;
 }
 
+/// A face by the ranks of its vertices, and the middles of its edges 01, 12, 20 where it is curved.
+struct RankedFace {
+  std::array<std::uint32_t, 3> corners{};
+  std::array<Vec3, 3> middles{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+};
+
 /// The faces by the vertices' ranks in `order`, smallest corner first, sorted.
-std::vector<std::array<std::uint32_t, 3>> sorted_faces(const SurfaceMesh& mesh,
-                                                       const std::vector<VertexId>& order) {
-  VertexField<std::uint32_t> rank(mesh.num_vertices());
+std::vector<RankedFace> sorted_faces(const SurfaceFrame& frame,
+                                     const std::vector<VertexId>& order) {
+  VertexField<std::uint32_t> rank(frame.mesh.num_vertices());
   for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = static_cast<std::uint32_t>(i);
-  std::vector<std::array<std::uint32_t, 3>> faces;
-  for (const FaceVertices& face : mesh.faces) {
-    auto& corners = faces.emplace_back();
-    std::ranges::transform(face, corners.begin(), [&](VertexId v) { return rank[v]; });
-    std::ranges::rotate(corners, std::ranges::min_element(corners));
+  std::vector<RankedFace> faces;
+  for (const FaceId f : frame.mesh.faces.ids()) {
+    RankedFace& face = faces.emplace_back();
+    std::ranges::transform(frame.mesh.faces[f], face.corners.begin(),
+                           [&](VertexId v) { return rank[v]; });
+    if (!frame.middles.empty()) face.middles = frame.middles[f];
+    const auto first = std::ranges::min_element(face.corners) - face.corners.begin();
+    std::ranges::rotate(face.corners, face.corners.begin() + first);
+    std::ranges::rotate(face.middles, face.middles.begin() + first);
   }
-  std::ranges::sort(faces);
+  std::ranges::stable_sort(faces, {}, &RankedFace::corners);
   return faces;
 }
 
-void add_corners(Package& package, const std::vector<std::array<std::uint32_t, 3>>& faces,
-                 bool is_wide) {
+void add_corners(Package& package, const std::vector<RankedFace>& faces, bool is_wide) {
   std::array<std::vector<std::uint32_t>, 3> columns;
   std::uint32_t before = 0;
-  for (const auto& [a, b, c] : faces) {
+  for (const RankedFace& face : faces) {
+    const auto [a, b, c] = face.corners;
     columns[0].push_back(a - std::exchange(before, a));
     columns[1].push_back(b - a);
     columns[2].push_back(c - a);
@@ -101,6 +112,40 @@ void add_corners(Package& package, const std::vector<std::array<std::uint32_t, 3
     else
       package.add(std::vector<std::uint16_t>(column.begin(), column.end()));
   }
+}
+
+/// An edge by the ranks of its ends, and its middle.
+struct RankedEdge {
+  std::uint32_t a = 0, b = 0;
+  Vec3 middle = Vec3::Zero();
+};
+
+/// The edges in the order in which faces first name them.
+std::vector<RankedEdge> edges_of(const std::vector<RankedFace>& faces) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> known;
+  std::vector<RankedEdge> edges;
+  for (const RankedFace& face : faces)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax({face.corners[k], face.corners[(k + 1) % 3]});
+      if (known.insert({a, b}).second) edges.push_back({a, b, face.middles[k]});
+    }
+  return edges;
+}
+
+/// How far each edge's middle is from that of the straight edge between the ends as they are
+/// packed, in steps of the grid, modulo 2^16.
+std::vector<std::uint16_t> middle_offsets(const std::vector<RankedEdge>& edges,
+                                          const std::vector<std::uint16_t>& ends, int axis,
+                                          const Grid16& grid) {
+  const double step = (grid.high - grid.low) / Grid16::steps;
+  constexpr double kMost = 32767.0;
+  std::vector<std::uint16_t> offsets;
+  for (const RankedEdge& edge : edges) {
+    const double straight = grid.low + 0.5 * step * (ends[edge.a] + ends[edge.b]);
+    const double offset = step > 0.0 ? (edge.middle[axis] - straight) / step : 0.0;
+    offsets.push_back(static_cast<std::uint16_t>(std::lround(std::clamp(offset, -kMost, kMost))));
+  }
+  return offsets;
 }
 
 std::uint8_t quality_byte(double degrees) {
@@ -173,6 +218,7 @@ void add_cut(Package& package, const MeshCut& cut, const CutGrids& grids) {
 PackedFrame packed_surface(const SurfaceFrame& frame) {
   PackedFrame result{.t = frame.t, .bytes = {}};
   result.num_faces = result.num_faces_of_run = frame.mesh.num_faces();
+  result.is_curved = !frame.middles.empty();
   const bool is_wide = frame.mesh.num_vertices() > 65536;
   std::array<Grid16, 3> grids;
   for (int k = 0; k < 3; ++k) {
@@ -188,21 +234,29 @@ PackedFrame packed_surface(const SurfaceFrame& frame) {
     fields.push_back({{"name", field.name}, {"low", grid.low}, {"high", grid.high}});
     result.ranges[field.name] = color_range(field.values.span());
   }
+  const std::vector<VertexId> order = order_along_curve(frame.mesh.x, grids);
+  const std::vector<RankedFace> faces = sorted_faces(frame, order);
+  const std::vector<RankedEdge> curved =
+      frame.middles.empty() ? std::vector<RankedEdge>() : edges_of(faces);
   const Json header{{"t", frame.t},
                     {"vertices", frame.mesh.num_vertices()},
                     {"faces", frame.mesh.num_faces()},
+                    {"middles", curved.size()},
                     {"wide", is_wide},
                     {"low", in_json(result.low)},
                     {"high", in_json(result.high)},
                     {"fields", fields}};
   Package package(header.dump());
-  const std::vector<VertexId> order = order_along_curve(frame.mesh.x, grids);
-  add_corners(package, sorted_faces(frame.mesh, order), is_wide);
+  add_corners(package, faces, is_wide);
   const std::vector<Vec3> points = values_in_order(frame.mesh.x, order);
-  for (int k = 0; k < 3; ++k) {
-    package.add_differences(
-        grid_indices(coordinate(points, k), grids[static_cast<std::size_t>(k)]));
+  std::array<std::vector<std::uint16_t>, 3> indices;
+  for (std::size_t k = 0; k < 3; ++k) {
+    indices[k] = grid_indices(coordinate(points, static_cast<int>(k)), grids[k]);
+    package.add_differences(indices[k]);
   }
+  if (!curved.empty())
+    for (std::size_t k = 0; k < 3; ++k)
+      package.add(middle_offsets(curved, indices[k], static_cast<int>(k), grids[k]));
   for (std::size_t i = 0; i < frame.fields.size(); ++i) {
     package.add_differences(
         grid_indices(values_in_order(frame.fields[i].values, order), field_grids[i]));

@@ -18,13 +18,17 @@ struct PackedFrame {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< the box around it [R0]
   int num_faces = 0,
       num_faces_of_run = 0;  ///< packed faces, and faces of the frame before coarsening
+  bool is_curved = false;
   std::map<std::string, ValueRange> ranges = {};  ///< colour range of each field (`color_range`)
 };
 
-/// Packs a surface. Header: {t, vertices, faces, wide, low, high, fields: [{name, low, high}]}.
-/// Then come the corners a < b, c of all faces, as a minus the previous face's a, b − a and c − a,
-/// in 16 or (wide) 32 bits. Then come x, y, z of all vertices and the values of each field on a
-/// `Grid16`, as differences. Vertices are in Morton order, faces sorted by their corners.
+/// Packs a surface. Header: {t, vertices, faces, middles, wide, low, high, fields: [{name, low,
+/// high}]}. Then come the corners a < b, c of all faces, as a minus the previous face's a, b − a
+/// and c − a, in 16 or (wide) 32 bits. Then come x, y, z of all vertices on a `Grid16`, as
+/// differences. Of curved faces follow x, y, z of the `middles` of edges, in the order in which
+/// faces name their edges 01, 12, 20: signed steps of that grid from the middle of the edge's two
+/// vertices. Last come the values of each field on a `Grid16`, as differences. Vertices are in
+/// Morton order, faces sorted by their corners.
 [[nodiscard]] PackedFrame packed_surface(const SurfaceFrame& frame);
 
 /// Packs the cuts of one time. Header: {t, cuts: [{axes, normal, offset, window, polygons, points,

@@ -28,7 +28,8 @@ std::size_t total_size(const std::vector<PackedFrame>& frames) {
   return total;
 }
 
-/// The result of `load` for each entry. Entries that cannot be read are added to the run's faults.
+/// The result of `load` for each entry. Entries that cannot be read are added to the run's faults,
+/// once.
 std::vector<PackedFrame> load_all(RunData& run, std::span<const io::PvdEntry> entries,
                                   const std::function<PackedFrame(const fs::path&, double)>& load) {
   std::vector<PackedFrame> frames;
@@ -36,14 +37,16 @@ std::vector<PackedFrame> load_all(RunData& run, std::span<const io::PvdEntry> en
     try {
       frames.push_back(load(run.folder / entry.file, entry.t));
     } catch (const InvalidInput& error) {
-      run.faults.emplace_back(error.what());
+      if (std::ranges::find(run.faults, error.what()) == run.faults.end())
+        run.faults.emplace_back(error.what());
     }
   }
   return frames;
 }
 
-PackedFrame load_frame(const fs::path& path, double t, int most_faces) {
-  const SurfaceFrame whole = load_surface(path, t);
+PackedFrame load_frame(const fs::path& path, double t, int most_faces, bool is_flat = false) {
+  SurfaceFrame whole = load_surface(path, t);
+  if (is_flat) whole.middles = {};
   PackedFrame frame = packed_surface(coarse_frame(whole, most_faces));
   frame.num_faces_of_run = whole.mesh.num_faces();
   return frame;
@@ -78,13 +81,24 @@ void pack_surfaces(PageRun& page, RunData& run, const PageBudget& budget) {
     page.notes.push_back(fmt::format("{} of the run’s {} frames of the interface are shown.",
                                      entries.size(), run.frames.size()));
   }
-  const auto load = [](int most_faces) {
-    return [most_faces](const fs::path& path, double t) { return load_frame(path, t, most_faces); };
+  constexpr int all_faces = std::numeric_limits<int>::max();
+  const auto load = [](int most_faces, bool is_flat) {
+    return [most_faces, is_flat](const fs::path& path, double t) {
+      return load_frame(path, t, most_faces, is_flat);
+    };
   };
-  page.frames = load_all(run, entries, load(std::numeric_limits<int>::max()));
+  page.frames = load_all(run, entries, load(all_faces, false));
   if (total_size(page.frames) <= budget.frames) return;
+  if (std::ranges::any_of(page.frames, &PackedFrame::is_curved))
+    page.frames = load_all(run, entries, load(all_faces, true));
+  if (total_size(page.frames) <= budget.frames) {
+    page.notes.emplace_back(
+        "Faces are drawn flat, so that the page stays small; the files of the run have them "
+        "curved.");
+    return;
+  }
   const int most_faces = affordable_faces(page.frames, budget.frames);
-  page.frames = load_all(run, entries, load(most_faces));
+  page.frames = load_all(run, entries, load(most_faces, true));
   page.notes.push_back(
       fmt::format("Frames with more than {} triangles are drawn with about as many; the "
                   "files of the run have them all.",

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
@@ -19,6 +20,12 @@ const io::NamedArray* find_scalar(const std::vector<io::NamedArray>& arrays, con
   return is_usable ? &*found : nullptr;
 }
 
+bool are_finite(const FaceField<std::array<Vec3, 3>>& middles) {
+  return std::ranges::all_of(middles, [](const std::array<Vec3, 3>& of_face) {
+    return std::ranges::all_of(of_face, [](const Vec3& x) { return x.allFinite(); });
+  });
+}
+
 }  // namespace
 
 std::vector<const io::NamedArray*> one_value_arrays(const std::vector<io::NamedArray>& arrays,
@@ -30,9 +37,11 @@ std::vector<const io::NamedArray*> one_value_arrays(const std::vector<io::NamedA
 }
 
 SurfaceFrame load_surface(const std::filesystem::path& path, double t) {
-  const io::SurfaceFrame file = io::read_vtp(path);
-  if (!is_finite(file.mesh)) reject_input("{}: a coordinate is not finite", path.string());
+  io::SurfaceFrame file = io::read_surface_frame(path);
+  if (!is_finite(file.mesh) || !are_finite(file.middles))
+    reject_input("{}: a coordinate is not finite", path.string());
   SurfaceFrame frame{.t = t, .mesh = file.mesh, .drop = {}};
+  frame.middles = std::move(file.middles);
   for (const io::NamedArray* array :
        one_value_arrays(file.data.on_vertices, frame.mesh.x.span().size()))
     frame.fields.push_back({array->name, VertexField<double>(array->values)});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -26,6 +27,8 @@ struct SurfaceFrame {
   SurfaceMesh mesh;
   FaceField<int> drop;                    ///< id of the drop each face belongs to
   std::vector<SurfaceField> fields = {};  ///< all arrays of one value per vertex
+  /// The points over the middles of the edges 01, 12, 20 of curved faces; empty where all are flat.
+  FaceField<std::array<Vec3, 3>> middles = {};
 };
 
 /// At most `count` frames, about evenly spaced in time, including the first and the last.
@@ -42,8 +45,8 @@ struct SurfaceFrame {
                                                       std::span<const io::PvdEntry> frames);
 
 /// A frame with at most about `num_faces` faces: the vertices in one cell of a grid become their
-/// mean. For pictures only: the result may not be a manifold. A frame that is small enough is
-/// returned unchanged.
+/// mean, and faces are flat. For pictures only: the result may not be a manifold. A frame that is
+/// small enough is returned unchanged.
 [[nodiscard]] SurfaceFrame coarse_frame(const SurfaceFrame& frame, int num_faces);
 
 }  // namespace meniscus::report

@@ -132,12 +132,15 @@ py::tuple volume_mesh(const std::vector<Surface>& surfaces, const Surface& bound
 }
 
 py::tuple read_surface_frame(const fs::path& file) {
-  const auto kept = std::make_shared<const io::SurfaceFrame>(io::read_vtp(file));
+  const auto kept = std::make_shared<const io::SurfaceFrame>(io::read_surface_frame(file));
   const auto vertices = static_cast<std::size_t>(kept->mesh.num_vertices()),
              faces = static_cast<std::size_t>(kept->mesh.num_faces());
-  return py::make_tuple(points_view(kept, kept->mesh.x), corners_view(kept, kept->mesh.faces),
-                        arrays_view(kept, kept->data.on_vertices, 0, vertices),
-                        arrays_view(kept, kept->data.on_cells, 0, faces));
+  return py::make_tuple(
+      points_view(kept, kept->mesh.x), corners_view(kept, kept->mesh.faces),
+      arrays_view(kept, kept->data.on_vertices, 0, vertices),
+      arrays_view(kept, kept->data.on_cells, 0, faces),
+      view(kept, kept->middles.empty() ? nullptr : kept->middles.begin()->front().data(),
+           {static_cast<py::ssize_t>(kept->middles.size()), 3, 3}));
 }
 
 py::tuple read_volume_frame(const fs::path& file) {

@@ -22,6 +22,9 @@ class Shape:
     triangles: np.ndarray  #: (m, 3), counter-clockwise seen from outside
     fields: dict[str, np.ndarray]  #: at the points: curvature, velocity, … (docs/notation.md)
     face_fields: dict[str, np.ndarray]  #: on the triangles: "drop", the number of the drop, …
+    #: (m, 3, 3) [R0]: points of curved triangles over the middles of their edges 01, 12, 20, each edge a
+    #: parabola through one; (0, 3, 3) where triangles are flat
+    middles: np.ndarray
 
     def drop(self, number: int) -> tuple[np.ndarray, np.ndarray]:
         """Points and triangles of one drop, by its number in drops.csv."""
@@ -35,7 +38,10 @@ class Shape:
 
 @dataclass(frozen=True)
 class Volume:
-    """A volume mesh of a run at one time, as its file has it; points may lie on each other."""
+    """A volume mesh of a run at one time, as its file has it; points may lie on each other.
+
+    Points that no tetrahedron names lie over the middles of edges of curved tetrahedra.
+    """
 
     t: float  #: [1/G]
     points: np.ndarray  #: (n, 3) [R0]

@@ -206,6 +206,10 @@ class ArrayTest(FolderCase):
         np.testing.assert_array_equal(drop.triangles, shape.triangles)
         np.testing.assert_allclose(drop.points, shape.points, rtol=1e-6)
         self.assertEqual(set(drop.fields), set(shape.fields))
+        ends = shape.points[shape.triangles]
+        edges = np.linalg.norm(ends - np.roll(ends, -1, axis=1), axis=2)
+        above = np.linalg.norm(shape.middles - 0.5 * (ends + np.roll(ends, -1, axis=1)), axis=2)
+        self.assertTrue(np.all((above > 0) & (above < 0.5 * edges)))
         for name, values in drop.fields.items():
             np.testing.assert_allclose(values, shape.fields[name], rtol=1e-5, atol=1e-5)
         self.assertEqual((drop.drop, drop.parent), (0, -1))

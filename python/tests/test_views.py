@@ -67,7 +67,7 @@ class ViewTest(FolderCase):
         run = Run(self.folder / "run")
         shape, volume = run.shape(0.0), run.volume(0.0)
         check = self.watch({"points": shape.points, "triangles": shape.triangles, "x": volume.points,
-                            "tetrahedra": volume.tetrahedra} | shape.fields)
+                            "tetrahedra": volume.tetrahedra, "middles": shape.middles} | shape.fields)
         del run, shape, volume
         check()
 

@@ -1,14 +1,20 @@
 #include "meniscus/app/frames.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <numbers>
 
 #include <gtest/gtest.h>
+#include <vtkCell.h>
 #include <vtkCellData.h>
+#include <vtkCellType.h>
 #include <vtkDataArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -17,26 +23,41 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/vtk_file.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/report/mesh_cut.hpp"
 #include "tests/io/temporary_folder.hpp"
+#include "tests/report/cut_area.hpp"
 
 namespace meniscus {
 namespace {
 
-/// A drop at rest, or two of them; Ca is 1 where nothing flows.
-Evolution at_rest(const std::string& more) {
-  const Case c = parse_case(
-      "[flow]\nkind = \"quiescent\"\n[[drop]]\nradius = 1.0\nnodes = 110\n" + more, "case.toml");
+/// A case at its beginning.
+Evolution solved(const std::string& text) {
+  const Case c = parse_case(text, "case.toml");
   Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c), make_moving_mesh(c));
   EXPECT_TRUE(evolution.prepare().ok());
   EXPECT_TRUE(evolution.solve().ok());
   return evolution;
 }
 
+const std::string kDrop = "[[drop]]\nradius = 1.0\nnodes = 110\n",
+                  kBoundaryIntegrals =
+                      "[domain]\nshape = \"unbounded\"\n"
+                      "[solver]\nmethod = \"boundary-integral\"\n",
+                  kWall = "[domain]\nshape = \"sphere\"\nradius = 4.0\n";
+
+/// A drop at rest, or two of them; Ca is 1 where nothing flows.
+Evolution at_rest(const std::string& more) {
+  return solved("[flow]\nkind = \"quiescent\"\n" + kDrop + more);
+}
+
+Evolution in_shear(const std::string& more) {
+  return solved("[flow]\nkind = \"simple-shear\"\ncapillary-number = 0.2\n" + kDrop + more);
+}
+
 io::SurfaceFrame resting_drop(const std::string& more) {
   const Evolution evolution = at_rest(more);
   const test::TemporaryFolder folder;
-  write_surface_frame(folder / "frame.vtp", evolution);
-  return io::read_vtp(folder / "frame.vtp");
+  return io::read_surface_frame(write_surface_frame(folder / "frame", evolution));
 }
 
 const io::NamedArray* find(const io::SurfaceFrame& frame, const std::string& name) {
@@ -47,7 +68,7 @@ const io::NamedArray* find(const io::SurfaceFrame& frame, const std::string& nam
 /// Outer minus inner: −2/Ca for a sphere of radius 1 at rest. The balance of virtual work for a
 /// uniform growth, Δp dV = σ dS, holds for the polyhedron as well: Δp = 2 S/(3 V), its own S and V.
 TEST(SurfaceFrame, PressureJumpOfARestingDrop) {
-  const io::SurfaceFrame frame = resting_drop("[domain]\nshape = \"sphere\"\nradius = 4.0\n");
+  const io::SurfaceFrame frame = resting_drop(kWall);
   const io::NamedArray* jump = find(frame, "pressure_jump");
   ASSERT_NE(jump, nullptr);
   ASSERT_EQ(jump->values.size(), static_cast<std::size_t>(frame.mesh.num_vertices()));
@@ -61,16 +82,15 @@ TEST(SurfaceFrame, PressureJumpOfARestingDrop) {
 }
 
 TEST(SurfaceFrame, BoundaryIntegralsHaveNoPressure) {
-  const io::SurfaceFrame frame =
-      resting_drop("[domain]\nshape = \"unbounded\"\n[solver]\nmethod = \"boundary-integral\"\n");
+  const io::SurfaceFrame frame = resting_drop(kBoundaryIntegrals);
   EXPECT_EQ(find(frame, "pressure_jump"), nullptr);
   EXPECT_NE(find(frame, "curvature"), nullptr);
   EXPECT_NE(find(frame, "normal_velocity"), nullptr);
 }
 
+const std::string kLinear = "[solver]\nelements = \"P1-P1\"\n";
 const std::string kTwoDrops =
-    "[[drop]]\nradius = 0.5\nnodes = 60\ncenter = [2.0, 0.0, 0.0]\n"
-    "[domain]\nshape = \"sphere\"\nradius = 4.0\n";
+    "[[drop]]\nradius = 0.5\nnodes = 60\ncenter = [2.0, 0.0, 0.0]\n" + kWall;
 
 template <class IdType>
 CarriedField<IdType> numbered(const std::string& name, std::int32_t size, double first) {
@@ -109,12 +129,13 @@ void expect_values(vtkDataArray* array, const std::vector<double>& expected) {
 }
 
 TEST(SurfaceFrame, FieldsOpenInVtksOwnReader) {
-  Evolution evolution = at_rest(kTwoDrops);
+  Evolution evolution = at_rest(kTwoDrops + kLinear);
   put_numbers(evolution);
   const test::TemporaryFolder folder;
-  write_surface_frame(folder / "frame.vtp", evolution);
+  const std::filesystem::path file = write_surface_frame(folder / "frame", evolution);
+  EXPECT_EQ(file.filename(), "frame.vtp");
   const vtkNew<vtkXMLPolyDataReader> reader;
-  reader->SetFileName((folder / "frame.vtp").c_str());
+  reader->SetFileName(file.c_str());
   reader->Update();
   const SurfaceFields &a = evolution.scene().interfaces[0].fields,
                       &b = evolution.scene().interfaces[1].fields;
@@ -126,7 +147,7 @@ TEST(SurfaceFrame, FieldsOpenInVtksOwnReader) {
 
 // Points are corners of cells there: the pressure jumps.
 TEST(VolumeFrame, FieldsOpenInVtksOwnReader) {
-  Evolution evolution = at_rest(kTwoDrops);
+  Evolution evolution = at_rest(kTwoDrops + kLinear);
   put_numbers(evolution);
   const test::TemporaryFolder folder;
   write_volume_frame(folder / "frame.vtu", evolution);
@@ -140,6 +161,90 @@ TEST(VolumeFrame, FieldsOpenInVtksOwnReader) {
   for (const CellVertices& cell : evolution.state().mesh->tetrahedra().cells)
     for (const TetVertexId v : cell) at_corners.push_back(fields.on_vertices[0].values[v]);
   expect_values(reader->GetOutput()->GetPointData()->GetArray("warmth"), at_corners);
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> grid_of(const std::filesystem::path& file) {
+  const vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  return reader->GetOutput();
+}
+
+std::map<int, int> count_types(vtkUnstructuredGrid& grid) {
+  std::map<int, int> count;
+  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c) ++count[grid.GetCellType(c)];
+  return count;
+}
+
+/// The point and the value of an array's first component that VTK itself finds at a place of a
+/// cell.
+std::pair<Vec3, double> at_place(vtkUnstructuredGrid& grid, vtkIdType c, const char* array,
+                                 double r, double s, double t) {
+  vtkCell* cell = grid.GetCell(c);
+  const double place[3] = {r, s, t};
+  std::array<double, 10> weights{};
+  Vec3 x = Vec3::Zero();
+  int part = 0;
+  cell->EvaluateLocation(part, place, x.data(), weights.data());
+  double value = 0.0;
+  for (int k = 0; k < cell->GetNumberOfPoints(); ++k)
+    value += weights[static_cast<std::size_t>(k)] *
+             grid.GetPointData()->GetArray(array)->GetComponent(cell->GetPointId(k), 0);
+  return {x, value};
+}
+
+// A chord of these spheres, of edges up to 0.43 R0, lies up to 0.024 R0 below them.
+TEST(SurfaceFrame, CurvedFacesAreQuadraticTriangles) {
+  for (const std::string& method : {kWall, kBoundaryIntegrals}) {
+    const Evolution evolution = in_shear(method);
+    const test::TemporaryFolder folder;
+    const std::filesystem::path file = write_surface_frame(folder / "frame", evolution);
+    EXPECT_EQ(file.filename(), "frame.vtu");
+    const vtkSmartPointer<vtkUnstructuredGrid> grid = grid_of(file);
+    const int faces = evolution.scene().interfaces[0].mesh.num_faces();
+    EXPECT_EQ(count_types(*grid), (std::map<int, int>{{VTK_QUADRATIC_TRIANGLE, faces}}));
+    EXPECT_EQ(grid->GetNumberOfPoints(), faces / 2 + 2 + 3 * faces / 2);  // Euler's formula
+    for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+      for (const auto& [r, s] : {std::pair(0.5, 0.0), {0.3, 0.7}, {1.0 / 3.0, 1.0 / 3.0}})
+        EXPECT_NEAR(at_place(*grid, c, "velocity", r, s, 0.0).first.norm(), 1.0, 1e-3);
+    const io::SurfaceFrame frame = io::read_surface_frame(file);
+    EXPECT_EQ(frame.mesh, evolution.scene().interfaces[0].mesh);
+    EXPECT_EQ(frame.data.on_vertices.size(), surface_arrays(evolution).on_vertices.size());
+  }
+}
+
+// The drop's cells take its share of the section: those with flat faces lack 2.6 % of π.
+TEST(VolumeFrame, CellsAtCurvedSurfacesAreQuadratic) {
+  const Evolution evolution = in_shear(kWall);
+  const test::TemporaryFolder folder;
+  write_volume_frame(folder / "frame.vtu", evolution);
+  const vtkSmartPointer<vtkUnstructuredGrid> grid = grid_of(folder / "frame.vtu");
+  std::map<int, int> types = count_types(*grid);
+  EXPECT_GT(types[VTK_TETRA], 0);
+  EXPECT_GT(types[VTK_QUADRATIC_TETRA], 2 * evolution.scene().interfaces[0].mesh.num_faces());
+  EXPECT_EQ(types.size(), 2U);
+  const io::VolumeFrame frame = io::read_vtu(folder / "frame.vtu");
+  int num_on_drop = 0, num_on_wall = 0;
+  for (const auto& middles : frame.middles)
+    for (const std::int32_t point : middles) {
+      if (point < 0) continue;
+      const double radius = frame.points[static_cast<std::size_t>(point)].norm();
+      num_on_drop += std::abs(radius - 1.0) < 1e-3 ? 1 : 0;
+      num_on_wall += std::abs(radius - 4.0) < 1e-12 ? 1 : 0;
+    }
+  EXPECT_GT(num_on_drop, 2 * evolution.scene().interfaces[0].mesh.num_faces());
+  EXPECT_GT(num_on_wall, evolution.scene().boundary.mesh.num_faces());
+  const report::MeshCut cut = report::cut_through_drops(frame, 2);
+  double inside = 0.0;
+  for (const report::CutPolygon& polygon : cut.polygons)
+    if (polygon.region == 1) inside += test::area(cut, polygon);
+  EXPECT_NEAR(inside, std::numbers::pi, 0.003 * std::numbers::pi);
+  // The wall moves as given, v = (y, 0, 0).
+  vtkDataArray* velocity = grid->GetPointData()->GetArray("velocity");
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+    if (const Vec3 x(grid->GetPoint(i)); std::abs(x.norm() - 4.0) < 1e-12) {
+      EXPECT_NEAR(velocity->GetComponent(i, 0), x.y(), 1e-9);
+    }
 }
 
 /// Expects a field to be refused by its name.
@@ -162,12 +267,12 @@ std::vector<std::string> names(const io::MeshData& data) {
 
 // The names are those that a frame without fields has: the list cannot lag behind.
 TEST(Frames, RefuseFieldsNamedLikeTheirOwnArrays) {
-  Evolution evolution = at_rest("[domain]\nshape = \"sphere\"\nradius = 4.0\n");
+  Evolution evolution = at_rest(kWall);
   const test::TemporaryFolder folder;
-  write_surface_frame(folder / "frame.vtp", evolution);
+  const std::filesystem::path of_surface = write_surface_frame(folder / "surface", evolution);
   write_volume_frame(folder / "frame.vtu", evolution);
   const SurfaceMesh& surface = evolution.scene().interfaces[0].mesh;
-  for (const std::string& name : names(io::read_vtp(folder / "frame.vtp").data)) {
+  for (const std::string& name : names(io::read_surface_frame(of_surface).data)) {
     evolution.set_interface_fields({{{}, {numbered<FaceId>(name, surface.num_faces(), 0.0)}}});
     expect_taken(evolution, name);
     evolution.set_interface_fields({{{numbered<VertexId>(name, surface.num_vertices(), 0.0)}, {}}});

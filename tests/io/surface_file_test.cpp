@@ -226,7 +226,7 @@ TEST(SurfaceFile, FacesOfMoreCornersAreReadFromEveryFormat) {
 
 TEST(SurfaceFile, SaysWhatIsWrong) {
   EXPECT_EQ(complaint(".txt", ""),
-            "s.txt: unknown kind of surface file; known are .stl, .ply, .obj, .off and .vtp");
+            "s.txt: unknown kind of surface file; known are .stl, .ply, .obj, .off, .vtp and .vtu");
   EXPECT_EQ(complaint(".obj", "v 0 0 0\n"), "s.obj: holds no faces");
   EXPECT_EQ(complaint(".obj", "v 0 0 x\n"), "s.obj:1: `x` is not a number");
   EXPECT_EQ(complaint(".obj", "v 0 0\n"), "s.obj:1: 3 words where more are expected");

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/io/surface_file.hpp"
 #include "meniscus/mesh/shapes.hpp"
 #include "tests/io/full_disk.hpp"
 #include "tests/io/temporary_folder.hpp"
@@ -40,7 +41,7 @@ TEST(VtkFile, SurfaceWithArraysComesBackTheSame) {
   const test::TemporaryFolder folder;
   const SurfaceMesh mesh = sphere(40);
   write_example(folder / "s.vtp");
-  const SurfaceFrame frame = read_vtp(folder / "s.vtp");
+  const SurfaceFrame frame = read_surface_frame(folder / "s.vtp");
   EXPECT_EQ(frame.mesh, mesh);
   const MeshData expected = example_data(mesh);
   ASSERT_EQ(frame.data.on_vertices.size(), 2U);
@@ -58,7 +59,7 @@ TEST(VtkFile, SeveralSurfacesShareOneFile) {
   const SurfaceMesh a = sphere(20), b = sphere(30, 0.5, Vec3(3, 0, 0));
   const SurfaceMesh* const surfaces[] = {&a, &b};
   write_vtp(folder / "s.vtp", surfaces, {}, 0.0);
-  const SurfaceFrame frame = read_vtp(folder / "s.vtp");
+  const SurfaceFrame frame = read_surface_frame(folder / "s.vtp");
   ASSERT_EQ(frame.mesh.num_vertices(), 50);
   ASSERT_EQ(frame.mesh.num_faces(), a.num_faces() + b.num_faces());
   EXPECT_EQ(frame.mesh.x[VertexId{20}], b.x[VertexId{0}]);
@@ -102,6 +103,104 @@ TEST(VtkFile, CellsShareVerticesUnlessAFieldJumps) {
   }
 }
 
+/// A sphere whose edges are curved, with one value known at their middles, their heights.
+struct CurvedSphere {
+  SurfaceMesh mesh = sphere(40);
+  CurvedEdges curved;
+
+  CurvedSphere() {
+    NamedArray height{.name = "height", .components = 1, .values = {}};
+    const SurfaceTopology topology(mesh);
+    for (const SurfaceEdge& edge : topology.edges()) {
+      curved.ends.push_back({edge.b.value, edge.a.value});  // in any order
+      curved.middles.push_back((mesh.x[edge.a] + mesh.x[edge.b]).normalized());
+      height.values.push_back(curved.middles.back().z());
+    }
+    curved.values = {height};
+  }
+  void write(const std::filesystem::path& path) const {
+    const SurfaceMesh* const surfaces[] = {&mesh};
+    MeshData data = example_data(mesh);
+    NamedArray& height = data.on_vertices.emplace_back(NamedArray{"height", 1, {}});
+    for (const Vec3& x : mesh.x) height.values.push_back(x.z());
+    write_surface_vtu(path, surfaces, data, 0.7, curved);
+  }
+};
+
+TEST(VtkFile, CurvedSurfaceComesBackTheSame) {
+  const test::TemporaryFolder folder;
+  const CurvedSphere sphere;
+  sphere.write(folder / "s.vtu");
+  const SurfaceFrame frame = read_surface_frame(folder / "s.vtu");
+  EXPECT_EQ(frame.mesh, sphere.mesh);
+  ASSERT_EQ(frame.middles.size(), frame.mesh.num_faces());
+  for (const FaceId f : frame.mesh.faces.ids())
+    for (std::size_t k = 0; k < 3; ++k) {
+      const FaceVertices& v = frame.mesh.faces[f];
+      const Vec3 sum = frame.mesh.x[v[k]] + frame.mesh.x[v[(k + 1) % 3]];
+      EXPECT_EQ(frame.middles[f][k], sum.normalized());
+    }
+  const MeshData expected = example_data(frame.mesh);
+  ASSERT_EQ(frame.data.on_vertices.size(), 3U);
+  EXPECT_EQ(frame.data.on_vertices[0].values, expected.on_vertices[0].values);
+  EXPECT_EQ(frame.data.on_vertices[1].values, expected.on_vertices[1].values);
+  EXPECT_EQ(frame.data.on_cells[0].values, expected.on_cells[0].values);
+  const PolygonSoup soup = read_polygons(folder / "s.vtu");  // corners alone
+  EXPECT_EQ(soup.points, std::vector<Vec3>(frame.mesh.x.begin(), frame.mesh.x.end()));
+  EXPECT_EQ(soup.num_faces(), static_cast<std::size_t>(frame.mesh.num_faces()));
+}
+
+/// The values of an array where a cell's edges have their middles.
+std::vector<double> at_middles(const VolumeFrame& frame, std::size_t cell, std::string_view name) {
+  const auto array = std::ranges::find(frame.data.on_vertices, name, &NamedArray::name);
+  std::vector<double> values;
+  for (const std::int32_t point : frame.middles[cell])
+    values.push_back(array->values[static_cast<std::size_t>(point)]);
+  return values;
+}
+
+// Of two cells one has a curved edge: it alone is quadratic, in a file of shared vertices and in
+// one of corners of their own.
+TEST(VtkFile, CellsWithACurvedEdgeAreQuadratic) {
+  const test::TemporaryFolder folder;
+  const MeshData data{.on_vertices = {{"height", 1, {0, 0, 0, 1, 1}}}, .on_cells = {}};
+  const NamedArray pressure[] = {{"pressure", 1, {0, 2, 4, 6, 5, 5, 5, 5}}};
+  const CurvedEdges curved{
+      .ends = {{3, 0}}, .middles = {Vec3(-0.1, 0, 0.5)}, .values = {{"height", 1, {7.0}}}};
+  for (const bool has_own_corners : {false, true}) {
+    write_vtu(folder / "v.vtu", two_cells(), data, 0.5,
+              std::span(pressure, has_own_corners ? 1 : 0), curved);
+    const VolumeFrame frame = read_vtu(folder / "v.vtu");
+    ASSERT_EQ(frame.cells.size(), 2U);
+    ASSERT_EQ(frame.middles.size(), 2U);
+    EXPECT_EQ(frame.middles[1], (std::array<std::int32_t, 6>{-1, -1, -1, -1, -1, -1}));
+    const std::size_t corners = has_own_corners ? 8 : 5;
+    EXPECT_EQ(frame.points.size(), corners + 6);
+    const std::vector<Vec3> expected = {{0.5, 0, 0},    {0.5, 0.5, 0}, {0, 0.5, 0},
+                                        {-0.1, 0, 0.5}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
+    for (std::size_t k = 0; k < 6; ++k) {
+      const auto point = static_cast<std::size_t>(frame.middles[0][k]);
+      EXPECT_GE(point, corners);
+      EXPECT_EQ(frame.points[point], expected[k]);
+    }
+    EXPECT_EQ(at_middles(frame, 0, "height"), (std::vector<double>{0, 0, 0, 7, 0.5, 0.5}));
+    if (has_own_corners) {
+      EXPECT_EQ(at_middles(frame, 0, "pressure"), (std::vector<double>{1, 3, 2, 3, 4, 5}));
+    }
+  }
+}
+
+TEST(VtkFile, RefusesSurfacesOfOtherCells) {
+  const test::TemporaryFolder folder;
+  const std::string path = (folder / "s.vtu").string();
+  write_vtu(path, two_cells(), {}, 0.0);
+  EXPECT_EQ(message_of<InvalidInput>([&] { (void)read_surface_frame(path); }),
+            path + ": cell 0 is neither a triangle nor a quadrangle; only these are read");
+  put(path, "torn");
+  EXPECT_EQ(message_of<InvalidInput>([&] { (void)read_surface_frame(path); }),
+            path + ": not a surface file of VTK (.vtu), or corrupt");
+}
+
 TEST(VtkFile, FullDiskIsNoticed) {
   const test::TemporaryFolder folder;
   EXPECT_TRUE(test::holds_on_full_disk(500, [&] {
@@ -114,7 +213,9 @@ TEST(VtkFile, FullDiskIsNoticed) {
 TEST(VtkFile, RefusesForeignAndTruncatedSurfaces) {
   const test::TemporaryFolder folder;
   const std::string path = (folder / "s.vtp").string();
-  const auto reading = [&] { return message_of<InvalidInput>([&] { (void)read_vtp(path); }); };
+  const auto reading = [&] {
+    return message_of<InvalidInput>([&] { (void)read_surface_frame(path); });
+  };
   const std::string expected = path + ": not a surface file of VTK (.vtp), or corrupt";
   for (const char* text : {"", "hello", "<html></html>", "<VTKFile type=\"UnstructuredGrid\"/>"}) {
     put(path, text);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -181,6 +183,46 @@ TEST(PackedFrames, SurfaceIsReadBack) {
     EXPECT_NEAR(low + (high - low) / Grid16::steps * values[v], points[v].z(), tolerance);
   EXPECT_EQ(packed_frame.ranges.count("curvature"), 1U);
   EXPECT_EQ(packed_surface(frame).bytes, packed_frame.bytes);
+}
+
+/// As the page does: an edge's middle is found from its ends when a face first names it.
+TEST(PackedFrames, MiddlesOfCurvedFacesAreReadBack) {
+  SurfaceFrame frame = sphere_frame(150);
+  for (const FaceVertices& v : frame.mesh.faces) {
+    const auto middle = [&](std::size_t k) {
+      return Vec3((frame.mesh.x[v[k]] + frame.mesh.x[v[(k + 1) % 3]]).normalized());
+    };
+    frame.middles.add({middle(0), middle(1), middle(2)});
+  }
+  PackageReader package(packed_surface(frame).bytes);
+  const auto num_faces = static_cast<std::size_t>(frame.mesh.num_faces());
+  const std::size_t num_edges = 3 * num_faces / 2;
+  ASSERT_EQ(package.header["middles"], num_edges);
+  const auto faces = package.take_faces<std::uint16_t>(num_faces);
+  std::array<std::vector<std::uint16_t>, 3> points, offsets;
+  for (auto& axis : points) axis = package.take_sums(150);
+  for (auto& axis : offsets) axis = package.take<std::uint16_t>(num_edges);
+  std::set<std::pair<std::uint16_t, std::uint16_t>> named;
+  for (const auto& face : faces)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::pair<std::uint16_t, std::uint16_t> ends =
+          std::minmax({face[k], face[(k + 1) % 3]});
+      const std::size_t edge = named.size();
+      if (!named.insert(ends).second) continue;
+      Vec3 middle, sum;
+      double step = 0.0;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double low = package.header["low"][axis], high = package.header["high"][axis];
+        step = (high - low) / Grid16::steps;
+        const double both = points[axis][ends.first] + points[axis][ends.second];
+        const auto offset = static_cast<std::int16_t>(offsets[axis][edge]);
+        sum[static_cast<int>(axis)] = 2.0 * low + step * both;
+        middle[static_cast<int>(axis)] = low + step * (0.5 * both + offset);
+      }
+      // Half a step in each direction, of the middle and of the sum of two ends, of length 1.9.
+      EXPECT_LT((middle - sum.normalized()).norm(), 1.1 * std::sqrt(3.0) * step);
+    }
+  EXPECT_EQ(named.size(), num_edges);
 }
 
 TEST(PackedFrames, ManyVerticesHaveWideCorners) {

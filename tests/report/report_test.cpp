@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/report/page_data.hpp"
+#include "meniscus/report/run_data.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/report/synthetic_run.hpp"
 #include "tests/report/xml_check.hpp"
@@ -118,7 +120,7 @@ TEST(Report, FailedRunsSayWhy) {
 
 TEST(Report, PicturesStandAlone) {
   const test::TemporaryFolder folder;
-  test::write_synthetic_run(folder.path(), {.num_volume_frames = 2});
+  test::write_synthetic_run(folder.path(), {.num_volume_frames = 2, .is_curved = true});
   const std::vector<std::string> names = {"interface.svg", "deformation.svg", "mesh.svg",
                                           "history.svg"};
   EXPECT_EQ(write_stills(folder.path(), StillFormat::svg), names);
@@ -136,6 +138,31 @@ TEST(Report, PicturesStandAlone) {
   EXPECT_EQ(count(get(folder / "interface.svg"), "class=\"mesh\""), 2);
   EXPECT_TRUE(has(get(folder / "interface.svg"), "t = 3<"));
   EXPECT_TRUE(has(get(folder / "mesh.svg"), "t = 0,"));
+}
+
+// Half the size of the curved frames is more than that of the flat ones, a tenth is less.
+TEST(Report, FacesBecomeFlatBeforeTheyBecomeFewer) {
+  const test::TemporaryFolder folder;
+  test::write_synthetic_run(folder.path(),
+                            {.num_frames = 4, .num_vertices = 1000, .is_curved = true});
+  report::RunData run = report::load_run(folder.path());
+  const auto size = [](const report::PageRun& page) {
+    std::size_t sum = 0;
+    for (const report::PackedFrame& frame : page.frames) sum += frame.bytes.size();
+    return sum;
+  };
+  const report::PageRun whole = report::page_run(run, {});
+  EXPECT_TRUE(whole.frames[0].is_curved);
+  report::PageBudget budget;
+  budget.frames = size(whole) * 4 / 3 * 9 / 10;
+  const report::PageRun flat = report::page_run(run, budget);
+  EXPECT_FALSE(flat.frames[0].is_curved);
+  EXPECT_EQ(flat.frames[0].num_faces, whole.frames[0].num_faces);
+  EXPECT_TRUE(has(flat.notes.back(), "drawn flat")) << flat.notes.back();
+  budget.frames /= 9;
+  const report::PageRun coarse = report::page_run(run, budget);
+  EXPECT_LT(coarse.frames[0].num_faces, whole.frames[0].num_faces / 2);
+  EXPECT_TRUE(has(coarse.notes.back(), "drawn with about as many")) << coarse.notes.back();
 }
 
 TEST(Report, PicturesOfWildTables) {

@@ -61,6 +61,22 @@ double curvature_at(const Shape& s, const Vec3& u) {
 
 double temperature_at(const Vec3& x) { return 1.0 + 0.1 * x.x(); }
 
+/// The edges of all drops through points of the ellipsoids.
+io::CurvedEdges curved_edges(const SyntheticRun& run, const SurfaceMesh& ball, double t) {
+  io::CurvedEdges curved;
+  const SurfaceTopology topology(ball);
+  for (int k = 0; k < run.num_drops; ++k) {
+    const Shape shape = shape_at(t, k);
+    const std::int32_t first = k * ball.num_vertices();
+    for (const SurfaceEdge& edge : topology.edges()) {
+      curved.ends.push_back({first + edge.a.value, first + edge.b.value});
+      curved.middles.emplace_back(stretch(shape) * (ball.x[edge.a] + ball.x[edge.b]).normalized() +
+                                  shape.center);
+    }
+  }
+  return curved;
+}
+
 void write_frame(const fs::path& path, const SyntheticRun& run, const SurfaceMesh& ball, double t) {
   std::vector<SurfaceMesh> meshes;
   io::NamedArray curvature{"curvature", 1, {}}, speed{"normal_velocity", 1, {}},
@@ -86,7 +102,10 @@ void write_frame(const fs::path& path, const SyntheticRun& run, const SurfaceMes
   for (const SurfaceMesh& mesh : meshes) surfaces.push_back(&mesh);
   io::MeshData data{{curvature, speed, velocity, density, jump}, {drop}};
   if (run.has_scalars) data.on_vertices.insert(data.on_vertices.end(), {temperature, dye});
-  io::write_vtp(path, surfaces, data, t);
+  if (run.is_curved)
+    io::write_surface_vtu(path, surfaces, data, t, curved_edges(run, ball, t));
+  else
+    io::write_vtp(path, surfaces, data, t);
 }
 
 void write_frames(const fs::path& folder, const SyntheticRun& run) {
@@ -95,7 +114,8 @@ void write_frames(const fs::path& folder, const SyntheticRun& run) {
   const SurfaceMesh ball = sphere(run.num_vertices);
   for (int i = 0; i < run.num_frames; ++i) {
     const double t = run.num_frames > 1 ? end_time * i / (run.num_frames - 1) : 0.0;
-    entries.push_back({t, fmt::format("surface/surface-{:04}.vtp", i)});
+    entries.push_back(
+        {t, fmt::format("surface/surface-{:04}.{}", i, run.is_curved ? "vtu" : "vtp")});
     write_frame(folder / entries.back().file, run, ball, t);
   }
   io::write_pvd(folder / "surface.pvd", entries);

@@ -10,6 +10,7 @@ struct SyntheticRun {
   int num_steps = 60;   ///< rows of the history, less one
   int num_vertices = 200;
   int num_volume_frames = 0;
+  bool is_curved = false;    ///< whether the ellipsoids' faces are
   bool has_scalars = false;  ///< a temperature, and a dye whose concentration jumps
 };
 

@@ -1,5 +1,5 @@
 // Writes the files of a synthetic run, for the tests of the page: make_run DIR FRAMES VERTICES
-// DROPS [scalars]
+// DROPS [scalars]     with scalars its faces are curved
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   run.num_frames = std::atoi(argv[2]);
   run.num_vertices = std::atoi(argv[3]);
   run.num_drops = std::atoi(argv[4]);
-  run.has_scalars = argc == 6;
+  run.has_scalars = run.is_curved = argc == 6;
   run.num_steps = 600;
   run.num_volume_frames = 3;
   meniscus::test::write_synthetic_run(folder, run);

@@ -433,3 +433,15 @@ test("bulk scalars colour the view and the cut, and have plots", async () => {
   assert.deepEqual(shown.complaints, []);
   await other.close();
 });
+
+test("curved faces are drawn in pieces, flat ones as they are", async () => {
+  const drawn = (where) => where.evaluate(() => {
+    const { frame } = window.meniscus.explorer.views[0];
+    return { pieces: frame.drawn.index.length / frame.index.length, isCurved: Boolean(frame.middles) };
+  });
+  const { page: curved } = await openPage(browser.context, pathToFileURL(join(scalars, "report.html")).href);
+  await until(curved, () => performance.getEntriesByName("ready").length > 0);
+  assert.deepEqual(await drawn(curved), { pieces: 16, isCurved: true });
+  await curved.close();
+  assert.deepEqual(await drawn(page), { pieces: 1, isCurved: false });
+});

@@ -88,7 +88,7 @@ def check_traversal(port, work):
     paths = ["/../secret.csv", "/..%2fsecret.csv", "/%2e%2e/secret.csv", "/....//secret.csv",
              "/history.csv/../../secret.csv", "//secret.csv", "/run/../../secret.csv", "/..\\secret.csv",
              "/%5c..%5csecret.csv", "/history.csv%00.html", "/run.json", "/checkpoint-000000.h5", "/surface",
-             "/surface/surface-000000.vtp", "/etc/passwd", "/../../../../../../etc/passwd", "*", "/."]
+             "/surface/surface-000000.vtu", "/etc/passwd", "/../../../../../../etc/passwd", "*", "/."]
     for path in paths:
         answer = raw(port, f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nConnection: close\r\n\r\n".encode())
         status = answer.split(b" ")[1:2]
@@ -205,7 +205,7 @@ def main():
     alone = start(program, case, work / "alone", 0.1)
     alone.stdout.read()
     expect(alone.wait() == 0, "the beginning of the same run without --watch")
-    for name in ("history.csv", "drops.csv", "surface/surface-000000.vtp"):
+    for name in ("history.csv", "drops.csv", "surface/surface-000000.vtu"):
         expect((work / "watched" / name).read_bytes().startswith((work / "alone" / name).read_bytes()),
                f"the same bytes: {name}")
 

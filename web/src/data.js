@@ -116,6 +116,10 @@ class Reader {
     }
     return array;
   }
+  /** Signed numbers of 16 bits. */
+  takeSigned(length) {
+    return Int16Array.from(this.take(Uint16Array, length)); // modulo 2^16
+  }
   /** Numbers of 16 bits that were packed as differences. */
   takeSums(length) {
     const array = this.take(Uint16Array, length);
@@ -145,22 +149,30 @@ function ungridded(indices, low, high) {
   return Float32Array.from(indices, (i) => (i === GRID_NONE ? NaN : low + step * i));
 }
 
+/** The middles of the edges of curved faces, and which edges faces have: {middles, faceEdges}. */
+function takeMiddles(reader, index, position, step) {
+  const { faceEdges, ends } = edgesOfFaces(index);
+  const middles = new Float32Array(3 * ends.length);
+  for (let axis = 0; axis < 3; ++axis) {
+    reader.takeSigned(ends.length).forEach((offset, e) => {
+      const [a, b] = ends[e];
+      middles[3 * e + axis] = 0.5 * (position[3 * a + axis] + position[3 * b + axis]) + step[axis] * offset;
+    });
+  }
+  return { middles, faceEdges };
+}
+
 /** A surface: {t, index, position, values, low, high}, and where faces are curved as `surface.js` says. */
 export function unpackedFrame(bytes) {
   const reader = new Reader(bytes);
   const { t, vertices, faces, middles: edges, wide, low, high, fields } = reader.header;
   const index = reader.takeFaces(wide ? Uint32Array : Uint16Array, faces);
-  const takePoints = (count) => {
-    const points = new Float32Array(3 * count);
-    for (let axis = 0; axis < 3; ++axis) {
-      const grid = reader.takeSums(count);
-      const step = (high[axis] - low[axis]) / GRID_STEPS;
-      for (let v = 0; v < count; ++v) points[3 * v + axis] = low[axis] + step * grid[v];
-    }
-    return points;
-  };
-  const position = takePoints(vertices);
-  const curved = edges > 0 ? { middles: takePoints(edges), faceEdges: edgesOfFaces(index).faceEdges } : {};
+  const step = [0, 1, 2].map((axis) => (high[axis] - low[axis]) / GRID_STEPS);
+  const position = new Float32Array(3 * vertices);
+  for (let axis = 0; axis < 3; ++axis) {
+    reader.takeSums(vertices).forEach((i, v) => (position[3 * v + axis] = low[axis] + step[axis] * i));
+  }
+  const curved = edges > 0 ? takeMiddles(reader, index, position, step) : {};
   const values = {};
   for (const field of fields) {
     values[field.name] = ungridded(reader.takeSums(vertices), field.low, field.high);

@@ -98,20 +98,18 @@ function outline(nodes) {
   return `M${a[0]} ${a[1]}q${step(a, controls[0])} ${step(a, b)} ${step(b, controls[1])} ${step(b, c)} ${step(c, controls[2])} ${step(c, a)}z`;
 }
 
-/** A curved face that is partly turned away, in small flat pieces: what is seen of it and of its edges. */
-function visiblePieces(nodes) {
-  const n = SILHOUETTE_PARTS;
-  const place = (i, j) => pointOfFace(nodes.map(([x, y]) => [x, y, 0]), (n - i - j) / n, i / n, j / n);
-  let faces = "";
-  let edges = "";
+/** The border of the small flat pieces of a curved face that are turned to the viewer: by point, those after it. */
+function visibleBorder(points, n) {
+  const number = ([i, j]) => i * (n + 1) + j;
+  const after = new Map();
   const add = (corners) => {
-    if (turned(...corners.map(([i, j]) => place(i, j))) >= 0) return; // y points downwards here
-    const points = corners.map(([i, j]) => rounded(place(i, j)));
-    faces += `M${points[0][0]} ${points[0][1]}l${step(points[0], points[1])} ${step(points[1], points[2])}z`;
-    corners.forEach(([i, j], k) => {
-      const [p, q] = corners[(k + 1) % 3];
-      const isOnEdge = (j === 0 && q === 0) || (i === 0 && p === 0) || (i + j === n && p + q === n);
-      if (isOnEdge) edges += `M${points[k][0]} ${points[k][1]}l${step(points[k], points[(k + 1) % 3])}`;
+    const numbers = corners.map(number);
+    if (turned(...numbers.map((k) => points[k])) >= 0) return; // y points downwards here
+    numbers.forEach((from, k) => {
+      const to = numbers[(k + 1) % 3];
+      const back = after.get(to)?.indexOf(from) ?? -1;
+      if (back >= 0) after.get(to).splice(back, 1); // between two pieces
+      else after.set(from, [...(after.get(from) ?? []), to]);
     });
   };
   for (let i = 0; i < n; ++i) {
@@ -120,14 +118,43 @@ function visiblePieces(nodes) {
       if (i + j + 1 < n) add([[i + 1, j], [i + 1, j + 1], [i, j + 1]]);
     }
   }
-  return { faces, edges };
+  return after;
+}
+
+/** What is seen of a curved face that is partly turned away, and of its edges, as paths. */
+function visiblePart(nodes) {
+  const n = SILHOUETTE_PARTS;
+  const flat = nodes.map(([x, y]) => [x, y, 0]);
+  const points = [];
+  for (let i = 0; i <= n; ++i) for (let j = 0; i + j <= n; ++j) points[i * (n + 1) + j] = pointOfFace(flat, (n - i - j) / n, i / n, j / n);
+  const after = visibleBorder(points, n);
+  const sides = (k) => { // which edges of the face a point lies on
+    const [i, j] = [Math.floor(k / (n + 1)), k % (n + 1)];
+    return [j === 0, i + j === n, i === 0];
+  };
+  const isOnEdge = (a, b) => sides(a).some((isOn, side) => isOn && sides(b)[side]);
+  let [face, edges] = ["", ""];
+  for (const [start, ends] of after) {
+    while (ends.length > 0) {
+      face += `M${rounded(points[start]).join(" ")}l`;
+      let isDrawing = false;
+      for (let from = start, to; (to = after.get(from)?.pop()) !== undefined; from = to) {
+        const along = step(rounded(points[from]), rounded(points[to]));
+        face += `${along} `;
+        if (isOnEdge(from, to)) edges += isDrawing ? ` ${along}` : `M${rounded(points[from]).join(" ")}l${along}`;
+        isDrawing = isOnEdge(from, to);
+      }
+      face = `${face.trimEnd()}z`;
+    }
+  }
+  return { face, edges };
 }
 
 function drawFace({ nodes, isWhole, fill, stroke }) {
   if (isWhole) return `<path fill="${fill}" stroke="${stroke}" d="${outline(nodes)}"/>`;
-  const { faces, edges } = visiblePieces(nodes);
-  if (!faces) return "";
-  return `<path fill="${fill}" stroke="${fill}" d="${faces}"/>` + (edges ? `<path fill="none" stroke="${stroke}" d="${edges}"/>` : "");
+  const { face, edges } = visiblePart(nodes);
+  if (!face) return "";
+  return `<path fill="${fill}" stroke="${fill}" d="${face}"/>` + (edges ? `<path fill="none" stroke="${stroke}" d="${edges}"/>` : "");
 }
 
 /**

@@ -42,61 +42,112 @@ export function edgesOfFaces(index) {
 }
 
 /**
+ * How the points of a surface are numbered whose edges are in `parts` pieces: the vertices, those on
+ * edges, those in faces. `onEdge` and `inFace` are their places in barycentric coordinates.
+ */
+function refinement(frame, parts) {
+  const { faceEdges, ends } = edgesOfFaces(frame.index);
+  const [onEdge, inFace, inFaceNumbers] = [[], [], new Map()];
+  for (let i = 1; i < parts; ++i) onEdge.push([1 - i / parts, i / parts, 0]);
+  for (let i = 1; i < parts; ++i) {
+    for (let j = 1; i + j < parts; ++j) {
+      inFaceNumbers.set(i * parts + j, inFace.length);
+      inFace.push([(parts - i - j) / parts, i / parts, j / parts]);
+    }
+  }
+  const numVertices = frame.position.length / 3;
+  const firstInFaces = numVertices + ends.length * onEdge.length;
+  return {
+    parts, index: frame.index, faceEdges, ends, onEdge, inFace, numVertices,
+    numPoints: firstInFaces + numFaces(frame) * inFace.length,
+    /** The i-th point of edge e from its lower end on. */
+    pointOnEdge: (e, i) => (i === 0 ? ends[e][0] : i === parts ? ends[e][1] : numVertices + e * onEdge.length + i - 1),
+    /** The point of face f that is i steps from corner 0 toward 1 and j toward 2, on none of its edges. */
+    pointInFace: (f, i, j) => firstInFaces + f * inFace.length + inFaceNumbers.get(i * parts + j),
+  };
+}
+
+/** The small triangles of all faces. */
+function piecesOfFaces({ parts, index, faceEdges, ends, pointOnEdge, pointInFace }) {
+  const pieces = new Uint32Array(parts * parts * index.length);
+  let at = 0;
+  const add = (a, b, c) => {
+    pieces[at++] = a;
+    pieces[at++] = b;
+    pieces[at++] = c;
+  };
+  for (let f = 0; 3 * f < index.length; ++f) {
+    const alongEdge = (k, i) => { // the i-th point from corner k on
+      const e = faceEdges[3 * f + k];
+      return pointOnEdge(e, ends[e][0] === index[3 * f + k] ? i : parts - i);
+    };
+    const point = (i, j) => {
+      if (j === 0) return alongEdge(0, i);
+      if (i + j === parts) return alongEdge(1, j);
+      if (i === 0) return alongEdge(2, parts - j);
+      return pointInFace(f, i, j);
+    };
+    for (let i = 0; i < parts; ++i) {
+      for (let j = 0; i + j < parts; ++j) {
+        add(point(i, j), point(i + 1, j), point(i, j + 1));
+        if (i + j + 1 < parts) add(point(i + 1, j), point(i + 1, j + 1), point(i, j + 1));
+      }
+    }
+  }
+  return pieces;
+}
+
+/** Pairs of points along all edges. */
+function piecesOfEdges({ parts, ends, pointOnEdge }) {
+  const pieces = new Uint32Array(2 * parts * ends.length);
+  for (let e = 0, at = 0; e < ends.length; ++e) {
+    for (let i = 0; i < parts; ++i) {
+      pieces[at++] = pointOnEdge(e, i);
+      pieces[at++] = pointOnEdge(e, i + 1);
+    }
+  }
+  return pieces;
+}
+
+/**
+ * An array of `size` numbers a vertex at all points: parabolic where `middles` gives the numbers at the
+ * middles of edges, else linear.
+ */
+function atAllPoints(array, size, middles, { index, faceEdges, ends, onEdge, inFace, numVertices, numPoints }) {
+  const weights = ([a, b, c]) => (middles ? weightsAt(a, b, c) : [a, b, c, 0, 0, 0]);
+  const [edgeWeights, faceWeights] = [onEdge.map(weights), inFace.map(weights)];
+  const middle = (e, k) => (middles ? middles[size * e + k] : 0);
+  const all = new Float32Array(size * numPoints);
+  all.set(array);
+  let at = size * numVertices;
+  ends.forEach(([a, b], e) => {
+    for (const w of edgeWeights) {
+      for (let k = 0; k < size; ++k) all[at++] = w[0] * array[size * a + k] + w[1] * array[size * b + k] + w[3] * middle(e, k);
+    }
+  });
+  for (let f = 0; f < index.length; f += 3) {
+    for (const w of faceWeights) {
+      for (let k = 0; k < size; ++k) {
+        let sum = 0;
+        for (let i = 0; i < 3; ++i) sum += w[i] * array[size * index[f + i] + k] + w[3 + i] * middle(faceEdges[f + i], k);
+        all[at++] = sum;
+      }
+    }
+  }
+  return all;
+}
+
+/**
  * The surface with every edge in `parts` pieces and every face in `parts`² flat ones: {index, position,
  * values, edges}; `edges` are pairs of vertices along the edges of the faces. Values are linear on faces.
  */
 export function refined(frame, parts) {
-  const { faceEdges, ends } = edgesOfFaces(frame.index);
-  const numVertices = frame.position.length / 3;
-  const position = [...frame.position];
-  const sources = Array.from({ length: numVertices }, (_, v) => [[v, 1]]);
-  const add = (x, source) => {
-    position.push(...x);
-    return sources.push(source) - 1;
+  const points = refinement(frame, parts);
+  const values = Object.entries(frame.values).map(([name, of]) => [name, atAllPoints(of, 1, undefined, points)]);
+  return {
+    ...frame, index: piecesOfFaces(points), position: atAllPoints(frame.position, 3, frame.middles, points),
+    values: Object.fromEntries(values), edges: piecesOfEdges(points), middles: undefined, faceEdges: undefined,
   };
-  const onEdges = ends.map(([a, b], e) => Array.from({ length: parts - 1 }, (_, i) => {
-    const s = (i + 1) / parts;
-    const nodes = [at(frame.position, a), at(frame.position, b), at(frame.position, b)];
-    const curved = frame.middles ? [nodes[0], nodes[1], nodes[1], at(frame.middles, e), nodes[1], nodes[1]] : nodes;
-    return add(pointOfFace(curved, 1 - s, s, 0), [[a, 1 - s], [b, s]]);
-  }));
-  const alongEdge = (f, k, i) => { // the i-th point from corner k on
-    const [from, to] = [frame.index[3 * f + k], frame.index[3 * f + ((k + 1) % 3)]];
-    if (i === 0) return from;
-    if (i === parts) return to;
-    return onEdges[faceEdges[3 * f + k]][from < to ? i - 1 : parts - i - 1];
-  };
-  const index = [];
-  for (let f = 0; f < numFaces(frame); ++f) {
-    const nodes = nodesOfFace(frame, f);
-    const corners = [0, 1, 2].map((k) => frame.index[3 * f + k]);
-    const inner = new Map();
-    const vertexAt = (i, j) => { // i steps from corner 0 to 1, j to 2
-      if (j === 0) return alongEdge(f, 0, i);
-      if (i + j === parts) return alongEdge(f, 1, j);
-      if (i === 0) return alongEdge(f, 2, parts - j);
-      const key = i * (parts + 1) + j;
-      if (!inner.has(key)) {
-        const [a, b, c] = [(parts - i - j) / parts, i / parts, j / parts];
-        inner.set(key, add(pointOfFace(nodes, a, b, c), corners.map((v, k) => [v, [a, b, c][k]])));
-      }
-      return inner.get(key);
-    };
-    for (let i = 0; i < parts; ++i) {
-      for (let j = 0; i + j < parts; ++j) {
-        index.push(vertexAt(i, j), vertexAt(i + 1, j), vertexAt(i, j + 1));
-        if (i + j + 1 < parts) index.push(vertexAt(i + 1, j), vertexAt(i + 1, j + 1), vertexAt(i, j + 1));
-      }
-    }
-  }
-  const values = Object.fromEntries(Object.entries(frame.values).map(([name, of]) => [name,
-    Float32Array.from(sources, (source) => source.reduce((sum, [v, weight]) => sum + weight * of[v], 0))]));
-  const edges = ends.flatMap(([a, b], e) => {
-    const way = [a, ...onEdges[e], b];
-    return way.slice(1).flatMap((vertex, i) => [way[i], vertex]);
-  });
-  return { ...frame, index: Uint32Array.from(index), position: Float32Array.from(position), values,
-    edges: Uint32Array.from(edges), middles: undefined, faceEdges: undefined };
 }
 
 /** The frame as flat faces only: a curved one in pieces. */
