@@ -13,14 +13,11 @@ void require_fit(const Case& c) {
     settings.reject("solver.method",
                     "must be \"finite-element\" where liquids have inertia: boundary integrals "
                     "solve Stokes flow");
-  // Either of the next two takes P1-P1 elements by default: the key that the user gave is named.
   if (c.flow_solver.linear != fem::LinearSolver::block)
     settings.reject("solver.linear", "must be \"block\" where liquids have inertia");
   if (c.flow_solver.capillary == fem::CapillaryForm::nodal)
     settings.reject("interface.surface-tension",
                     "must be \"weak\" or \"balanced\" where liquids have inertia");
-  if (c.flow_solver.elements != fem::Elements::p2_p1)
-    settings.reject("solver.elements", "must be \"P2-P1\" where liquids have inertia");
   if (c.evolution.follows_drops)
     settings.reject("domain.frame", "must be \"fixed\" where liquids have inertia");
 }

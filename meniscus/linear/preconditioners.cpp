@@ -73,6 +73,10 @@ PressureLaplacian::PressureLaplacian(Communicator communicator, const SaddleSyst
               "MatDiagonalScale");
   petsc_check(MatMatMult(B.get(), scaled.get(), MAT_INITIAL_MATRIX, PETSC_DEFAULT, matrix_.out()),
               "MatMatMult");
+  if (!system.C.row_start.empty())  // whose entries B's rows meet in
+    petsc_check(
+        MatAXPY(matrix_.get(), 1.0, borrowed_matrix(comm, system.C).get(), SUBSET_NONZERO_PATTERN),
+        "MatAXPY");
   Vector diagonal;
   petsc_check(MatCreateVecs(matrix_.get(), diagonal.out(), nullptr), "MatCreateVecs");
   petsc_check(MatGetDiagonal(matrix_.get(), diagonal.get()), "MatGetDiagonal");

@@ -25,11 +25,11 @@ class PressureMass {
   KrylovSolver solver_;  ///< empty for the lumped matrix
 };
 
-/// An algebraic multigrid cycle on B diag(M)⁻¹ Bᵀ, of which it keeps a copy.
+/// An algebraic multigrid cycle on B diag(M)⁻¹ Bᵀ + C, of which it keeps a copy.
 class PressureLaplacian {
  public:
   PressureLaplacian(Communicator communicator, const SaddleSystem& system);
-  /// Adds s (B diag(M)⁻¹ Bᵀ)⁻¹ r to z.
+  /// Adds s (B diag(M)⁻¹ Bᵀ + C)⁻¹ r to z.
   void add(std::span<const double> r, double s, Vec z) const;
   [[nodiscard]] std::int32_t size() const { return size_; }
 

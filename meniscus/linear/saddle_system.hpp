@@ -70,8 +70,8 @@ struct SaddleSystem {
   SaddleProducts products = {};
   std::span<const double> laplacian_diagonals = {};  ///< 3n, of `products.laplacians`
 
-  /// Where velocities have masses M that outweigh the Laplacians: B, and the diagonal of M, 3n. To
-  /// the inverse of the Schur complement that of B diag(M)⁻¹ Bᵀ is added. Empty: they do not.
+  /// Where velocities have masses M that outweigh the Laplacians: B, and a diagonal for M, 3n. To
+  /// the inverse of the Schur complement that of B diag(M)⁻¹ Bᵀ + C is added. Empty: they do not.
   CsrView divergence = {};
   std::span<const double> mass_diagonal = {};
 

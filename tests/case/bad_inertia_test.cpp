@@ -65,8 +65,6 @@ const std::vector<BadInertia> kMethods{
      inertia("[domain]\nshape = \"unbounded\"\n[solver]\nmethod = \"boundary-integral\"\n"),
      "case.toml:9: solver.method = \"boundary-integral\" must be \"finite-element\" where liquids "
      "have inertia: boundary integrals solve Stokes flow"},
-    {"linear elements", inertia("[solver]\nelements = \"P1-P1\"\n"),
-     "case.toml:7: solver.elements = \"P1-P1\" must be \"P2-P1\" where liquids have inertia"},
     {"a direct solver", inertia("[solver]\nlinear = \"mumps\"\n"),
      "case.toml:7: solver.linear = \"mumps\" must be \"block\" where liquids have inertia"},
     {"a solver that takes linear elements", inertia("[solver]\nlinear = \"paper-gmres\"\n"),
@@ -88,8 +86,8 @@ const std::vector<BadInertia> kMethods{
      "case.toml:6: time.scheme = \"implicit\" needs flow.reynolds-number or scale.density: Stokes "
      "flow has other schemes"},
     {"inertia from the command line",
-     stokes("[solver]\nelements = \"P1-P1\"\n"),
-     "case.toml:6: solver.elements = \"P1-P1\" must be \"P2-P1\" where liquids have inertia",
+     stokes("[solver]\nelements = \"P1-P1\"\nlinear = \"minres\"\n"),
+     "case.toml:7: solver.linear = \"minres\" must be \"block\" where liquids have inertia",
      {"flow.reynolds-number=10"}},
 };
 

@@ -4,8 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "meniscus/flow/fem/elements.hpp"
-#include "meniscus/flow/fem/stokes_problem.hpp"
+#include "meniscus/flow/fem/cell_state.hpp"
 
 namespace meniscus::fem {
 
@@ -54,7 +53,8 @@ struct CellMatrices {
 
  protected:
   CellMatrices();
-  void add(const typename Element::Point& point, double viscosity);
+  void add(const StokesProblem& problem, const typename Element::Point& point, CellId c,
+           double viscosity);
 
  private:
   [[nodiscard]] auto at(std::size_t i, std::size_t j) const {
@@ -72,7 +72,8 @@ CellMatrices<Element>::CellMatrices() {
 }
 
 template <class Element>
-void CellMatrices<Element>::add(const typename Element::Point& point, double viscosity) {
+void CellMatrices<Element>::add(const StokesProblem& problem, const typename Element::Point& point,
+                                CellId c, double viscosity) {
   // The gradients one below the other: row 3i + a holds ∂_aφ_i.
   const Eigen::Map<const Eigen::Matrix<double, kRows, 1>> gradients(point.gradient.data());
   products.noalias() += (point.weight * viscosity * gradients) * gradients.transpose();
@@ -80,7 +81,7 @@ void CellMatrices<Element>::add(const typename Element::Point& point, double vis
   divergence.noalias() -= (point.weight * psi) * gradients.transpose();
   masses.noalias() += (point.weight / viscosity * psi) * psi.transpose();
   if constexpr (Element::is_stabilized)  // on cells with one point
-    stabilisations = pspg_parameter(point.weight, viscosity) * point.weight *
+    stabilisations = stabilisation_parameter(problem, c, point.weight, viscosity) * point.weight *
                      point.gradient.transpose() * point.gradient;
 }
 
@@ -88,7 +89,7 @@ template <class Element>
 CellMatrices<Element>::CellMatrices(const StokesProblem& problem,
                                     std::span<const typename Element::Point> points, CellId c)
     : CellMatrices() {
-  for (const auto& point : points) add(point, problem.viscosity[c]);
+  for (const auto& point : points) add(problem, point, c, problem.viscosity[c]);
 }
 
 }  // namespace meniscus::fem

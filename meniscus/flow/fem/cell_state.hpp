@@ -48,4 +48,12 @@ struct CellState {
   return problem.viscosity[c] * relative_viscosity(*law, rate).value;
 }
 
+/// τ of a linear cell whose viscosity is given.
+[[nodiscard]] inline double stabilisation_parameter(const StokesProblem& problem, CellId c,
+                                                    double volume, double viscosity) {
+  return problem.inertia ? pspg_parameter(volume, viscosity,
+                                          problem.inertia->density[c] / problem.inertia->duration)
+                         : pspg_parameter(volume, viscosity);
+}
+
 }  // namespace meniscus::fem

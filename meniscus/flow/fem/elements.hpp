@@ -33,6 +33,11 @@ struct ElementPoint {
 [[nodiscard]] inline double pspg_parameter(double volume, double viscosity) {
   return cube_root(72.0 * volume * volume) / (16.0 * viscosity);
 }
+/// With inertia, in a stage of length T: 1/(1/τ + ρ/T) (badia2009), ρ/T being given. It weighs the
+/// residual of the whole momentum.
+[[nodiscard]] inline double pspg_parameter(double volume, double viscosity, double mass_rate) {
+  return 1.0 / (1.0 / pspg_parameter(volume, viscosity) + mass_rate);
+}
 
 /// P1 velocity on straight tetrahedra: gradients are constant, and one point makes every form
 /// exact.

@@ -201,9 +201,18 @@ StokesReport FiniteElementFlow::settle(const FlowDomain& domain, double t, Stoke
                       .v = {state.v.begin(), state.v.end()},
                       .expected_v = {state.v.begin(), state.v.end()},
                       .slowing = {}};
-  const InstantProblem problem =
-      instant_problem(with_stage(domain, stage), space_, positions, options_.capillary, t);
+  const auto stage_problem = [&] {
+    return instant_problem(with_stage(domain, stage), space_, positions, options_.capillary, t);
+  };
   preconditioner_.at.reset();
+  if (options_.elements == Elements::p1_p1) {
+    // Their stabilisation remembers the divergence of what a stage begins with.
+    StokesReport report =
+        stokes_->project(stage_problem().stokes, state.v, linear::Preconditioner::fresh, times_);
+    if (!report.ok()) return report;
+    stage.v = {state.v.begin(), state.v.end()};
+  }
+  const InstantProblem problem = stage_problem();
   StokesReport report =
       stokes_->solve(problem.stokes, state, linear::Preconditioner::fresh, times_);
   if (report.ok() && !problem.stokes.has_open_boundary)
@@ -260,8 +269,6 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
   const RemainderTimer timer(times_, "assemble");
   const TetMesh& mesh = *domain.mesh;
   if (!has_connectivity_of(domain)) use_connectivity(domain);
-  if (has_inertia(domain.scene) && options_.elements != Elements::p2_p1)
-    reject_input("liquids with inertia need P2-P1 elements");
   if (domain.stage == nullptr && has_inertia(domain.scene)) {
     if (domain.known == nullptr) return first_flow(domain, instant.t);
     const InstantProblem problem = instant_problem(

@@ -181,7 +181,7 @@ StokesReport StokesSolver::solve_generalised_with_inertia(const StokesProblem& p
       if (report.picard_steps == 0) report.reference = reference_residual(problem, product());
       if (!std::isfinite(report.reference))
         return fail("the data of the flow problem are not finite");
-      product_->convect(numbers(state.v));
+      if (product_) product_->convect(numbers(state.v));
       now = residual(problem, state, product());
       report.residual = free_norm(now, problem);
       report.residuals.push_back(report.residual);
@@ -194,7 +194,8 @@ StokesReport StokesSolver::solve_generalised_with_inertia(const StokesProblem& p
             fmt::format("the viscosity's iteration does not converge; residuals of the {} "
                         "steps:{}",
                         report.picard_steps, text_of(report.residuals, report.reference)));
-      system = assembled_system(held, options_.linear, preconditioner, nullptr);
+      const Linearization about{state, Kind::picard};
+      system = assembled_system(held, options_.linear, preconditioner, &about);
     }
     const PhaseTimer timer(times, "solve");
     std::ranges::fill(step, 0.0);

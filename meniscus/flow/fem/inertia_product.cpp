@@ -162,41 +162,6 @@ std::vector<Density> densities(const InertiaTerms& terms, std::span<const CellId
   return result;
 }
 
-/// Adds what the faces' stiffness makes of a velocity.
-void add_stiffness(std::span<const FaceStiffness> faces, std::span<const double> v,
-                   std::span<double> momentum) {
-  for (const FaceStiffness& face : faces) {
-    Eigen::Matrix<double, 6, 3> at_nodes;
-    for (std::size_t i = 0; i < 6; ++i)
-      for (std::size_t k = 0; k < 3; ++k)
-        at_nodes(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
-            v[3 * static_cast<std::size_t>(face.nodes[i].value) + k];
-    const Eigen::Matrix<double, 6, 3> force = face.values * at_nodes;
-    for (std::size_t i = 0; i < 6; ++i)
-      for (std::size_t k = 0; k < 3; ++k)
-        momentum[3 * static_cast<std::size_t>(face.nodes[i].value) + k] +=
-            force(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
-  }
-}
-
-/// The same of what their elasticity makes.
-void add_stiffness(std::span<const FaceElasticity> faces, std::span<const double> v,
-                   std::span<double> momentum) {
-  for (const FaceElasticity& face : faces) {
-    Eigen::Vector<double, 18> at_nodes;
-    const auto first = [&](std::size_t i) {
-      return 3 * static_cast<std::size_t>(face.nodes[i].value);
-    };
-    for (std::size_t i = 0; i < 6; ++i)
-      at_nodes.segment<3>(3 * static_cast<Eigen::Index>(i)) =
-          Eigen::Map<const Vec3>(v.data() + first(i));
-    const Eigen::Vector<double, 18> force = face.values * at_nodes;
-    for (std::size_t i = 0; i < 6; ++i)
-      Eigen::Map<Vec3>(momentum.data() + first(i)) +=
-          force.segment<3>(3 * static_cast<Eigen::Index>(i));
-  }
-}
-
 }  // namespace
 
 struct InertiaProduct::Matrices {
@@ -255,8 +220,7 @@ void InertiaProduct::add(std::span<const double> v, std::span<double> momentum) 
 }
 
 void InertiaProduct::add_tension(std::span<const double> v, std::span<double> momentum) const {
-  add_stiffness(terms_.tension, v, momentum);
-  add_stiffness(terms_.elasticity, v, momentum);
+  terms_.add_tension(v, momentum);
 }
 
 void InertiaProduct::add_mass(std::span<const double> v, std::span<double> momentum) const {
@@ -283,8 +247,7 @@ void InertiaProduct::add_mass_diagonal(std::span<double> by_node) const {
 
 void InertiaProduct::add_diagonal(std::span<double> by_node) const {
   add_mass_diagonal(by_node);
-  const auto add = [&](const std::array<NodeId, 6>& nodes,
-                       const Eigen::Matrix<double, 6, 6>& values) {
+  const auto add = [&](const FaceNodes& nodes, const Eigen::Matrix<double, 6, 6>& values) {
     for (std::size_t i = 0; i < 6; ++i)
       by_node[static_cast<std::size_t>(nodes[i].value)] +=
           values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i));

@@ -6,6 +6,7 @@
 #include "meniscus/flow/fem/boundary_conditions.hpp"
 #include "meniscus/flow/fem/capillary_force.hpp"
 #include "meniscus/flow/fem/face_elements.hpp"
+#include "meniscus/flow/fem/linear_inertia.hpp"
 #include "meniscus/flow/fem/scalar_coupling.hpp"
 #include "meniscus/scene/interface_tension.hpp"
 
@@ -28,7 +29,7 @@ SurfaceNodes surface_nodes(const Scene& scene, const TetMesh& mesh, const FlowSp
 }
 
 /// Velocities at the nodes of an interface's faces of what is given at its vertices, at the middles
-/// of edges half way between.
+/// of edges, where they are nodes, half way between.
 void add_at_faces(const SurfaceMesh& surface, const FaceNodeTable& faces,
                   const VertexField<Vec3>& at_vertices, Field<NodeId, Vec3>& to) {
   for (const FaceId f : surface.faces.ids())
@@ -36,7 +37,7 @@ void add_at_faces(const SurfaceMesh& surface, const FaceNodeTable& faces,
       const Vec3 &here = at_vertices[surface.faces[f][k]],
                  &next = at_vertices[surface.faces[f][(k + 1) % 3]];
       to[faces.of(f)[k]] = here;
-      to[faces.of(f)[3 + k]] = 0.5 * (here + next);
+      if (faces.nodes_per_face == 6) to[faces.of(f)[3 + k]] = 0.5 * (here + next);
     }
 }
 
@@ -124,6 +125,8 @@ InstantProblem instant_problem(const FlowDomain& domain, const FlowSpace& space,
     for (const CellId c : mesh.cells.ids()) problem.stokes.viscosity[c] *= factors[c];
     add_buoyancy(scene, *domain.scalars, problem.stokes, problem.traction);
   }
+  if (problem.stokes.inertia && space.elements == Elements::p1_p1)
+    remember_divergence(problem.stokes);
   problem.stokes.force = problem.traction;
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
     if (scene.interfaces[i].tension != 0.0)

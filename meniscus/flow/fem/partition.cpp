@@ -196,10 +196,14 @@ std::unique_ptr<const Partition> make_partition(const FlowSpace& space,
 
 namespace {
 
-/// Faces with a node that is not local give nothing to owned rows.
+/// Faces with a node that is not local, or with none that is owned, give nothing to owned rows.
 InertiaTerms local_part(const InertiaTerms& global, const Partition& partition) {
   InertiaTerms local{.duration = global.duration};
-  for (const CellId c : partition.global_cell) local.density.add(global.density[c]);
+  for (const CellId c : partition.global_cell) {
+    local.density.add(global.density[c]);
+    if (!global.remembered_divergence.empty())
+      local.remembered_divergence.add(global.remembered_divergence[c]);
+  }
   Field<NodeId, std::int32_t> number(global.before.size(), -1);
   for (std::size_t i = 0; i < partition.global_node.size(); ++i) {
     const NodeId from = partition.global_node[i];
@@ -210,7 +214,11 @@ InertiaTerms local_part(const InertiaTerms& global, const Partition& partition) 
   }
   const auto take = [&](auto face, auto& to) {
     for (NodeId& node : face.nodes) node = NodeId{number[node]};
-    if (std::ranges::none_of(face.nodes, [](NodeId node) { return node.value < 0; }))
+    const auto is_owned = [&](NodeId node) {
+      return node.value >= 0 && node.value < partition.owned.num_nodes;
+    };
+    if (std::ranges::none_of(face.nodes, [](NodeId node) { return node.value < 0; }) &&
+        std::ranges::any_of(face.nodes, is_owned))
       to.push_back(std::move(face));
   };
   for (const FaceStiffness& face : global.tension) take(face, local.tension);

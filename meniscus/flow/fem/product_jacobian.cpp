@@ -147,8 +147,7 @@ void ProductJacobian::add_tension(const InertiaTerms& terms) {
   Eigen::Matrix<double, 6, 3> from_linear = Eigen::Matrix<double, 6, 3>::Zero();
   for (int k = 0; k < 3; ++k)
     from_linear(k, k) = 1.0, from_linear(3 + k, k) = from_linear(3 + k, (k + 1) % 3) = 0.5;
-  const auto add = [&](const std::array<NodeId, 6>& nodes,
-                       const Eigen::Matrix<double, 6, 6>& stiffness) {
+  const auto add = [&](const FaceNodes& nodes, const Eigen::Matrix<double, 6, 6>& stiffness) {
     const Mat3 values = from_linear.transpose() * stiffness * from_linear;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t row = vertex_of_[at(nodes[k].value)];

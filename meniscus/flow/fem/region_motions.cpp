@@ -41,23 +41,44 @@ CellMotion curved_motion(const Field<NodeId, Vec3>& x, std::span<const std::int3
   return motion;
 }
 
+CellMotion linear_motion(double volume, const std::array<Vec3, 4>& v) {
+  CellMotion motion{.volume = volume};
+  Vec3 sum = Vec3::Zero();
+  double squared = 0.0;
+  for (const Vec3& each : v) {
+    sum += each;
+    squared += each.squaredNorm();
+    motion.gross += 0.25 * volume * each.norm();
+  }
+  motion.flux = 0.25 * volume * sum;
+  motion.energy = volume / 40.0 * (sum.squaredNorm() + squared);  // ∫φ_iφ_j = V(1 + δ_ij)/20
+  return motion;
+}
+
+CellMotion cell_motion(const TetMesh& mesh, const FlowSpace& space, const NodePositions& positions,
+                       std::span<const Vec3> v, CellId c) {
+  const auto nodes = space.velocity.of(c);
+  const auto at_nodes = [&]<std::size_t count>(std::array<Vec3, count> values) {
+    for (std::size_t i = 0; i < count; ++i) values[i] = v[static_cast<std::size_t>(nodes[i])];
+    return values;
+  };
+  if (space.elements == Elements::p1_p1)
+    return linear_motion(signed_volume(mesh, c), at_nodes(std::array<Vec3, 4>()));
+  const auto quadratic = at_nodes(std::array<Vec3, 10>());
+  return positions.is_curved[c] != 0 ? curved_motion(positions.x, nodes, quadratic)
+                                     : straight_motion(signed_volume(mesh, c), quadratic);
+}
+
 }  // namespace
 
 std::vector<RegionMotion> region_motions(const Scene& scene, const TetMesh& mesh,
                                          const FlowSpace& space, const NodePositions& positions,
                                          std::span<const Vec3> v, double* gross) {
-  MENISCUS_ASSERT(space.elements == Elements::p2_p1, "linear elements");
   std::vector<RegionMotion> motions(static_cast<std::size_t>(scene.liquids.size()));
   std::vector<double> volume(motions.size(), 0.0);
   if (gross != nullptr) *gross = 0.0;
   for (const CellId c : mesh.cells.ids()) {
-    const auto nodes = space.velocity.of(c);
-    std::array<Vec3, 10> at_nodes;
-    for (std::size_t i = 0; i < at_nodes.size(); ++i)
-      at_nodes[i] = v[static_cast<std::size_t>(nodes[i])];
-    const CellMotion cell = positions.is_curved[c] != 0
-                                ? curved_motion(positions.x, nodes, at_nodes)
-                                : straight_motion(signed_volume(mesh, c), at_nodes);
+    const CellMotion cell = cell_motion(mesh, space, positions, v, c);
     const double density = scene.liquids[mesh.region[c]].density;
     const auto region = static_cast<std::size_t>(mesh.region[c].value);
     RegionMotion& motion = motions[region];

@@ -1,9 +1,11 @@
 #include "meniscus/flow/fem/stokes_jacobian.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <type_traits>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/flow/fem/linear_inertia.hpp"
 #include "meniscus/flow/fem/straight_quadratic_matrices.hpp"
 
 namespace meniscus::fem {
@@ -43,6 +45,12 @@ StokesJacobian::StokesJacobian(const FlowSpace& space, const Partition* partitio
     sparsity_.forget_positions();
   }
   sparsity_.number_columns(partition);
+  if (partition != nullptr) {
+    node_number_ = partition->node_number;
+  } else {
+    node_number_.resize(at(space.velocity.num_nodes));
+    std::iota(node_number_.begin(), node_number_.end(), 0);
+  }
 }
 
 void StokesJacobian::clear_values(bool has_lower_left) {
@@ -60,13 +68,21 @@ void StokesJacobian::assemble(const StokesProblem& problem, const Linearization*
                   space_.velocity.num_nodes);
   laplacians_.choose(problem.constraints, sparsity_.velocity().num_entries());
   constant_pressure_is_null_ = !problem.has_open_boundary;
-  clear_values(about != nullptr && about->kind == Linearization::Kind::newton &&
-               space_.elements == Elements::p1_p1);
+  MENISCUS_ASSERT(!problem.inertia || space_.elements == Elements::p1_p1,
+                  "quadratic elements with inertia have products");
+  const bool is_newton = about != nullptr && about->kind == Linearization::Kind::newton;
+  clear_values((is_newton || problem.inertia) && space_.elements == Elements::p1_p1);
   const std::vector<CellId> others = assemble_plain_cells(problem, about);
   if (!others.empty()) sparsity_.recall_positions(space_);
   CellAssembly assembly(space_, sparsity_, problem.constraints, values_, laplacians_.all());
-  with_element(space_, problem.positions,
-               [&](auto& element) { add_cells(problem, about, others, element, assembly); });
+  lumped_masses_.clear();
+  if (problem.inertia) {
+    assemble_inertial_cells(problem, about, assembly);
+    add_tension(*problem.inertia, problem.constraints);
+  } else {
+    with_element(space_, problem.positions,
+                 [&](auto& element) { add_cells(problem, about, others, element, assembly); });
+  }
   region_weights_.update(std::span(values_.pressure_mass).first(at(owned_.num_pressures)));
 }
 
@@ -94,6 +110,45 @@ std::vector<CellId> StokesJacobian::assemble_plain_cells(const StokesProblem& pr
   return others;
 }
 
+void StokesJacobian::assemble_inertial_cells(const StokesProblem& problem,
+                                             const Linearization* about, CellAssembly& assembly) {
+  LinearElement element(space_, problem.positions);
+  lumped_masses_.assign(3 * at(space_.velocity.num_nodes), 0.0);
+  for (const CellId c : problem.mesh.cells.ids()) {
+    const InertialMatrices matrices(problem, element.points(c).front(), c,
+                                    about != nullptr ? &about->state.v : nullptr);
+    assembly.add(matrices, c);
+    for (const std::int32_t node : space_.velocity.of(c))
+      for (std::size_t k = 0; k < 3; ++k)
+        lumped_masses_[3 * at(node) + k] += matrices.lumped_mass();
+  }
+}
+
+/// Adds to A and the Laplacians what the tension of the stage does to linear faces.
+void StokesJacobian::add_tension(const InertiaTerms& terms, const Constraints& constraints) {
+  const NodeGraph& graph = sparsity_.velocity();
+  const auto add = [&](const auto& face) {
+    for (std::size_t i = 0; i < face.nodes.size(); ++i)
+      for (std::size_t j = 0; j < face.nodes.size(); ++j) {
+        const NodeId row = face.nodes[i], column = face.nodes[j];
+        const auto first = graph.columns.begin() + graph.row_start[at(row.value)],
+                   last = graph.columns.begin() + graph.row_start[at(row.value) + 1],
+                   found = std::find(first, last, node_number_[at(column.value)]);
+        MENISCUS_ASSERT(found != last, "nodes {} and {}", row.value, column.value);
+        Mat3 block = face.block(i, j);
+        const double mean = block.trace() / 3.0;
+        eliminate(block, constraints.find(row), constraints.find(column), row == column);
+        BlockRows(values_.A, graph, row.value).add(static_cast<std::size_t>(found - first), block);
+        for (ScalarLaplacian& laplacian : laplacians_.all())
+          if (row == column ||
+              (!laplacian.is_fixed[at(row.value)] && !laplacian.is_fixed[at(column.value)]))
+            laplacian.values[static_cast<std::size_t>(found - graph.columns.begin())] += mean;
+      }
+  };
+  std::ranges::for_each(terms.tension, add);
+  std::ranges::for_each(terms.elasticity, add);
+}
+
 linear::SaddleSystem StokesJacobian::system() const {
   const std::int32_t num_velocities = 3 * owned_.num_nodes, num_pressures = owned_.num_pressures;
   const ScalarPattern &A = sparsity_.A(), &B = sparsity_.B();
@@ -109,6 +164,10 @@ linear::SaddleSystem StokesJacobian::system() const {
   }
   laplacians_.put_into(system, sparsity_.velocity(), owned_.num_nodes);
   region_weights_.put_into(system);
+  if (!lumped_masses_.empty()) {
+    system.divergence = system.B;
+    system.mass_diagonal = std::span(lumped_masses_).first(at(num_velocities));
+  }
   system.pressure_mass = std::span(values_.pressure_mass).first(at(num_pressures));
   system.constant_pressure_is_null = constant_pressure_is_null_;
   return system;

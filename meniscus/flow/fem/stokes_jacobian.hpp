@@ -21,7 +21,8 @@ class StokesJacobian {
 
   /// Fills the matrices for the geometry, viscosities and constraints of the problem. Linear cost.
   /// Where a liquid is generalised-Newtonian it is linearised about a state, or where none is given
-  /// taken for a Newtonian one.
+  /// taken for a Newtonian one. With inertia, of linear elements alone, the state's velocity
+  /// convects; where none is given nothing does.
   void assemble(const StokesProblem& problem, const Linearization* about = nullptr);
   /// Sets the weights of constant pressures in preconditioners, by region (region_pressures.hpp),
   /// for all later assemblies.
@@ -35,14 +36,19 @@ class StokesJacobian {
   void clear_values(bool has_lower_left);
   std::vector<CellId> assemble_plain_cells(const StokesProblem& problem,
                                            const Linearization* about);
+  void assemble_inertial_cells(const StokesProblem& problem, const Linearization* about,
+                               CellAssembly& assembly);
+  void add_tension(const InertiaTerms& terms, const Constraints& constraints);
 
   const FlowSpace& space_;
   OwnedCounts owned_;
   StokesSparsity sparsity_;
-  std::optional<EdgeSums> edge_sums_;  ///< of P1-P1 alone
+  std::optional<EdgeSums> edge_sums_;      ///< of P1-P1 alone
+  std::vector<std::int32_t> node_number_;  ///< of the columns, by node
   ScalarLaplacians laplacians_;
   RegionWeights region_weights_;
   StokesValues values_;
+  std::vector<double> lumped_masses_;  ///< ∫ρφ_i/T of the velocities, with inertia
   bool constant_pressure_is_null_ = false;
 };
 

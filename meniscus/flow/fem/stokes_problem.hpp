@@ -18,7 +18,8 @@ struct Partition;
 ///   ∫(−p∇·φ + 2μ D(v):D(φ)) − ∫f·φ − F(φ) = 0   for every φ that vanishes where v is fixed,
 ///   −∫ψ∇·v − Σ_K τ∫∇ψ·(∇p − f) = 0                 for every ψ
 /// (eqs 10, 11 of hooper2001 with 2μ D:D and a consistent stabilisation; τ = 0 for P2). Where μ
-/// depends on the rate of shear so does τ.
+/// depends on the rate of shear so does τ. With inertia ρDv/Dt comes to −f in both, and
+/// −θ∫ψ∇·v̄, θ = τρ/T, to the second (`InertiaTerms`).
 struct StokesProblem {
   StokesProblem(const TetMesh& on, const FlowSpace& in, NodePositions at)
       : mesh(on),

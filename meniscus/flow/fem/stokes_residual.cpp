@@ -3,25 +3,44 @@
 #include <cmath>
 
 #include "meniscus/core/error.hpp"
-#include "meniscus/flow/fem/cell_state.hpp"
-#include "meniscus/flow/fem/elements.hpp"
 #include "meniscus/flow/fem/inertia_product.hpp"
+#include "meniscus/flow/fem/linear_inertia.hpp"
 #include "meniscus/flow/fem/partition.hpp"
 #include "meniscus/linear/collective.hpp"
 
 namespace meniscus::fem {
 namespace {
 
-/// τ(∇p − f) where there is a stabilisation, which is on cells with one point.
-template <class Element>
-Vec3 stabilisation(const StokesProblem& problem, const CellState<Element>& cell,
-                   const typename Element::Point& point, CellId c) {
-  if constexpr (Element::is_stabilized)
-    return pspg_parameter(point.weight, viscosity_at(problem, c, cell.velocity_gradient(point))) *
-           (point.gradient * cell.p - problem.body_force[c]);
-  else
-    return Vec3::Zero();
-}
+/// What the one point of a linear cell adds to the terms of all elements: inertia, by the state's
+/// own velocity, and stabilisation.
+class LinearTerms {
+ public:
+  LinearTerms(const StokesProblem& problem, const StokesState& state,
+              const CellState<LinearElement>& cell, const LinearElement::Point& point, CellId c)
+      : tau_(stabilisation_parameter(problem, c, point.weight,
+                                     viscosity_at(problem, c, cell.velocity_gradient(point)))),
+        excess_(point.gradient * cell.p - problem.body_force[c]) {
+    if (!problem.inertia) return;
+    const LinearInertia inertia(problem, point, c, &state.v);
+    inertia_ = inertia.momentum_of(cell.v);
+    excess_ += inertia.mean_of(cell.v);
+    if (!problem.inertia->remembered_divergence.empty())
+      remembered_divergence_ = problem.inertia->remembered_divergence[c];
+  }
+  /// τ(ρDv/Dt + ∇p − f).
+  [[nodiscard]] Vec3 slip() const { return tau_ * excess_; }
+  /// ∫ρDv/Dt φ_i by columns.
+  [[nodiscard]] const Eigen::Matrix<double, 3, 4>& inertia() const { return inertia_; }
+
+  /// θ∫∇·v̄.
+  [[nodiscard]] double remembered_divergence() const { return remembered_divergence_; }
+
+ private:
+  double tau_;
+  Vec3 excess_;
+  Eigen::Matrix<double, 3, 4> inertia_ = Eigen::Matrix<double, 3, 4>::Zero();
+  double remembered_divergence_ = 0.0;
+};
 
 template <class Element>
 void add_residual(const StokesProblem& problem, const StokesState& state, Element& element,
@@ -39,12 +58,18 @@ void add_residual(const StokesProblem& problem, const StokesState& state, Elemen
         result.momentum[NodeId{nodes[i]}] +=
             point.weight * (stress * point.gradient.col(static_cast<Eigen::Index>(i)) -
                             point.value[i] * problem.body_force[c]);
-      const Vec3 slip = stabilisation(problem, cell, point, c);
-      for (std::size_t k = 0; k < 4; ++k) {
-        double& continuity = result.continuity[static_cast<std::size_t>(pressures[k])];
-        continuity -= point.weight * point.pressure[k] * gradient.trace();
-        if constexpr (Element::is_stabilized)
-          continuity -= point.weight * slip.dot(point.gradient.col(static_cast<Eigen::Index>(k)));
+      for (std::size_t k = 0; k < 4; ++k)
+        result.continuity[static_cast<std::size_t>(pressures[k])] -=
+            point.weight * point.pressure[k] * gradient.trace();
+      if constexpr (Element::is_stabilized) {
+        const LinearTerms linear(problem, state, cell, point, c);
+        for (std::size_t k = 0; k < 4; ++k) {
+          const auto column = static_cast<Eigen::Index>(k);
+          result.momentum[NodeId{nodes[k]}] += linear.inertia().col(column);
+          result.continuity[static_cast<std::size_t>(pressures[k])] +=
+              0.25 * linear.remembered_divergence() -
+              point.weight * linear.slip().dot(point.gradient.col(column));
+        }
       }
     }
   }
@@ -62,6 +87,15 @@ void subtract_body_force(const StokesProblem& problem, Element& element, StokesR
   }
 }
 
+/// Adds what tension does on the way that the interfaces go beyond the expected one.
+void add_tension(const InertiaTerms& terms, const Field<NodeId, Vec3>& v,
+                 Field<NodeId, Vec3>& momentum) {
+  if (terms.tension.empty() && terms.elasticity.empty()) return;
+  Field<NodeId, Vec3> beyond = v;
+  for (const NodeId i : beyond.ids()) beyond[i] -= terms.interface_went[i];
+  terms.add_tension(numbers(beyond), numbers(momentum));
+}
+
 StokesResidual residual_of_nothing(const StokesProblem& problem) {
   return {Field<NodeId, Vec3>(problem.force.size(), Vec3::Zero()),
           std::vector<double>(problem.space.pressure.vertex.size(), 0.0)};
@@ -77,9 +111,11 @@ void add_cell_power(const StokesProblem& problem, const StokesState& state, Elem
       const Mat3 rate = 0.5 * (gradient + gradient.transpose());
       power.dissipation +=
           point.weight * 2.0 * viscosity_at(problem, c, gradient) * rate.squaredNorm();
-      if constexpr (Element::is_stabilized)
-        power.dissipation +=
-            point.weight * (point.gradient * cell.p).dot(stabilisation(problem, cell, point, c));
+      if constexpr (Element::is_stabilized) {
+        const LinearTerms linear(problem, state, cell, point, c);
+        power.dissipation += point.weight * (point.gradient * cell.p).dot(linear.slip());
+        power.kinetic_rate += linear.inertia().cwiseProduct(cell.v).sum();
+      }
       power.body_force += point.weight * problem.body_force[c].dot(cell.velocity(point));
     }
   }
@@ -104,7 +140,9 @@ void add_power(const StokesProblem& problem, const StokesState& state, const Sto
 
 StokesResidual residual(const StokesProblem& problem, const StokesState& state,
                         const StokesProduct* product) {
-  MENISCUS_ASSERT(product != nullptr || !problem.inertia, "inertia without a product");
+  MENISCUS_ASSERT(
+      product != nullptr || !problem.inertia || problem.space.elements == Elements::p1_p1,
+      "inertia without a product");
   StokesResidual result = residual_of_nothing(problem);
   const bool is_by_cells = product == nullptr || problem.is_generalised();
   with_element(problem.space, problem.positions, [&](auto& element) {
@@ -115,9 +153,12 @@ StokesResidual residual(const StokesProblem& problem, const StokesState& state,
   });
   if (!is_by_cells)
     product->add(numbers(state.v), state.p, numbers(result.momentum), result.continuity);
-  else if (problem.inertia)
+  else if (problem.inertia && product != nullptr)
     product->inertia()->add(numbers(state.v), numbers(result.momentum));
-  if (problem.inertia) product->inertia()->subtract_given(numbers(result.momentum));
+  if (problem.inertia && product != nullptr)
+    product->inertia()->subtract_given(numbers(result.momentum));
+  else if (problem.inertia)
+    add_tension(*problem.inertia, state.v, result.momentum);
   for (const NodeId i : problem.force.ids()) result.momentum[i] -= problem.force[i];
   return result;
 }

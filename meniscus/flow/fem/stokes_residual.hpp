@@ -12,9 +12,10 @@ struct StokesResidual {
   Field<NodeId, Vec3> momentum;    ///< [μ_out G R0²]
   std::vector<double> continuity;  ///< [G R0³]
 };
-/// By `product`, the problem's own, where it is given; with inertia it must be, and counts the
-/// convection by the velocity that it was told, if any. Where viscosities depend on the rate of
-/// shear it gives what inertia adds, and nothing else.
+/// By `product`, the problem's own, where it is given; with inertia of quadratic elements it must
+/// be, and counts the convection by the velocity that it was told, if any. Where viscosities depend
+/// on the rate of shear it gives what inertia adds, and nothing else. On linear elements the
+/// state's velocity convects.
 [[nodiscard]] StokesResidual residual(const StokesProblem& problem, const StokesState& state,
                                       const StokesProduct* product = nullptr);
 /// Euclidean norm of what a solution must make zero: the residual without its fixed components. The
@@ -27,7 +28,7 @@ struct StokesPower {
   double reaction = 0.0;      ///< of the fixed velocity components
   double body_force = 0.0;    ///< ∫f·v
   double force = 0.0;         ///< Σ F_i·v_i of the forces by node
-  double dissipation = 0.0;   ///< ∫2μ D:D + Σ τ∫∇p·(∇p − f)
+  double dissipation = 0.0;   ///< ∫2μ D:D + Σ τ∫∇p·(ρDv/Dt + ∇p − f)
   double kinetic_rate = 0.0;  ///< ∫ρ v·Dv/Dt
 };
 /// The global energy balance; collective on the ranks of a partitioned problem. By `product`, the

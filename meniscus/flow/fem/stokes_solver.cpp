@@ -51,6 +51,20 @@ linear::SaddleSolver make_linear_solver(LinearSolver which, const Options& optio
            .petsc_options = options.petsc_options}};
 }
 
+/// −∫ψ∇·v of a velocity, and nothing of its momentum.
+StokesResidual divergence(const StokesProblem& problem, const StokesState& state,
+                          const StokesProduct* product) {
+  StokesResidual result = [&] {
+    if (product != nullptr) return residual(problem, state, product);
+    // What stabilises linear elements knows of forces and inertia.
+    StokesProblem alone(problem.mesh, problem.space, problem.positions);
+    alone.partition = problem.partition;
+    return residual(alone, {state.v, std::vector<double>(state.p.size())});
+  }();
+  std::ranges::fill(result.momentum, Vec3::Zero());
+  return result;
+}
+
 }  // namespace
 
 void check_linear_options(const Options& options) {
@@ -196,8 +210,7 @@ StokesReport StokesSolver::project_local(const StokesProblem& problem, StokesSta
     const PhaseTimer timer(times, "assemble");
     use_product(problem);
     report.reference = reference_residual(problem, product());
-    now = residual(problem, state, product());
-    std::ranges::fill(now.momentum, Vec3::Zero());
+    now = divergence(problem, state, product());
     report.residual = free_norm(now, problem);
     if (report.residual <= options_.rtol * report.reference) return report;
     system = assembled_system(problem, options_.linear, preconditioner, nullptr);
@@ -229,6 +242,7 @@ StokesReport StokesSolver::solve_with(LinearSolver which, const StokesProblem& p
                            static_cast<std::size_t>(owned.num_pressures));
   std::optional<linear::SaddleSystem> system;
   const int most_steps = problem.inertia ? most_convection_steps : most_newton_steps;
+  const Linearization about{state, Linearization::Kind::picard};
   for (; report.newton_steps <= most_steps; ++report.newton_steps) {
     if (product_) product_->convect(numbers(state.v));
     const StokesResidual now = residual(problem, state, product());
@@ -239,7 +253,7 @@ StokesReport StokesSolver::solve_with(LinearSolver which, const StokesProblem& p
     if (report.newton_steps == most_steps) break;
     if (!system) {
       const PhaseTimer timer(times, "assemble");
-      system = assembled_system(problem, which, preconditioner, nullptr);
+      system = assembled_system(problem, which, preconditioner, problem.inertia ? &about : nullptr);
     }
     const PhaseTimer timer(times, "solve");
     std::ranges::fill(step, 0.0);

@@ -63,7 +63,7 @@ TangentMatrices<Element>::TangentMatrices(const StokesProblem& problem,
     const Mat3 D = rate_of_strain(cell.velocity_gradient(point));
     const RelativeViscosity at =
         relative_viscosity(*problem.law(c), std::numbers::sqrt2 * D.norm());
-    this->add(point, problem.viscosity[c] * at.value);
+    this->add(problem, point, c, problem.viscosity[c] * at.value);
     if (about.kind == Linearization::Kind::newton && at.slope != 0.0)
       add_derivative(problem, cell, point, c, D, at);
   }
@@ -82,7 +82,7 @@ void TangentMatrices<Element>::add_derivative(const StokesProblem& problem,
   const Eigen::Map<const Eigen::Matrix<double, kRows, 1>> rates(columns.data());
   rank_one.noalias() += (point.weight * 2.0 * viscosity * at.slope * rates) * rates.transpose();
   if constexpr (Element::is_stabilized) {
-    const double tau = pspg_parameter(point.weight, viscosity);
+    const double tau = stabilisation_parameter(problem, c, point.weight, viscosity);
     const Vec3 excess = point.gradient * cell.p - problem.body_force[c];
     lower_left.noalias() += (point.weight * tau * at.slope / size) *
                             (point.gradient.transpose() * excess) * rates.transpose();

@@ -32,10 +32,10 @@ std::vector<Vec3> at(const std::vector<Vec3>& x, const Mat3& gradient, const Vec
 }
 
 /// How far a stage takes v = D·x + wind from itself, after the nodes went random ways.
-double error_of_stage(const Mat3& gradient, const Vec3& wind, double rtol) {
+double error_of_stage(Elements elements, const Mat3& gradient, const Vec3& wind, double rtol) {
   const Scene scene = one_liquid(gradient, wind, 5.0);
   Options options;
-  options.elements = Elements::p2_p1;
+  options.elements = elements;
   options.rtol = rtol;
   MeshedFlow flow(options);
   flow.follow(scene);
@@ -61,16 +61,22 @@ double error_of_stage(const Mat3& gradient, const Vec3& wind, double rtol) {
 
 // Geometric conservation: a uniform flow stays whatever the mesh does.
 TEST(Inertia, KeepsAUniformFlowUnderAnyMotionOfTheMesh) {
-  EXPECT_LT(error_of_stage(Mat3::Zero(), Vec3(0.3, -0.2, 0.5), 1e-9), 1e-10);
+  for (const Elements elements : {Elements::p1_p1, Elements::p2_p1})
+    EXPECT_LT(error_of_stage(elements, Mat3::Zero(), Vec3(0.3, -0.2, 0.5), 1e-9), 1e-10);
 }
 
 // v = D·x with D² = 0 has no pressure.
 TEST(Inertia, KeepsASimpleShearUnderAnyMotionOfTheMesh) {
-  EXPECT_LT(error_of_stage(ImposedFlow::simple_shear(), Vec3::Zero(), 1e-12), 1e-10);
+  for (const Elements elements : {Elements::p1_p1, Elements::p2_p1})
+    EXPECT_LT(error_of_stage(elements, ImposedFlow::simple_shear(), Vec3::Zero(), 1e-12), 1e-10);
 }
 
 // The preconditioner holds from short stages, which mass rules, to long ones, which viscosity does.
-TEST(Inertia, NeedsFewIterationsForAnyStage) {
+class InertiaByElements : public testing::TestWithParam<Elements> {};
+INSTANTIATE_TEST_SUITE_P(P1AndP2, InertiaByElements,
+                         testing::Values(Elements::p1_p1, Elements::p2_p1));
+
+TEST_P(InertiaByElements, NeedsFewIterationsForAnyStage) {
   for (const double density : {1e-3, 1.0, 1e3})
     for (const double duration : {1e-3, 1.0, 1e3}) {
       Scene scene = sphere_in_sphere({.num_vertices = 110,
@@ -80,7 +86,7 @@ TEST(Inertia, NeedsFewIterationsForAnyStage) {
       scene.liquids[RegionId{0}].density = density;
       scene.liquids[RegionId{1}].density = 0.1 * density;
       Options options;
-      options.elements = Elements::p2_p1;
+      options.elements = GetParam();
       MeshedFlow flow(options);
       flow.follow(scene);
       const FlowSolution first = flow.solve(scene);

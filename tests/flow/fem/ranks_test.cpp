@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/flow/fem/instant_problem.hpp"
 #include "meniscus/flow/fem/partition.hpp"
 #include "meniscus/flow/fem/stokes_residual.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
@@ -134,6 +135,31 @@ TEST(Ranks, AgreeOnGeneralisedNewtonianLiquids) {
     EXPECT_GT(together.report.newton_steps, 1);
     EXPECT_LT(largest_velocity_difference(alone.state, together.state), 4e-6);
     EXPECT_NEAR(together.power.dissipation, alone.power.dissipation, 1e-6);
+  }
+}
+
+TEST(Ranks, AgreeOnLiquidsWithInertia) {
+  for (const Elements elements : {Elements::p1_p1, Elements::p2_p1}) {
+    ShearedDrop drop(elements);
+    drop.scene.liquids[RegionId{0}].density = 3.0;
+    drop.scene.liquids[RegionId{1}].density = 20.0;
+    const NodePositions positions = node_positions(drop.scene, drop.mesh, drop.space);
+    ImplicitStage stage = stage_at_rest(drop.scene, 0.2, positions.x);
+    for (std::size_t i = 0; i < stage.x.size(); ++i)
+      stage.v[i] = stage.expected_v[i] = Vec3(stage.x[i].y(), 0.1, 0.0);
+    const FlowDomain domain{drop.scene, &drop.mesh};
+    const StokesProblem problem =
+        instant_problem(with_stage(domain, stage), drop.space, positions, CapillaryForm::weak, 0.0)
+            .stokes;
+    EXPECT_FALSE(problem.inertia->tension.empty());
+    Options options;
+    options.rtol = 1e-10;
+    const Solution alone = solved(problem, options, linear::Processes::alone),
+                   together = solved(problem, options, linear::Processes::all);
+    ASSERT_TRUE(alone.report.ok() && together.report.ok()) << together.report.text();
+    EXPECT_LT(largest_velocity_difference(alone.state, together.state), 4e-6);
+    EXPECT_NEAR(together.power.dissipation, alone.power.dissipation, 1e-5);
+    EXPECT_NEAR(together.power.kinetic_rate, alone.power.kinetic_rate, 1e-4);
   }
 }
 
