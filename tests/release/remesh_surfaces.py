@@ -24,8 +24,8 @@ SECONDS = 900  # of processor time
 BYTES = 8 * 1024**3
 KINDS = (".off", ".ply", ".stl", ".obj", ".vtp")
 # The reason of a refusal, by words of its line; the first that is found counts.
-REASONS = [("given up on", "could not be"), ("holes", "not closed"), ("crossings", "meets itself"), ("not manifold", "not manifold"),
-           ("orientation", "oriented"), ("orientation", "inside out"), ("no area", "no area"),
+REASONS = [("given up on", "could not be"), ("holes", "not closed"), ("crossings", "meets itself"),
+           ("not manifold", "not manifold"), ("orientation", "oriented"), ("orientation", "inside out"), ("no area", "no area"),
            ("no faces", "holds no faces"), ("thin", "too thin")]
 
 
