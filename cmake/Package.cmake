@@ -56,7 +56,7 @@ if(MENISCUS_HAS_PYTHON)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
     "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${NEXT}), python3-numpy")
 endif()
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "openmpi-bin, libopenblas0, fonts-dejavu-core, nodejs, ffmpeg, python3-matplotlib")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "openmpi-bin, libopenblas0, fonts-dejavu-core, nodejs (>= 18), ffmpeg, python3-matplotlib")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "libmeniscus-dev, paraview")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Deforming liquid drops with a sharp, conforming interface
  Simulates drops in another flowing liquid, by finite elements on

@@ -76,6 +76,10 @@ add_test(NAME study COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/end
   $<TARGET_FILE:meniscus_program> ${CMAKE_CURRENT_BINARY_DIR}/study)
 set_tests_properties(study PROPERTIES TIMEOUT 300)
 
+add_test(NAME die COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/die.py
+  $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/die)
+set_tests_properties(die PROPERTIES TIMEOUT 300)
+
 add_test(NAME refusals COMMAND Python3::Interpreter
   ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/refusals.py
   $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/refusals)

@@ -85,7 +85,7 @@ void write_run_crate(const fs::path& folder) {
   const std::string title = run.value("title", ""), status = run.value("status", ""),
                     started = run.value("started", ""), finished = run.value("finished", "");
   Json graph = Json::array();
-  graph.push_back({{"@id", kRunCrate},
+  graph.push_back({{"@id", RunFiles::crate},
                    {"@type", "CreativeWork"},
                    {"conformsTo", reference_to("https://w3id.org/ro/crate/1.1")},
                    {"about", reference_to("./")}});
@@ -114,7 +114,7 @@ void write_run_crate(const fs::path& folder) {
                    {"version", run.value("version", "")},
                    {"identifier", run.value("commit", "")}});
   const Json crate{{"@context", "https://w3id.org/ro/crate/1.1/context"}, {"@graph", graph}};
-  io::write_file(folder / kRunCrate, crate.dump(2) + "\n");
+  io::write_file(folder / RunFiles::crate, crate.dump(2) + "\n");
 }
 
 }  // namespace meniscus

@@ -4,9 +4,6 @@
 
 namespace meniscus {
 
-/// The file that describes the others of a run's folder.
-inline constexpr const char* kRunCrate = "ro-crate-metadata.json";
-
 /// Writes ro-crate-metadata.json, which describes the files of a run's folder as RO-Crate 1.1 has
 /// it: every file of the run that is there with what it holds, the program, and the run as an
 /// action with its times. Title, times and version are those of run.json, which must be there.

@@ -145,7 +145,6 @@ void require_usable(const fs::path& path, bool overwrite) {
 
 void remove_run(const fs::path& path) {
   for (const char* name : RunFiles::written) fs::remove_all(path / name);
-  fs::remove(path / kRunCrate);
   for (const auto& [step, file] : io::checkpoints(path)) fs::remove(file);
 }
 

@@ -20,7 +20,8 @@ struct RunFiles {
   static constexpr const char *history = "history.csv", *drops = "drops.csv",
                               *events = "events.csv", *timing = "timing.csv",
                               *reference = "reference.csv";  ///< what the case is compared with
-  static constexpr const char *record = "run.json", *page = "report.html";
+  static constexpr const char *record = "run.json", *page = "report.html",
+                              *crate = "ro-crate-metadata.json";  ///< describes the others
   static constexpr const char *surface_frames = "surface.pvd", *volume_frames = "volume.pvd";
   static constexpr const char *surface_folder = "surface", *volume_folder = "volume";
 
@@ -30,9 +31,9 @@ struct RunFiles {
                                                        {"timing", timing},
                                                        {"reference", reference}}};
   /// What a run writes, checkpoints apart.
-  static constexpr std::array written{history,        drops,        events,         timing,
-                                      record,         page,         surface_frames, volume_frames,
-                                      surface_folder, volume_folder};
+  static constexpr std::array written{history,       drops,          events,       timing,
+                                      record,        page,           crate,        surface_frames,
+                                      volume_frames, surface_folder, volume_folder};
   /// What a run that goes on in another folder takes along.
   static constexpr std::array taken_along{
       history,        drops,         events,         timing,        record,

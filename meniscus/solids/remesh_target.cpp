@@ -1,5 +1,6 @@
 #include "meniscus/solids/remesh_target.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "meniscus/mesh/surface_pieces.hpp"
 #include "meniscus/solids/rough_pieces.hpp"
 #include "meniscus/solids/target_search.hpp"
+#include "meniscus/surface/isotropic_remesh.hpp"
 #include "meniscus/surface/sizing.hpp"
 
 namespace meniscus {
@@ -53,6 +55,19 @@ RemeshTarget scaled_target(RemeshTarget target, double radius) {
   return target;
 }
 
+/// Remeshes a smooth surface. One with slivers, but no creases, is taken for smooth where the
+/// target is met so; else, as with creases, its triangles are made even first.
+Found search(const std::vector<Piece>& pieces, const RemeshTarget& target) {
+  const auto any = [&](auto&& is_so) {
+    return std::ranges::any_of(
+        pieces, [&](const Piece& piece) { return is_so(piece.mesh, SurfaceTopology(piece.mesh)); });
+  };
+  if (any(has_creases)) return search_rough(pieces, target);
+  Found smooth = TargetSearch(pieces, target, 0.0, kMostFailures).run();
+  if (smooth.report.is_met || !any(is_rough)) return smooth;
+  return search_rough(pieces, target);
+}
+
 }  // namespace
 
 void RemeshTarget::validate() const {
@@ -78,24 +93,16 @@ TargetReport remesh_to(SurfaceMesh& mesh, const RemeshTarget& target) {
   scaling.apply(working);
   const RemeshTarget inner = scaled_target(target, scaling.radius);
 
-  std::vector<Piece> pieces = pieces_of(working);
+  const std::vector<Piece> pieces = pieces_of(working);
   if (inner.by == By::edge_length)
     require_affordable(inner, surface_area(working) * density_of_length(inner.value));
-  const std::vector<Piece> given = pieces;
-  const double rough_edge = remesh_rough_pieces(pieces, inner);
-  std::vector<bool> is_cavity;
-  is_cavity.reserve(pieces.size());
-  for (const Piece& piece : pieces) is_cavity.push_back(piece.is_cavity);
-
-  Found found = rough_edge > 0.0 ? search_rough(given, pieces, inner, rough_edge)
-                                 : TargetSearch(std::move(pieces), inner, 0.0, kMostFailures).run();
+  Found found = search(pieces, inner);
   TargetReport report = std::move(found.report);
   std::vector<SurfaceMesh> result = std::move(found.pieces);
   if (result.empty()) return report;
-  MENISCUS_ASSERT(result.size() == is_cavity.size(), "{} pieces of {}", result.size(),
-                  is_cavity.size());
+  MENISCUS_ASSERT(result.size() == pieces.size(), "{} pieces of {}", result.size(), pieces.size());
   for (std::size_t i = 0; i < result.size(); ++i)
-    if (is_cavity[i]) turn_inside_out(result[i]);
+    if (pieces[i].is_cavity) turn_inside_out(result[i]);
   working = joined_surface(result);
   if (result.size() > 1)
     if (auto fault = find_self_intersection(working)) {

@@ -43,6 +43,20 @@ double rough_edge_length(const RemeshTarget& target, double area) {
   return edge;
 }
 
+/// Gives rough pieces even triangles; returns their length.
+double remesh_rough_pieces(std::vector<Piece>& pieces, const RemeshTarget& target) {
+  double area = 0.0;
+  for (const Piece& piece : pieces) area += surface_area(piece.mesh);
+  double edge = 0.0;
+  for (Piece& piece : pieces) {
+    piece.is_rough = is_rough(piece.mesh, SurfaceTopology(piece.mesh));
+    if (!piece.is_rough) continue;
+    edge = rough_edge_length(target, area);
+    piece.mesh = isotropic_remesh(piece.mesh, edge);
+  }
+  return edge;
+}
+
 /// Pieces whose rough ones can be smoothed over lengths, each not less than the last.
 class RoughPieces {
  public:
@@ -149,7 +163,7 @@ Found search_cut(const std::vector<Piece>& pieces, const RemeshTarget& target, d
 
 void require_thickness(const SurfaceMesh& mesh, const RemeshTarget& target) {
   const SurfaceTopology topology(mesh);
-  if (!is_rough(mesh, topology)) return;
+  if (!has_creases(mesh, topology)) return;
   const double area = surface_area(mesh), edge = rough_edge_length(target, area);
   const Creases found = creases(mesh, topology, edge);
   const double most = std::min(kMostOnCreases * area * density_of_length(edge), kMostVertices);
@@ -163,21 +177,9 @@ void require_thickness(const SurfaceMesh& mesh, const RemeshTarget& target) {
       a.z(), b.x(), b.y(), b.z());
 }
 
-double remesh_rough_pieces(std::vector<Piece>& pieces, const RemeshTarget& target) {
-  double area = 0.0;
-  for (const Piece& piece : pieces) area += surface_area(piece.mesh);
-  double edge = 0.0;
-  for (Piece& piece : pieces) {
-    piece.is_rough = is_rough(piece.mesh, SurfaceTopology(piece.mesh));
-    if (!piece.is_rough) continue;
-    edge = rough_edge_length(target, area);
-    piece.mesh = isotropic_remesh(piece.mesh, edge);
-  }
-  return edge;
-}
-
-Found search_rough(const std::vector<Piece>& given, const std::vector<Piece>& even,
-                   const RemeshTarget& target, double rough_edge) {
+Found search_rough(const std::vector<Piece>& given, const RemeshTarget& target) {
+  std::vector<Piece> even = given;
+  const double rough_edge = remesh_rough_pieces(even, target);
   Found rounded = search_rounded(even, target, rough_edge);
   if (!rounded.pieces.empty()) return rounded;
   Found cut = search_cut(given, target, rough_edge);

@@ -31,10 +31,14 @@ bool is_crease(const SurfaceMesh& mesh, const SurfaceEdge& e) {
 
 }  // namespace
 
-bool is_rough(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
-  if (surface_quality(mesh, topology).low_angle_deg < kLowAngleDeg) return true;
+bool has_creases(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
   return std::ranges::any_of(topology.edges(),
                              [&](const SurfaceEdge& e) { return is_crease(mesh, e); });
+}
+
+bool is_rough(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
+  return has_creases(mesh, topology) ||
+         surface_quality(mesh, topology).low_angle_deg < kLowAngleDeg;
 }
 
 Creases creases(const SurfaceMesh& mesh, const SurfaceTopology& topology, double edge) {

@@ -7,8 +7,11 @@ namespace meniscus {
 /// An icosahedron, the coarsest sphere there is to be smoothed, turns its normals by 42°.
 inline constexpr double kCreaseDeg = 50.0;
 
-/// Whether a closed surface is too rough for a smooth surface to be fitted to: normals turned by
-/// more than 50° along an edge, or a twentieth of the angles below 15°.
+/// Whether normals of a closed surface turn by more than 50° along an edge: none that is smooth
+/// fits.
+[[nodiscard]] bool has_creases(const SurfaceMesh& mesh, const SurfaceTopology& topology);
+/// Whether a closed surface may be too rough for a smooth surface to be fitted to: it has creases,
+/// or a twentieth of its angles lie below 15° (slivers).
 [[nodiscard]] bool is_rough(const SurfaceMesh& mesh, const SurfaceTopology& topology);
 
 /// Edges where normals turn by more than `kCreaseDeg`.

@@ -36,14 +36,27 @@ py::tuple arrays_of(SurfaceMesh mesh) {
   return py::make_tuple(points_view(kept, kept->x), corners_view(kept, kept->faces));
 }
 
+/// The faces as a file of them would be read: turned and, with `mends`, mended.
+RepairedSurface repaired(const SurfaceMesh& given, bool mends) {
+  PolygonSoup soup;
+  soup.points.assign(given.x.begin(), given.x.end());
+  for (const FaceVertices& face : given.faces) {
+    for (const VertexId v : face) soup.corners.push_back(v.value);
+    soup.end_face();
+  }
+  return meniscus::surface_of(soup, mends);
+}
+
 /// Remeshes to `value` vertices, of mean edge, or of chordal error, as `by` says; by nodes without
-/// a value to as many as there are. Returns points, triangles and what was reached.
+/// a value to as many as there are. Returns points, triangles and what was done and reached.
 py::tuple remesh(const py::array_t<double>& points, const py::array_t<std::int32_t>& triangles,
                  const std::string& by, std::optional<double> value, double edge_floor,
-                 double gradation) {
+                 double gradation, bool repair) {
   using By = RemeshTarget::By;
-  SurfaceMesh mesh = surface_of(points, triangles);
-  if (const auto fault = find_solid_defect(mesh)) reject_input("the surface: {}", fault->text);
+  RepairedSurface solid = repaired(surface_of(points, triangles), repair);
+  SurfaceMesh& mesh = solid.mesh;
+  if (const auto fault = find_solid_defect(mesh))
+    reject_input("the surface: {}", text_of(*fault, solid.report));
   const RemeshTarget target{
       .by = by == "nodes"         ? By::nodes
             : by == "edge_length" ? By::edge_length
@@ -60,6 +73,7 @@ py::tuple remesh(const py::array_t<double>& points, const py::array_t<std::int32
   if (!report.ok()) throw RunFailure("the surface could not be remeshed: " + report.text());
   const py::tuple arrays = arrays_of(std::move(mesh));
   py::dict facts;
+  facts["repairs"] = text_of(solid.report);
   facts["reached"] = report.reached;
   facts["is_met"] = report.is_met;
   facts["passes"] = report.passes;
@@ -171,7 +185,7 @@ std::vector<std::pair<double, std::string>> read_frames(const fs::path& pvd) {
 
 void bind_meshes(py::module_& m) {
   m.def("remesh", remesh, py::arg("points"), py::arg("triangles"), py::arg("by"), py::arg("value"),
-        py::arg("edge_floor"), py::arg("gradation"));
+        py::arg("edge_floor"), py::arg("gradation"), py::arg("repair"));
   m.def("volume_mesh", volume_mesh, py::arg("surfaces"), py::arg("boundary"), py::arg("grading"),
         py::arg("numbers"));
   m.def("read_surface", read_surface, py::arg("file"));

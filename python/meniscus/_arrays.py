@@ -49,6 +49,12 @@ def surface_of(given: Any, name: str) -> tuple[np.ndarray, np.ndarray]:
     return checked, triangles_of(triangles, len(checked), f"{name}: triangles")
 
 
+def flag_of(given: Any, name: str) -> bool:
+    if not isinstance(given, (bool, np.bool_)):
+        raise ValueError(f"{name} must be True or False, not {given!r}")
+    return bool(given)
+
+
 def number_of(given: Any, name: str) -> float:
     if isinstance(given, bool):
         raise ValueError(f"{name} must be a number, not {given!r}")

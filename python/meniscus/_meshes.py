@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from ._arrays import number_of, points_of, surface_of, triangles_of
+from ._arrays import flag_of, number_of, points_of, surface_of, triangles_of
 
 
 @dataclass(frozen=True)
@@ -17,6 +17,7 @@ class RemeshedSurface:
 
     points: np.ndarray  #: (n, 3)
     triangles: np.ndarray  #: (m, 3), counter-clockwise seen from outside
+    repairs: str  #: what was done to the triangles first, in words; empty if nothing was
     reached: float  #: vertices, mean edge or chordal error of the result
     is_met: bool  #: whether that is the target, within a few per cent
     passes: int  #: remeshings until the target was met
@@ -26,11 +27,15 @@ class RemeshedSurface:
 
 def remesh(points: Any, triangles: Any, *, nodes: float | None = None,
            edge_length: float | None = None, chordal_error: float | None = None,
-           edge_floor: float = 0.0, gradation: float = 0.5) -> RemeshedSurface:
+           edge_floor: float = 0.0, gradation: float = 0.5,
+           repair: bool = False) -> RemeshedSurface:
     """Triangulates a closed surface anew, as ``meniscus remesh`` does; each piece keeps its volume.
 
-    points: (n, 3) coordinates, in any unit. triangles: (m, 3) numbers of points, counter-clockwise
-    seen from outside. The surface must be closed and must not cross itself.
+    points: (n, 3) coordinates, in any unit. triangles: (m, 3) numbers of points. The surface must be
+    closed and must not cross itself. Triangles are turned so that it is not inside out. With
+    ``repair`` it is mended first: points at one place are merged, doubled triangles and those
+    without area removed, open edges stitched, holes up to a tenth of the surface's diagonal filled,
+    and triangles that cross replaced. ``repairs`` of the result says what was done.
 
     One of three targets: ``nodes``, the number of vertices, dense where the surface is curved (else
     as many as there are); ``edge_length``, the mean edge, even everywhere; ``chordal_error``, the
@@ -50,7 +55,7 @@ def remesh(points: Any, triangles: Any, *, nodes: float | None = None,
     try:
         new_points, new_triangles, facts = _core.remesh(
             x, faces, by, value, number_of(edge_floor, "edge_floor"),
-            number_of(gradation, "gradation"))
+            number_of(gradation, "gradation"), flag_of(repair, "repair"))
     except ValueError as error:  # options of the command are arguments here
         raise ValueError(re.sub(r"--([a-z-]+) ", _argument, str(error))) from None
     return RemeshedSurface(new_points, new_triangles, **facts)

@@ -33,6 +33,26 @@ class RemeshTest(FolderCase):
         self.assertAlmostEqual(edges.mean(), 0.2, delta=0.005)
         self.assertLessEqual(remesh(stretched, triangles, chordal_error=0.01).reached, 0.01)
 
+    def test_turns_triangles_and_mends_only_where_asked_to(self):
+        points, triangles = sphere(500)
+        volume = enclosed(points, triangles)
+        sound = remesh(points, triangles, nodes=150)
+        self.assertEqual(sound.repairs, "")
+        turned = remesh(points, triangles[:, ::-1], nodes=150)
+        self.assertIn("turned", turned.repairs)
+        self.assertAlmostEqual(enclosed(turned.points, turned.triangles), volume, delta=1e-9 * volume)
+        apart = (points[triangles].reshape(-1, 3), np.arange(triangles.size).reshape(-1, 3))
+        for given, words in (((points, triangles[1:]), "hole"), (apart, "points"),
+                             ((points, np.vstack([triangles, triangles[7]])), "removed")):
+            with self.assertRaisesRegex(ValueError, "surface"):
+                remesh(*given, nodes=150)
+            mended = remesh(*given, nodes=150, repair=True)
+            self.assertIn(words, mended.repairs)
+            self.assertAlmostEqual(enclosed(mended.points, mended.triangles), volume, delta=0.02 * volume)
+        bowl = triangles[points[triangles[:, 0], 2] < 0.5]
+        with self.assertRaisesRegex(ValueError, "a hole of"):
+            remesh(points, bowl, repair=True)
+
     def test_refuses_what_is_no_surface(self):
         points, triangles = self.ball
         broken = points.copy()
@@ -51,7 +71,8 @@ class RemeshTest(FolderCase):
             remesh(points, triangles, nodes=100, edge_length=0.1)
         for arguments, words in (({"nodes": 3}, "nodes = 3"), ({"edge_length": -1}, "edge_length = -1"),
                                  ({"edge_length": float("nan")}, "edge_length"),
-                                 ({"nodes": "many"}, "nodes"), ({"gradation": 0}, "gradation = 0")):
+                                 ({"nodes": "many"}, "nodes"), ({"gradation": 0}, "gradation = 0"),
+                                 ({"repair": "all"}, "repair must be True or False")):
             with self.assertRaisesRegex(ValueError, words):
                 remesh(points, triangles, **arguments)
 

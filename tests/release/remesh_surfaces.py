@@ -3,12 +3,15 @@
 what became of them, by reason. Fails where the program crashes, says more or less than one line, or
 writes a surface that it then refuses itself.
 
-    remesh_surfaces.py PROGRAM WORK [DATA = /usr/share/doc/libcgal-dev/data.tar.gz]
+    remesh_surfaces.py PROGRAM WORK [DATA = /usr/share/doc/libcgal-dev/data.tar.gz [JOBS]]
 
-DATA is the archive of Debian's libcgal-demo, or a folder of surfaces.
+DATA is the archive of Debian's libcgal-demo, or a folder of surfaces. JOBS surfaces are remeshed at
+a time, by default one on each processor.
 """
 import os
+import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tarfile
@@ -17,12 +20,13 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 NODES = 1500
-SECONDS = 900
+SECONDS = 900  # of processor time
+BYTES = 8 * 1024**3
 KINDS = (".off", ".ply", ".stl", ".obj", ".vtp")
 # The reason of a refusal, by words of its line; the first that is found counts.
-REASONS = [("holes", "not closed"), ("crossings", "meets itself"), ("not manifold", "not manifold"),
-           ("orientation", "oriented"), ("orientation", "inside out"), ("no area", "no area"),
-           ("no faces", "holds no faces"), ("thin", "too thin"), ("given up on", "could not be")]
+REASONS = [("given up on", "could not be"), ("holes", "not closed"), ("crossings", "meets itself"),
+           ("not manifold", "not manifold"), ("orientation", "oriented"), ("orientation", "inside out"), ("no area", "no area"),
+           ("no faces", "holds no faces"), ("thin", "too thin")]
 
 
 def surfaces(data, work):
@@ -35,19 +39,25 @@ def surfaces(data, work):
     return sorted(p for p in data.rglob("*") if p.suffix.lower() in KINDS)
 
 
+def limit_itself():
+    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
+    resource.setrlimit(resource.RLIMIT_AS, (BYTES, BYTES))
+
+
+def run(program, surface, result, options=()):
+    return subprocess.run(
+        [program, "remesh", surface, "--nodes", str(NODES), "-o", result, "--overwrite", *options],
+        capture_output=True, text=True, preexec_fn=limit_itself)
+
+
 def remesh(program, surface, options, result):
     """What became of a surface: a word for the table, and the program's line."""
-    try:
-        done = subprocess.run(
-            [program, "remesh", surface, "--nodes", str(NODES), "-o", result, "--overwrite", *options],
-            capture_output=True, text=True, timeout=SECONDS)
-    except subprocess.TimeoutExpired:
+    done = run(program, surface, result, options)
+    if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
         return "no end", f"not done after {SECONDS} s"
     line = done.stderr.strip()
     if done.returncode == 0:
-        again = subprocess.run(
-            [program, "remesh", result, "--nodes", str(NODES), "-o", result.with_suffix(".again.off"),
-             "--overwrite"], capture_output=True, text=True, timeout=SECONDS)
+        again = run(program, result, result.with_suffix(".again.off"))
         if again.returncode == 2:
             return "invalid", again.stderr.strip()
         return "remeshed", next((l for l in done.stdout.splitlines() if l.startswith("repaired")), "")
@@ -59,6 +69,7 @@ def remesh(program, surface, options, result):
 def main():
     program, work = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
     data = Path(sys.argv[3] if len(sys.argv) > 3 else "/usr/share/doc/libcgal-dev/data.tar.gz")
+    jobs = int(sys.argv[4]) if len(sys.argv) > 4 else os.cpu_count()
     if not data.exists():
         sys.exit(f"{data} is missing: install libcgal-demo")
     shutil.rmtree(work, ignore_errors=True)
@@ -70,10 +81,11 @@ def main():
             folder.mkdir(exist_ok=True)
             return remesh(program, surface, options, folder / f"{surface.name}.off")
 
-        with ThreadPoolExecutor(os.cpu_count()) as pool:
-            columns[title] = list(pool.map(one, files))
-        for surface, (word, line) in zip(files, columns[title]):
-            print(f"{title:<12} {surface.name:<44} {word}: {line}", flush=True)
+        columns[title] = []
+        with ThreadPoolExecutor(jobs) as pool:
+            for surface, found in zip(files, pool.map(one, files)):
+                columns[title].append(found)
+                print(f"{title:<12} {surface.name:<44} {found[0]}: {found[1]}", flush=True)
     counts = {title: Counter(word for word, _ in column) for title, column in columns.items()}
     words = sorted({word for count in counts.values() for word in count},
                    key=lambda word: (word != "remeshed", -counts["as they are"][word], word))

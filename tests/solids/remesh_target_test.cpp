@@ -103,6 +103,29 @@ TEST(RemeshTarget, RoundsCreasesAndSaysSo) {
   EXPECT_LT(mesh.x[VertexId{0}].cwiseAbs().maxCoeff(), 2.1);
 }
 
+TEST(RemeshTarget, TakesSliversWithoutCreasesForASmoothSurface) {
+  // Rows far apart make slivers of 1:8, and normals turn by 30° from row to row.
+  const double major = 2.0, minor = 1.0;
+  for (const auto& [by, value] : {std::pair(By::chordal_error, 0.004), std::pair(By::nodes, 900.0),
+                                  std::pair(By::edge_length, 0.25)}) {
+    SurfaceMesh mesh = test::torus(96, 12, major, minor);
+    ASSERT_LT(surface_quality(mesh, SurfaceTopology(mesh)).low_angle_deg, 10.0);
+    const TargetReport report = remesh_to(mesh, {.by = by, .value = value});
+    ASSERT_TRUE(report.ok()) << report.text();
+    EXPECT_TRUE(report.is_met);
+    EXPECT_FALSE(report.are_creases_rounded);
+    EXPECT_GT(surface_quality(mesh, SurfaceTopology(mesh)).low_angle_deg, 40.0);
+    // The flat faces that came lie up to 1 − cos 15° = 0.034 inside the torus.
+    for (const Vec3& x : mesh.x)
+      EXPECT_NEAR(std::hypot(std::hypot(x.x(), x.y()) - major, x.z()), minor, 0.034);
+    if (by != By::chordal_error) continue;
+    for (const FaceVertices& v : mesh.faces) {
+      const Vec3 x = (mesh.x[v[0]] + mesh.x[v[1]] + mesh.x[v[2]]) / 3.0;
+      EXPECT_NEAR(std::hypot(std::hypot(x.x(), x.y()) - major, x.z()), minor, value);
+    }
+  }
+}
+
 TEST(RemeshTarget, RejectsWhatCannotBeMeant) {
   SurfaceMesh mesh = sphere(60);
   const SurfaceMesh before = mesh;
