@@ -26,7 +26,7 @@ from pathlib import Path
 NUMBER = r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?"
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$|^<!-- test: (.*?) -->$", re.MULTILINE | re.DOTALL)
 PICTURE = re.compile(r"!\[[^\]]*\]\(([^)\s]+)\)")
-LARGEST_PICTURE = 60_000  # bytes
+LARGEST_PICTURE = 100_000  # bytes
 USUAL_TOLERANCE = 0.02
 
 

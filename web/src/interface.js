@@ -17,7 +17,7 @@ const MARGIN = 10; // px around the widest frame
 const SUBPIXEL = 0.1; // px; points are whole multiples: short text, finer than any screen
 const EDGE_WHITENESS = 0.2; // of edges against their face, so that the mesh shows but does not dominate
 const PLAIN = [115, 158, 191]; // colour of a frame without the field
-const SILHOUETTE_PARTS = 8; // pieces of the edges of a curved face that is partly turned away
+const SILHOUETTE_PARTS = 4; // pieces of the edges of a curved face that is partly turned away
 
 /** Axes of the picture in space: right, up, and toward the viewer; y points upwards. */
 export function camera(toward = FIRST_VIEW) {
