@@ -25,7 +25,7 @@ RemeshOptions remesh_options(const Interface& interface, const EvolutionOptions&
 
 /// Both shifts, the second after the first.
 VolumeShift joined(VolumeShift first, const VolumeShift& second) {
-  widen(first.field_excess, second.field_excess);
+  follow(first.field_excess, second.field_excess);
   return {second.length, std::max(first.over_edge, second.over_edge), first.field_excess};
 }
 

@@ -214,8 +214,8 @@ void take_up(Scene& scene, std::span<const VertexField<double>> uptake, const Am
   }
 }
 
-double surfactant_error(const SurfactantPath& path, const AmountRates& second,
-                        const AmountRates& first) {
+double surfactant_error(const SurfactantPath& path, const SurfactantTransport& transport,
+                        const AmountRates& second, const AmountRates& first) {
   double largest = 0.0;
   for (std::size_t i = 0; i < second.size(); ++i) {
     if (!path.at_start[i]) continue;
@@ -225,9 +225,10 @@ double surfactant_error(const SurfactantPath& path, const AmountRates& second,
     for (const double each : area) total += each;
     const double mean = path.at_start[i]->mass.total(*surfactant_concentration(interface)) / total;
     const double scale = sphere_radius(interface.volume) / mean_edge(interface.mesh) / mean;
-    for (const VertexId v : area.ids())
-      largest =
-          std::max(largest, scale * path.duration * std::abs(second[i][v] - first[i][v]) / area[v]);
+    VertexField<double> apart = second[i];
+    for (const VertexId v : apart.ids()) apart[v] = path.duration * (apart[v] - first[i][v]);
+    for (const double each : transport[i]->settled(apart, path.at_start[i]->mass, path.duration))
+      largest = std::max(largest, scale * std::abs(each));
   }
   return largest;
 }

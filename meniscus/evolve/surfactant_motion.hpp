@@ -111,10 +111,11 @@ void keep_surfactant(Scene& scene, const Scene& before, Carriers& carriers);
 void take_up(Scene& scene, std::span<const VertexField<double>> uptake, const AmountRates& expected,
              double duration, Carriers& carriers);
 
-/// max_v dt |Δṁ_v|/(S_v ⟨Γ⟩) R/h over all vertices: how far rates of second and of first order take
-/// a concentration apart in a step, over the mean concentration. It counts as `step_error` counts a
-/// displacement over the radius R of the drop's sphere. h is its mean edge.
-[[nodiscard]] double surfactant_error(const SurfactantPath& path, const AmountRates& second,
-                                      const AmountRates& first);
+/// max_v |Δc_v|/⟨Γ⟩ R/h over all vertices, Δc being the `settled` concentration of dt Δṁ: how far
+/// rates of second and of first order take a concentration apart in a step. It counts as
+/// `step_error` counts a displacement over the radius R of the drop's sphere. h is its mean edge.
+[[nodiscard]] double surfactant_error(const SurfactantPath& path,
+                                      const SurfactantTransport& transport,
+                                      const AmountRates& second, const AmountRates& first);
 
 }  // namespace meniscus

@@ -122,14 +122,16 @@ ConcentrationRates set_damped_rates(StageFlow& stage, const Step& step, double d
 }
 
 /// Of rates that take amounts through the whole step.
-double amount_error(const Step& step, const AmountRates& second, const AmountRates& first) {
+double amount_error(const Step& step, const SurfactantTransport& transport,
+                    const AmountRates& second, const AmountRates& first) {
   if (!has_surfactant(step.start)) return 0.0;
-  return surfactant_error({step.start, step.carriers.of(step.start), {}, step.dt}, second, first);
+  return surfactant_error({step.start, step.carriers.of(step.start), {}, step.dt}, transport,
+                          second, first);
 }
 
 double stage_error(const Step& step, const StageFlow& second, const StageFlow& first) {
   return std::max(step_error(step, second.normal_speed, first.normal_speed),
-                  amount_error(step, second.amount_rates, first.amount_rates));
+                  amount_error(step, second.surfactant, second.amount_rates, first.amount_rates));
 }
 
 /// Gives a stage other normal speeds beyond its rigid motions.
@@ -273,7 +275,7 @@ StageFlow implicit_step(const StageFlow& first, const Step& step, const Implicit
   const InterfaceNormals normals = interface_normals(step.start, MotionNormal::area_vector);
   end.error = std::max(
       step_error(step, normal_speeds(normals, end.motion), normal_speeds(normals, start.motion)),
-      amount_error(step, end.amount_rates, start.amount_rates));
+      amount_error(step, end.surfactant, end.amount_rates, start.amount_rates));
   end.damps_waves = true;
   return end;
 }
@@ -309,7 +311,7 @@ StageFlow chebyshev_step(const StageFlow& first, const Step& step, int num_stage
   const Displacement line = scaled(1.0 / c, to_middle);
   stage.error = std::max(step_error(step, normal_speeds(normals, now.vertices),
                                     normal_speeds(normals, line.vertices)),
-                         amount_error(step, now.amounts, line.amounts)) /
+                         amount_error(step, stage.surfactant, now.amounts, line.amounts)) /
                 (1.0 - c);
   stage.surface_rate = first.surface_rate + (middle_rate - first.surface_rate) / (2.0 * c);
   stage.motion = std::move(now.vertices);

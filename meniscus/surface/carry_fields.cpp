@@ -256,6 +256,11 @@ void widen(FieldExcess& excess, const FieldExcess& other) {
   excess.below = std::max(excess.below, other.below);
 }
 
+void follow(FieldExcess& excess, const FieldExcess& next) {
+  excess.above += next.above;
+  excess.below += next.below;
+}
+
 FieldExcess move_fields(SurfaceFields& fields, const SurfaceMesh& before,
                         const SurfaceMesh& after) {
   FieldExcess excess;

@@ -15,6 +15,8 @@ struct CarryingSurface {
 
 /// Makes `excess` the larger of itself and another.
 void widen(FieldExcess& excess, const FieldExcess& other);
+/// Adds to `excess` that of a further transfer of the same fields.
+void follow(FieldExcess& excess, const FieldExcess& next);
 
 /// Barycentric centres of the cuts² equal parts of a triangle whose sides are cut in `cuts`.
 [[nodiscard]] std::vector<Vec3> part_centers(int cuts);

@@ -291,8 +291,11 @@ ReplacedFields transferred_fields(const SurfaceFields& fields, const SurfaceChan
     const VertexInterpolant interpolant(change, field);
     VertexField<double> values(change.after.num_vertices());
     for (const VertexId v : values.ids()) values[v] = interpolant.at(change.points[v]);
-    if (field.transfer == FieldTransfer::conserved)
+    if (field.transfer == FieldTransfer::conserved) {
+      const auto [low, high] = std::ranges::minmax(field.values);
       widen(result.excess, conservation->keep(values, field.values, interpolant));
+      for (const double value : values) widen(result.excess, {value - high, low - value});
+    }
     result.fields.on_vertices.push_back(
         {field.name, field.unit, field.transfer, std::move(values)});
   }

@@ -242,9 +242,9 @@ void give_vertices(Interface& interface, const RemeshOptions& options, FieldExce
   if (!even) return;
   interface.mesh = std::move(even->surface.mesh);
   interface.fields = std::move(even->surface.fields);
-  widen(excess, even->excess);
+  follow(excess, even->excess);
   // The surface is sound even if it cannot be remeshed.
-  widen(excess, remesh(interface.mesh, options, interface.fields).field_excess);
+  follow(excess, remesh(interface.mesh, options, interface.fields).field_excess);
 }
 
 /// Remeshes the interfaces that have ids from `first_id` on: the seams of surgery give way, and a
@@ -259,7 +259,7 @@ FieldExcess finish_new_interfaces(Scene& scene, int first_id, const TopologyOpti
     const RemeshOptions options = sound_remeshing(interface.C0, topology.edge_floor);
     for (int i = 0; i < kRemeshings; ++i) {
       const RemeshReport report = remesh_or_mend(interface.mesh, options, interface.fields).remesh;
-      widen(excess, report.field_excess);
+      follow(excess, report.field_excess);
       if (!report.ok()) break;
     }
     if (interface.mesh.num_vertices() < options.min_vertices)

@@ -78,6 +78,22 @@ CarryingSurface origin_of(const Scene& scene, InterfaceReplacement& replacement)
   return {joined_surface(meshes), joined_fields(fields)};
 }
 
+/// By how much fields on vertices left the range that they had on the parents.
+FieldExcess beyond_parents(const Scene& scene, std::span<const std::size_t> parents,
+                           const SurfaceFields& now) {
+  FieldExcess excess;
+  for (std::size_t k = 0; k < now.on_vertices.size(); ++k) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const std::size_t i : parents)
+      for (const double value : scene.interfaces[i].fields.on_vertices[k].values) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
+    for (const double value : now.on_vertices[k].values) widen(excess, {value - high, low - value});
+  }
+  return excess;
+}
+
 /// Gives the children what lives on the parents. `cut` has them as they were before their volumes
 /// were restored.
 FieldExcess give_fields(const Scene& scene, InterfaceReplacement& replacement,
@@ -88,10 +104,12 @@ FieldExcess give_fields(const Scene& scene, InterfaceReplacement& replacement,
   const CarryingSurface origin = origin_of(scene, replacement);
   const ReplacedFields replaced =
       replaced_fields(origin.fields, origin.mesh, joined_surface(cut), joined_surface(restored));
+  FieldExcess excess = replaced.excess;
+  widen(excess, beyond_parents(scene, replacement.parents, replaced.fields));
   std::vector<SurfaceFields> fields = split_fields(replaced.fields, restored);
   for (std::size_t k = 0; k < children.size(); ++k)
     children[k].interface.fields = std::move(fields[k]);
-  return replaced.excess;
+  return excess;
 }
 
 std::vector<Child> children_of(const Scene& scene, InterfaceReplacement& replacement) {

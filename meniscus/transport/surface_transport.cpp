@@ -82,6 +82,14 @@ VertexField<double> SurfaceTransport::rates_of_sources(const VertexField<double>
   return field_of(mean_rates(Vector::Zero(L_.rows()), vector_of(sources), path));
 }
 
+VertexField<double> SurfaceTransport::settled(const VertexField<double>& amounts,
+                                              const SurfaceMass& mass, double dt) const {
+  const Eigen::SparseLU<Matrix> factors(mass.matrix() + kInnerStage * dt * L_);
+  MENISCUS_ASSERT(factors.info() == Eigen::Success, "{}", factors.lastErrorMessage());
+  const Vector once = factors.solve(vector_of(amounts));
+  return field_of(factors.solve(mass.matrix() * once));
+}
+
 Vector SurfaceTransport::mean_rates(const Vector& amounts, const Vector& sources,
                                     const Path& path) const {
   Eigen::SparseLU<Matrix> factors;

@@ -43,6 +43,12 @@ class SurfaceTransport {
   [[nodiscard]] VertexField<double> rates_of_sources(const VertexField<double>& sources,
                                                      const Path& path) const;
 
+  /// The concentration c that amounts m stand for, less what a step of length dt would even out:
+  /// (M + γdt L) c' = m, (M + γdt L) c = Mc', γ being that of the stages. Smooth amounts keep
+  /// theirs.
+  [[nodiscard]] VertexField<double> settled(const VertexField<double>& amounts,
+                                            const SurfaceMass& mass, double dt) const;
+
  private:
   [[nodiscard]] Eigen::VectorXd mean_rates(const Eigen::VectorXd& amounts,
                                            const Eigen::VectorXd& sources, const Path& path) const;

@@ -44,7 +44,7 @@ std::optional<MendReport> apply_first(SurfaceMesh& mesh, SurfaceFields& fields,
     if (closed_holes < 0) continue;
     RemeshReport report = remesh(next->surface.mesh, options, next->surface.fields);
     if (!report.ok()) continue;
-    widen(report.field_excess, next->excess);
+    follow(report.field_excess, next->excess);
     mesh = std::move(next->surface.mesh);
     fields = std::move(next->surface.fields);
     return MendReport{std::move(report), true, closed_holes, remedy.smoothed_over};
