@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "meniscus/surface/quartic_curvature.hpp"
 #include "meniscus/surface/spline_patch.hpp"
 
 namespace meniscus {
@@ -75,7 +76,7 @@ struct SurfaceExtremes::Around {
 SurfaceExtremes::SurfaceExtremes(const SurfaceMesh& mesh)
     : mesh_(mesh),
       topology_(mesh),
-      fit_(fitted_curvature(mesh, topology_)),
+      fit_(quartic_curvature(mesh, topology_, osculating_curvature(mesh, topology_))),
       rings_(mesh, topology_) {}
 
 SurfaceExtremes::Around SurfaceExtremes::around(VertexId v) {

@@ -14,7 +14,7 @@ class SplinePatch;
 
 /// Extreme points of a closed surface, on splines through its vertices (`SplinePatch`) around the
 /// extreme vertex. Errors are some O(h⁵) on smooth surfaces; where splines are not to be trusted
-/// the paraboloid of the vertex stands for the surface, O(h³). `mesh` must outlive this.
+/// the vertex's curvatures stand for the surface, O(h³). `mesh` must outlive this.
 class SurfaceExtremes {
  public:
   explicit SurfaceExtremes(const SurfaceMesh& mesh);
@@ -31,6 +31,7 @@ class SurfaceExtremes {
 
   [[nodiscard]] const SurfaceMesh& mesh() const { return mesh_; }
   [[nodiscard]] const SurfaceTopology& topology() const { return topology_; }
+  /// Normals and curvatures by `quartic_curvature`.
   [[nodiscard]] const VertexField<VertexCurvature>& fit() const { return fit_; }
 
  private:

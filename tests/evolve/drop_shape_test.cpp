@@ -48,7 +48,7 @@ PlanarErrors planar_errors(int num_vertices) {
 
 TEST(DropShape, PlanarMeasuresOfATiltedEllipsoidConverge) {
   PlanarErrors before = planar_errors(110);
-  EXPECT_LT(before.length, 1.5e-3);
+  EXPECT_LT(before.length, 2e-3);
   EXPECT_LT(before.angle_deg, 0.7);
   for (const int count : {440, 1760}) {
     const PlanarErrors now = planar_errors(count);
@@ -96,6 +96,7 @@ TEST(DropShape, SphereHasNoDeformationInAnyFlow) {
     EXPECT_NEAR(s.D, 0.0, 2e-3);
     EXPECT_NEAR(s.extent_x, 1.0, 2e-3);
     EXPECT_NEAR(s.D_inertia, 0.0, 2e-3);
+    EXPECT_NEAR(s.H_max, 1.0, 1e-9);
     EXPECT_LT((s.centroid - Vec3(1, 2, 3)).norm(), 2e-3);
     EXPECT_EQ(s.angle_deg.has_value(), family == FlowFamily::planar);
   }
@@ -107,7 +108,7 @@ TEST(DropShape, AxialAndGeneralMeasuresOfAnEllipsoid) {
   EXPECT_NEAR(axial.B, 0.8, 2e-3);
   EXPECT_EQ(axial.B, axial.W);
   // Half-sum of curvatures at the tip of a prolate spheroid: a/b².
-  EXPECT_NEAR(axial.H_max, 1.6 / 0.64, 0.1);
+  EXPECT_NEAR(axial.H_max, 1.6 / 0.64, 0.01);
   const DropShape general = flat_shape(
       rotated_ellipsoid(800, Vec3(1.6, 1.0, 0.7), 40.0, Vec3::Zero()), FlowFamily::general);
   EXPECT_NEAR(general.L, 1.6, 3e-3);
