@@ -190,7 +190,7 @@ const std::vector<Key> kRunKeys{
      .range = {.min = 0.0, .max = 1e6},
      .default_note = "the mean edge there",
      .applies = "where a patch is open",
-     .sentence = "A drop is nearer to an open patch or about to be. 0: never."},
+     .sentence = "A drop comes this near to an open patch. 0: never."},
 
     {.path = "output.interval",
      .dimension = Dimension::time,
