@@ -43,8 +43,9 @@ double extremum(double f0, const Eigen::Vector2d& g, const Eigen::Matrix2d& M, d
   return f;
 }
 
-/// Largest (sign > 0) or smallest distance |P(x − c)| of the smooth surface, P a projector: the
-/// extreme vertex, corrected on its paraboloid x + u1 d1 + u2 d2 − (k1 u1² + k2 u2²)/2 n.
+/// Largest (sign > 0) or smallest distance |P(x − c)| of the smooth surface, P a projector. It is
+/// that of the extreme vertex, corrected on its paraboloid x + u1 d1 + u2 d2 − (k1 u1² + k2 u2²)/2
+/// n.
 struct ExtremeVertex {
   double distance = 0.0;
   Vec3 direction = Vec3::Zero();

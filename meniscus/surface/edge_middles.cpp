@@ -42,8 +42,8 @@ struct LevelFrame {
   }
 };
 
-/// The spline's value at the frame's origin, Σ w_i g_i, the weights w solving
-/// [Φ P; Pᵀ 0] (w, ·) = (φ(0 − x_i), p(0)), times how far it is to be trusted, 0 to 1.
+/// The spline's value at the frame's origin, Σ w_i g_i, the weights w solving [Φ P; Pᵀ 0] (w, ·) =
+/// (φ(0 − x_i), p(0)). It is multiplied by how far it is to be trusted, 0 to 1.
 double interpolated_level(const LevelFrame& frame, std::span<const Vec3> points) {
   const auto count = static_cast<Eigen::Index>(points.size());
   if (count < kTerms) return 0.0;
