@@ -35,10 +35,10 @@ enum class SurfaceShape { faceted, patched, splined };
 /// zero on the osculating sphere, is interpolated from the vertices in the two rings of both ends
 /// by polyharmonic splines Σ c_i |(u, v) − (u_i, v_i)|⁷ plus a polynomial of degree four. Exact on
 /// spheres; the error, about O(h⁶), is a tenth of that of the cubic patches of SmoothSurface at 200
-/// vertices. Their O(h⁴) repeats from edge to edge, and a flow takes it for a corrugation: it pulls
+/// vertices. Their O(h⁴) repeats from edge to edge, and a flow takes it for a corrugation. It pulls
 /// the vertices in and the middles out, 1.6 % too slow a relaxation at 110 vertices. The smooth
-/// surface's point stands where the rings do not determine the spline, where it would amplify
-/// noise, or where it swings far from the edge. About 16 µs per edge, where the patches take 2.
+/// surface's point stands where the rings do not determine the spline, or where it would amplify
+/// noise or swings far from the edge. About 16 µs per edge, where the patches take 2.
 [[nodiscard]] std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh,
                                                    const SurfaceTopology& topology);
 [[nodiscard]] std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh,
