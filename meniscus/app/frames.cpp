@@ -16,6 +16,7 @@
 #include "meniscus/scene/interface_tension.hpp"
 #include "meniscus/surface/curvature.hpp"
 #include "meniscus/surface/edge_middles.hpp"
+#include "meniscus/surface/quartic_curvature.hpp"
 #include "meniscus/volume/quality.hpp"
 
 namespace meniscus {
@@ -119,7 +120,9 @@ io::MeshData surface_arrays(const Evolution& evolution) {
       velocities{"velocity", 3, {}}, density{"node_density", 1, {}}, drop{"drop", 1, {}};
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
     const SurfaceMesh& mesh = scene.interfaces[i].mesh;
-    const VertexField<VertexCurvature> fit = fitted_curvature(mesh, SurfaceTopology(mesh));
+    const SurfaceTopology topology(mesh);
+    const VertexField<VertexCurvature> fit =
+        quartic_curvature(mesh, topology, osculating_curvature(mesh, topology));
     const VertexField<double> area = vertex_areas(mesh);
     for (const VertexId v : mesh.x.ids()) {
       const Vec3 u = velocity.empty() ? Vec3(Vec3::Zero()) : velocity[i][v];

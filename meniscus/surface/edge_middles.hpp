@@ -27,18 +27,12 @@ enum class SurfaceShape { faceted, patched, splined };
 [[nodiscard]] std::vector<Vec3> middles_on_patches(const SmoothSurface& smooth,
                                                    const SurfaceTopology& topology);
 
-/// The middles on splines. With z along the normal at the smooth surface's edge point and H the
-/// half-sum of curvatures there, the function
-///
-///   g(u, v) = z + ½H (u² + v² + z²),
-///
-/// zero on the osculating sphere, is interpolated from the vertices in the two rings of both ends
-/// by polyharmonic splines Σ c_i |(u, v) − (u_i, v_i)|⁷ plus a polynomial of degree four. Exact on
-/// spheres; the error, about O(h⁶), is a tenth of that of the cubic patches of SmoothSurface at 200
-/// vertices. Their O(h⁴) repeats from edge to edge, and a flow takes it for a corrugation. It pulls
-/// the vertices in and the middles out, 1.6 % too slow a relaxation at 110 vertices. The smooth
-/// surface's point stands where the rings do not determine the spline, or where it would amplify
-/// noise or swings far from the edge. About 16 µs per edge, where the patches take 2.
+/// The middles on splines (`SplinePatch`) through the vertices in the two rings of both ends, along
+/// the normal through the smooth surface's edge point. Their error, about O(h⁶), is a tenth of that
+/// of the cubic patches of SmoothSurface at 200 vertices. The patches' O(h⁴) repeats from edge to
+/// edge, and a flow takes it for a corrugation. It pulls the vertices in and the middles out, 1.6 %
+/// too slow a relaxation at 110 vertices. The smooth surface's point stands where the spline is not
+/// to be trusted, or swings far from the edge. About 16 µs per edge, where the patches take 2.
 [[nodiscard]] std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh,
                                                    const SurfaceTopology& topology);
 [[nodiscard]] std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh,

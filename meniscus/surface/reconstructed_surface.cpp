@@ -135,11 +135,21 @@ double ReconstructedSurface::area() const {
   return sum_over_points(faces_, 0.0, [](const Vec3&, const Vec3& area) { return area.norm(); });
 }
 
+Vec3 ReconstructedSurface::centroid() const {
+  if (is_flat()) return enclosed_centroid(mesh_);
+  return mean_vertex(mesh_) + first_moment() / volume();
+}
+
+/// ∫ x dV, seen from the mean vertex.
+Vec3 ReconstructedSurface::first_moment() const {
+  return sum_over_points(faces_, Vec3(Vec3::Zero()), [](const Vec3& x, const Vec3& area) -> Vec3 {
+    return x.dot(area) / 4.0 * x;
+  });
+}
+
 Mat3 ReconstructedSurface::second_moments() const {
   if (is_flat()) return enclosed_second_moments(mesh_);
-  const Vec3 first = sum_over_points(
-      faces_, Vec3(Vec3::Zero()),
-      [](const Vec3& x, const Vec3& area) -> Vec3 { return x.dot(area) / 4.0 * x; });
+  const Vec3 first = first_moment();
   const Mat3 second =
       sum_over_points(faces_, Mat3(Mat3::Zero()), [](const Vec3& x, const Vec3& area) -> Mat3 {
         return x.dot(area) / 5.0 * x * x.transpose();

@@ -18,6 +18,7 @@ class ReconstructedSurface {
 
   [[nodiscard]] double volume() const;  ///< enclosed [R0³]
   [[nodiscard]] double area() const;    ///< [R0²]
+  [[nodiscard]] Vec3 centroid() const;  ///< of the enclosed volume [R0]
   /// ∫ (x − c)(x − c)ᵀ dV about the centroid c of the enclosed volume [R0⁵].
   [[nodiscard]] Mat3 second_moments() const;
   /// ∫ nn dS [R0²].
@@ -52,6 +53,7 @@ class ReconstructedSurface {
 
  private:
   [[nodiscard]] bool is_flat() const { return shape_ == SurfaceShape::faceted; }
+  [[nodiscard]] Vec3 first_moment() const;
   /// Values at the nodes of every face, from those at the vertices.
   template <class Value>
   [[nodiscard]] FaceField<std::array<Value, kQuadraticNodes>> node_values(

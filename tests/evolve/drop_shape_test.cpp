@@ -2,11 +2,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "meniscus/mesh/shapes.hpp"
+#include "meniscus/surface/remesh.hpp"
 
 namespace meniscus {
 namespace {
@@ -45,17 +47,43 @@ PlanarErrors planar_errors(int num_vertices) {
 }
 
 TEST(DropShape, PlanarMeasuresOfATiltedEllipsoidConverge) {
-  // The section's points lie on cubics through the vertices, its extrema on parabolas: better than
-  // second order in h, a factor of four from one level to the next.
   PlanarErrors before = planar_errors(110);
-  EXPECT_LT(before.length, 3e-3);
-  EXPECT_LT(before.angle_deg, 1.0);
+  EXPECT_LT(before.length, 2e-3);
+  EXPECT_LT(before.angle_deg, 0.7);
   for (const int count : {440, 1760}) {
     const PlanarErrors now = planar_errors(count);
-    EXPECT_LT(now.length, before.length / 4.0) << count;
-    EXPECT_LT(now.angle_deg, before.angle_deg / 2.0) << count;
+    EXPECT_LT(now.length, before.length / 8.0) << count;
+    EXPECT_LT(now.angle_deg, before.angle_deg / 8.0) << count;
     before = now;
   }
+}
+
+/// Largest error of L, B and W of a spheroid over random meshes of some C0 = N0/4π, with its tips
+/// anywhere on faces.
+double spheroid_error(int N0) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  double error = 0.0;
+  for (int k = 0; k < 10; ++k) {
+    const Eigen::Quaterniond turn =
+        Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
+            .normalized();
+    SurfaceMesh mesh = sphere(3000, 1.0, Vec3::Zero());
+    for (Vec3& x : mesh.x) x = Vec3(1.4, 0.85, 0.85).cwiseProduct(turn * x);
+    RemeshOptions options = sound_remeshing(N0 / (4.0 * std::numbers::pi));
+    options.restores_volume = false;
+    EXPECT_TRUE(remesh(mesh, options).ok());
+    const DropShape s =
+        drop_shape(mesh, FlowFamily::axial, ReconstructedSurface(mesh, SurfaceShape::splined));
+    for (const double e : {s.L - 1.4, s.B - 0.85, s.W - 0.85}) error = std::max(error, std::abs(e));
+  }
+  return error;
+}
+
+TEST(DropShape, TipsBetweenVerticesAreFound) {
+  const double coarse = spheroid_error(110);
+  EXPECT_LT(coarse, 7e-4);
+  EXPECT_LT(spheroid_error(440), coarse / 16.0);
 }
 
 TEST(DropShape, SphereHasNoDeformationInAnyFlow) {
@@ -68,6 +96,7 @@ TEST(DropShape, SphereHasNoDeformationInAnyFlow) {
     EXPECT_NEAR(s.D, 0.0, 2e-3);
     EXPECT_NEAR(s.extent_x, 1.0, 2e-3);
     EXPECT_NEAR(s.D_inertia, 0.0, 2e-3);
+    EXPECT_NEAR(s.H_max, 1.0, 1e-9);
     EXPECT_LT((s.centroid - Vec3(1, 2, 3)).norm(), 2e-3);
     EXPECT_EQ(s.angle_deg.has_value(), family == FlowFamily::planar);
   }
@@ -79,7 +108,7 @@ TEST(DropShape, AxialAndGeneralMeasuresOfAnEllipsoid) {
   EXPECT_NEAR(axial.B, 0.8, 2e-3);
   EXPECT_EQ(axial.B, axial.W);
   // Half-sum of curvatures at the tip of a prolate spheroid: a/b².
-  EXPECT_NEAR(axial.H_max, 1.6 / 0.64, 0.1);
+  EXPECT_NEAR(axial.H_max, 1.6 / 0.64, 0.01);
   const DropShape general = flat_shape(
       rotated_ellipsoid(800, Vec3(1.6, 1.0, 0.7), 40.0, Vec3::Zero()), FlowFamily::general);
   EXPECT_NEAR(general.L, 1.6, 3e-3);
