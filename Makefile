@@ -103,11 +103,12 @@ deb: ## build Debian packages of the program and of the library: build/release/d
 	@for file in build/release/deb/*.deb; do du -h "$$file"; dpkg-deb --field "$$file" Package Version Installed-Size Depends; done
 
 .PHONY: check-release
-check-release: deb docs ## the packages, the notebooks and the Containerfile in bare Debians, the site (as root; CACHE=a folder of ccache's)
+check-release: deb docs ## the packages, the notebooks and the Containerfile in bare Debians, the site, Slurm, CGAL's surfaces (as root; CACHE=a folder of ccache's)
 	@scripts/setup.sh release
 	@python3 -B tests/release/packages.py build/release/deb
 	@python3 -B tests/release/container.py . $(CACHE)
-	@for check in $(wildcard tests/release/slurm.py tests/release/remesh_surfaces.py); do python3 -B $$check build/release/meniscus; done
+	@python3 -B tests/release/slurm.py build/release/meniscus
+	@python3 -B tests/release/remesh_surfaces.py build/release/meniscus out/surfaces
 
 .PHONY: clean
 clean: ## remove build trees and output

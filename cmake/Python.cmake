@@ -18,7 +18,7 @@ set(MENISCUS_HAS_PYTHON TRUE)
 
 # Debian's python3 looks in lib/python3/dist-packages below /usr, in lib/python3.N/dist-packages below
 # /usr/local; other prefixes need PYTHONPATH.
-set(MENISCUS_PYTHON_DIR "" CACHE PATH "Where the Python package is installed, relative to the prefix")
+set(MENISCUS_PYTHON_DIR "" CACHE STRING "Where the Python package is installed, relative to the prefix")
 if(NOT MENISCUS_PYTHON_DIR)
   if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
     set(MENISCUS_PYTHON_DIR lib/python3/dist-packages)

@@ -112,10 +112,10 @@ set_tests_properties(two_solvers PROPERTIES TIMEOUT 900)
 add_test(NAME short_cases COMMAND meniscus_program check --all --short -q
   --cases ${PROJECT_SOURCE_DIR}/cases -o ${CMAKE_CURRENT_BINARY_DIR}/short_cases)
 set_tests_properties(short_cases PROPERTIES TIMEOUT 900)
-# One run of a case as it was recorded: nothing is simulated.
+# One run of a case, named in --cases, as it was recorded: nothing is simulated.
 add_test(NAME recorded_case COMMAND meniscus_program check --recorded
   --run "boundary integral, N0 = 110" -o ${CMAKE_CURRENT_BINARY_DIR}/recorded_case
-  ${PROJECT_SOURCE_DIR}/cases/small-deformation)
+  --cases ${PROJECT_SOURCE_DIR}/cases small-deformation)
 
 add_test(NAME variants COMMAND Python3::Interpreter
   ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end/variants.py

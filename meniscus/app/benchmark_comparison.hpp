@@ -27,8 +27,8 @@ struct BenchmarkComparison {
 /// Compares a table with a benchmark, column by column of the same name, over the times that both
 /// span. The differences are taken at the rows of the one with fewer there; the other is
 /// interpolated. Empty cells are left out. Columns not `chosen` are left out; none chosen: all.
-/// Throws InvalidInput naming `file` when a chosen column, `t` or every column is missing, a cell
-/// is no finite number, t does not rise, or the times do not overlap.
+/// Throws InvalidInput naming `file` when a chosen column, `t` or every column is missing, or a
+/// cell is no finite number. So it does when t does not rise, or the times do not overlap.
 [[nodiscard]] BenchmarkComparison compare_with_benchmark(const Benchmark& benchmark,
                                                          const io::Table& table,
                                                          const std::string& file,

@@ -41,17 +41,24 @@ bool is_benchmark(const std::string& name) {
          benchmark_files().end();
 }
 
+/// The folder of a case. A bare name is looked for in `cases` first, and then here.
+fs::path case_folder(const std::string& name, const fs::path& cases) {
+  fs::path folder = fs::path(name).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();
+  const bool is_bare_name = !folder.has_parent_path();
+  if (is_bare_name && fs::exists(cases / folder / "check.toml")) return cases / folder;
+  if (fs::exists(folder / "check.toml")) return folder;
+  reject_input("{}: no validation case: {} check.toml{}", name,
+               is_bare_name ? fmt::format("neither it nor {} holds a", (cases / folder).string())
+                            : "it holds no",
+               is_benchmark(name) ? "; to use the benchmark, give --against FILE.csv" : "");
+}
+
 std::vector<fs::path> chosen_cases(const CheckArguments& arguments) {
   if (arguments.is_all) return all_cases(arguments.cases);
   std::vector<fs::path> folders;
-  for (const std::string& name : arguments.directories) {
-    fs::path folder = fs::path(name).lexically_normal();
-    if (!folder.has_filename()) folder = folder.parent_path();
-    if (!fs::exists(folder / "check.toml"))
-      reject_input("{}: no validation case: it holds no check.toml{}", name,
-                   is_benchmark(name) ? "; to use the benchmark, give --against FILE.csv" : "");
-    folders.push_back(folder);
-  }
+  for (const std::string& name : arguments.directories)
+    folders.push_back(case_folder(name, arguments.cases));
   if (folders.empty()) reject_input("check: name the folder of a case, or give --all");
   return folders;
 }

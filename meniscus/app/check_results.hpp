@@ -22,7 +22,7 @@ enum class RunState { absent, unfinished, finished };
                                                   const std::string& run, const char* file);
 
 /// Reads the record of a run from the folder of its case: drops.csv and history.csv, thinned to
-/// some hundred steps, and events.csv if there were events. A first line names program, date and
+/// some hundred steps. So is events.csv if there were events. A first line names program, date and
 /// cost. Throws InvalidInput when there is no record.
 [[nodiscard]] RunTables read_record(const std::filesystem::path& results, const std::string& run);
 void write_record(const std::filesystem::path& results, const std::string& run,

@@ -152,12 +152,12 @@ void add_check(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command =
       app.add_subcommand("check", "Rerun validation cases and compare them with their references");
-  CLI::Option* directories = command->add_option(
-      "directory", arguments->directories,
-      "Folder of a case: case.toml and check.toml; or, with --against, the name "
-      "of a benchmark");
+  CLI::Option* directories =
+      command->add_option("directory", arguments->directories,
+                          "Folder of a case (case.toml and check.toml), or its name in --cases, "
+                          "or, with --against, the name of a benchmark");
   command->add_flag("--all", arguments->is_all, "Every case below --cases")->excludes(directories);
-  command->add_option("--cases", arguments->cases, "Folder of the cases, with --all [cases]");
+  command->add_option("--cases", arguments->cases, "Folder of the cases [cases]");
   command->add_option("-o,--output", arguments->output,
                       "Folder for the runs and check.html [out/check]; with --against, a .csv for "
                       "the differences [none]");

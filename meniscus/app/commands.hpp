@@ -79,7 +79,7 @@ int compare_command(const CompareArguments& arguments);
 
 struct CheckArguments {
   std::vector<std::string> directories;
-  std::string cases = "cases";  ///< where --all looks
+  std::string cases = "cases";  ///< where --all and bare names look
   std::string output;           ///< runs, and check.html [out/check]; with `against` a table [none]
   bool is_all = false;
   bool is_short = false;          ///< only the runs marked short

@@ -9,7 +9,7 @@
 namespace meniscus {
 
 /// Throws InvalidInput when a bulk scalar or a field has the name of an array that frames always
-/// hold, or a field that of a scalar.
+/// hold. So it does when a field has that of a scalar.
 void check_field_names(const Evolution& evolution);
 
 /// The arrays of a surface frame: on vertices and faces of all interfaces, one after the other.
@@ -21,10 +21,10 @@ struct VolumeArrays {
 };
 [[nodiscard]] VolumeArrays volume_arrays(const Evolution& evolution);
 
-/// Writes all interfaces with curvature κ, normal velocity, velocity, vertex density, pressure jump
-/// p_out − p_in (where the solver has a pressure), drop id, carried fields and bulk scalars. Flat
-/// faces make a .vtp, curved ones a .vtu of quadratic triangles. `path` has no extension; returns
-/// the file's, with it.
+/// Writes all interfaces with curvature κ, normal velocity, velocity, vertex density, drop id,
+/// carried fields and bulk scalars. The pressure jump p_out − p_in is written where the solver has
+/// a pressure. Flat faces make a .vtp, curved ones a .vtu of quadratic triangles. `path` has no
+/// extension; returns the file's, with it.
 std::filesystem::path write_surface_frame(const std::filesystem::path& path,
                                           const Evolution& evolution);
 /// Writes the volume mesh with velocity, pressure and concentrations of species (double valued on

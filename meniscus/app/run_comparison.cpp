@@ -253,8 +253,8 @@ class Comparison {
     if (!row.worst) row.note = "not reached";
   }
 
-  /// Where a curve is compared: at the abscissae of the check, else at the reference's rows, else
-  /// (between two runs) at equal distances over their common range.
+  /// Where a curve is compared: at the abscissae of the check, else at the reference's rows. Two
+  /// runs are compared at equal distances over their common range.
   static std::vector<double> abscissae(const CheckedQuantity& quantity, const Series& measured,
                                        const Series& reference) {
     if (!quantity.at.empty()) return quantity.at;

@@ -27,8 +27,8 @@ struct RowAtStep {
   const Row& row;
 };
 
-/// A column that a table has once for each bulk scalar, or for each of one kind: what follows the
-/// scalar's name, its unit, and its value.
+/// A column that a table has once for each bulk scalar, or for each of one kind. It has what
+/// follows the scalar's name, its unit, and its value.
 template <class Value>
 struct ScalarColumn {
   enum class Of { every, heat, species } of;
@@ -60,8 +60,8 @@ struct RunPhysics {
 [[nodiscard]] std::span<const ScalarColumn<ScalarTotals>> history_scalar_columns();
 [[nodiscard]] std::span<const ScalarColumn<ScalarOnDrop>> drop_scalar_columns();
 
-/// The columns of history.csv, drops.csv and events.csv in a run: the fixed ones, those of inertia
-/// where there is any, then all of the first scalar, of the second, ….
+/// The columns of history.csv, drops.csv and events.csv in a run. First are the fixed ones, those
+/// of inertia where there is any, then all of the first scalar, of the second, ….
 [[nodiscard]] std::vector<std::string> history_names(const RunPhysics& physics);
 [[nodiscard]] std::vector<std::string> drop_names(const RunPhysics& physics);
 [[nodiscard]] std::vector<std::string> event_names(const RunPhysics& physics);

@@ -16,8 +16,8 @@ struct ScalarArrays {
 [[nodiscard]] ScalarArrays scalars_in_volume(const Scene& scene, const TetMesh& mesh,
                                              const BulkScalars& scalars);
 
-/// The values of bulk scalars at the vertices of all interfaces, one interface after the other: T
-/// of heat, c of a species on the outer side.
+/// The values of bulk scalars at the vertices of all interfaces, one interface after the other.
+/// They are T of heat, c of a species on the outer side.
 [[nodiscard]] std::vector<io::NamedArray> scalars_on_interfaces(const Scene& scene,
                                                                 const TetMesh& mesh,
                                                                 const BulkScalars& scalars);

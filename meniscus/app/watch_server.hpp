@@ -26,8 +26,8 @@ class WatchServer {
     std::string text = {};                                ///< the body, unless `shared` is set
     std::shared_ptr<const std::string> shared = nullptr;  ///< a body shared by many answers
   };
-  /// Called on the server's thread with the path of the request (never a file name) and the whole
-  /// number given as `from` or `number`, if any.
+  /// Called on the server's thread with the path of the request, never a file name. `from` or
+  /// `number` is the whole number given, if any.
   using Handler = std::function<Answer(std::string_view path, std::optional<std::int64_t> number)>;
 
   /// Throws InvalidInput when the address is invalid or cannot be listened at.

@@ -112,8 +112,8 @@ void add_drops(const Case& c, Scene& scene) {
                     interface.inside.value, interface.outside.value);
 }
 
-/// The drop that a message about a conflict names: the later of the first two drops that touch, in
-/// the order of find_conflict, else the first drop that is not inside the boundary.
+/// The drop that a message about a conflict names. It is the later of the first two drops that
+/// touch, else the first one that is not inside the boundary.
 std::size_t drop_in_conflict(const Scene& scene) {
   const auto& interfaces = scene.interfaces;
   for (std::size_t i = 0; i < interfaces.size(); ++i)

@@ -131,15 +131,15 @@ struct Case {
                               const std::filesystem::path& folder = {},
                               std::span<const std::string> overrides = {});
 
-/// The case with all defaults that apply, in its own units, as a case file and as JSON (nested like
-/// the file; inf is the string "inf"). `parse_case` of the case file gives the same case bit for
-/// bit.
+/// The case with all defaults that apply, in its own units, as a case file and as JSON. JSON is
+/// nested like the file; inf is the string "inf". `parse_case` of the case file gives the same case
+/// bit for bit.
 [[nodiscard]] std::string case_toml(const Case& c);
 [[nodiscard]] std::string case_json(const Case& c);
 
 /// The initial scene of a case. Throws InvalidInput, naming line, drop and position, when a surface
-/// is unfit, when drops touch each other or the boundary or lie outside it, when the imposed
-/// velocities have a net flux and no patch is open, or when a scalar has no value where they enter.
+/// is unfit, or when drops touch each other or the boundary or lie outside it. So it does when
+/// imposed velocities have a net flux and no patch is open, or a scalar no value where they enter.
 [[nodiscard]] Scene build_scene(const Case& c);
 /// The initial scene without interfaces. A resumed run needs no more, so that the drops' surface
 /// files may be gone.

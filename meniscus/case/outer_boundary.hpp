@@ -13,8 +13,8 @@ namespace meniscus {
 [[nodiscard]] std::vector<int> shape_tags(DomainCase::Shape shape, std::string_view name);
 
 /// The triangulated outer boundary with a condition on every patch. Throws InvalidInput naming the
-/// line when a surface file is unfit, when its tags and the [[domain.patch]] do not match, or when
-/// a scalar has no value where liquid enters.
+/// line when a surface file is unfit, or when its tags and the [[domain.patch]] do not match. So it
+/// does when a scalar has no value where liquid enters.
 [[nodiscard]] OuterBoundary build_boundary(const Case& c);
 
 }  // namespace meniscus

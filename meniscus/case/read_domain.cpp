@@ -56,7 +56,7 @@ PatchCase read_patch(Settings& settings, const DomainCase& domain, const std::st
   return patch;
 }
 
-/// Whether v = G·x has no component along z and does not vary along it, at all times: then the
+/// Whether v = G·x has no component along z and does not vary along it, at all times. Then the
 /// z-faces of a box may be planes of symmetry.
 bool is_in_xy_plane(const ImposedFlow& flow) {
   const auto is_planar = [](const Mat3& g) { return g.row(2).isZero(0.0) && g.col(2).isZero(0.0); };

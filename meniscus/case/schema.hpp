@@ -67,8 +67,8 @@ struct Table {
 /// The words in quotes, separated by commas.
 [[nodiscard]] std::string quoted_list(std::span<const std::string_view> words);
 
-/// Why a value is not in the key's range, such as "must be > 0" or "must be finite and at least 0";
-/// empty when it is.
+/// Why a value is not in the key's range, such as "must be > 0" or "must be finite and at least 0".
+/// It is empty when it is.
 [[nodiscard]] std::string range_complaint(const Key& key, const Value& value);
 /// Throws InvalidInput unless the value is in the key's range or words. For a key with a dimension
 /// it only requires a finite value: `Settings` checks the range once [scale] is known. The message

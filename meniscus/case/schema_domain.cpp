@@ -74,13 +74,13 @@ const std::vector<Key> kDomainKeys{
      .default_note = "2.0; 1.5 with P2-P1 elements",
      .applies = kWithElements,
      .sentence =
-         "Largest tetrahedron, in regular ones of the wanted edge; half doubles the nodes."},
+         "Largest tetrahedron, in regular ones of the wanted edge. Half doubles the nodes."},
     {.path = "domain.interior-growth",
      .range = {.min = 0.0, .max = 10.0},
      .value = 0.5,
      .applies = kWithElements,
-     .sentence = "Growth of edges with distance from the surface, inside drops and in liquid "
-                 "without a farther surface."},
+     .sentence =
+         "Growth of edges away from the surface, in drops and liquid without a farther one."},
     {.path = "domain.radius-edge",
      .range = {.min = 1.1, .max = 10.0},
      .value = 1.4,
@@ -115,14 +115,14 @@ const std::vector<Key> kDomainKeys{
      .words = {"flow"},
      .value = "flow"s,
      .applies = "with condition = \"velocity\"",
-     .sentence = "\"flow\": v = G·x with its schedule; else constant, [0, 0, 0] for a wall."},
+     .sentence = "\"flow\": v = G·x with its schedule. Else constant; a wall: [0, 0, 0]."},
     {.path = "domain.patch[].profile",
      .type = word,
      .words = words::list(words::profiles),
      .value = "uniform"s,
      .applies = "with a velocity of three numbers",
-     .sentence = "parabolic: velocity · max(0, 1 - d²/a²), d from profile-center, a the "
-                 "profile-radius, as in a pipe."},
+     .sentence = "parabolic, as in a pipe: velocity · max(0, 1 - d²/a²). d is the distance from "
+                 "profile-center, a profile-radius."},
     {.path = "domain.patch[].profile-center",
      .type = vector,
      .dimension = Dimension::length,

@@ -18,8 +18,8 @@ const std::vector<Key> kFlowKeys{
      .type = word,
      .words = words::list(words::flow_kinds),
      .default_note = "required, or gradient",
-     .sentence = "v = (y, 0, 0), (x, -y/2, -z/2), (x, -y, 0) or 0; decides measures of drops and a "
-                 "box's default conditions."},
+     .sentence = "v = (y, 0, 0), (x, -y/2, -z/2), (x, -y, 0) or 0. Sets drops' measures and a "
+                 "box's conditions."},
     {.path = "flow.gradient",
      .type = matrix,
      .dimension = Dimension::rate,

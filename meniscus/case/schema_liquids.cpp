@@ -20,10 +20,9 @@ constexpr std::string_view kWithLaw = "with viscosity-law = \"carreau-yasuda\" o
 constexpr std::string_view kWithCarreau = "with viscosity-law = \"carreau-yasuda\"";
 constexpr std::string_view kWithPowerLaw = "with viscosity-law = \"power-law\"";
 constexpr std::string_view kLawSentence =
-    "Viscosity's factor at the rate of shear g = sqrt(2 D:D): 1, r + (1 - r)(1 + (t g)^a)^((n - "
-    "1)/a), or g^(n - 1) within bounds.";
-constexpr std::string_view kIndexSentence =
-    "n: below 1 the liquid thins with shear, above 1 it thickens.";
+    "Viscosity's factor: 1, r + (1 - r)(1 + (t g)^a)^((n - 1)/a), or g^(n - 1) within bounds. g = "
+    "sqrt(2 D:D) is the rate of shear.";
+constexpr std::string_view kIndexSentence = "n: below 1 the liquid thins, above it thickens.";
 constexpr std::string_view kConstantSentence = "t: thinning begins at rates about 1/t.";
 constexpr std::string_view kYasudaSentence = "a: how sharply; 2 is Carreau's law.";
 constexpr std::string_view kInfiniteSentence = "r: viscosity at infinite rate over that at rest.";
@@ -96,9 +95,8 @@ const std::vector<Key> kLiquidKeys{
     {.path = "drop[].surface",
      .type = path,
      .default_note = kShapeRequired,
-     .sentence =
-         "A closed surface in one piece, of polygons (stl, ply, obj, off, vtp, vtu), relative "
-         "to the case file."},
+     .sentence = "A closed surface in one piece (stl, ply, obj, off, vtp, vtu), relative to the "
+                 "case file."},
     {.path = "drop[].repair",
      .type = flag,
      .value = false,

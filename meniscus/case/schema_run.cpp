@@ -18,27 +18,26 @@ const std::vector<Key> kRunKeys{
      .words = words::list(words::capillary_forms),
      .value = "weak"s,
      .applies = kWithElements,
-     .sentence = "Capillary force: weak (by parts, eq. 15), nodal (a paraboloid's curvature, eqs "
-                 "16-17), balanced (no flow at constant curvature)."},
+     .sentence = "Capillary force: by parts (eq. 15), a paraboloid's (eqs 16-17), or none at "
+                 "constant curvature."},
     {.path = "interface.motion-normal",
      .type = word,
      .words = words::list(words::motion_normals),
      .value = "area-vector"s,
-     .sentence =
-         "Normal of motion: area-vector (keeps volume to round-off), fit (the paper's paraboloid), "
-         "smooth (fitted surface; boundary integrals), faces (mean over curved faces; P2-P1)."},
+     .sentence = "area-vector keeps volumes to round-off. fit: the paper's paraboloid. smooth: a "
+                 "fitted surface, by boundary integrals. faces: mean over curved faces, P2-P1."},
     {.path = "interface.volume-motion",
      .type = word,
      .words = words::list(words::volume_motions),
      .value = "spines"s,
      .applies = kWithElements,
-     .sentence = "How inner vertices follow: on rays from the drop's centre (a single star-shaped "
-                 "one; else harmonic), with the liquid, or by harmonic extension."},
+     .sentence = "How inner vertices follow: on rays from the drop's centre, with the liquid, or "
+                 "harmonically. Without one star-shaped drop spines are harmonic."},
     {.path = "interface.remesh-every",
      .type = whole,
      .range = kCountOrNone,
      .default_note = "0; 1 with time.control = \"paper\"",
-     .sentence = "Steps between remeshings of the interfaces; 0: when edges or density of vertices "
+     .sentence = "Steps between remeshings of interfaces. 0: when edges or density of vertices "
                  "leave their range."},
     {.path = "interface.equilibrium",
      .range = {.min = 0.0, .max = 0.99},
@@ -54,7 +53,7 @@ const std::vector<Key> kRunKeys{
      .type = whole,
      .range = {.min = 0, .max = 100},
      .default_note = "15 with P2-P1; 0 without",
-     .sentence = "Edges around a neck or thread, down to the edge floor; 0: as nodes gives."},
+     .sentence = "Edges around a neck, down to the edge floor; 0: as nodes gives."},
     {.path = "interface.gap-layers",
      .type = whole,
      .range = {.min = 0, .max = 100},
@@ -126,8 +125,8 @@ const std::vector<Key> kRunKeys{
      .words = words::list(words::time_schemes),
      .default_note = "\"semi-implicit\"; \"rk2\" with control = \"paper\"; \"implicit\" with "
                      "inertia",
-     .sentence = "Midpoint rule (eq. 22), explicit Euler (eq. 21), midpoint rule with damped "
-                 "tension, Runge-Kutta-Chebyshev of 3 to 24 solves, or inertia's."},
+     .sentence =
+         "Midpoint (eq. 22), Euler (eq. 21), damped midpoint, Runge-Kutta-Chebyshev, inertia's."},
     {.path = "time.end",
      .dimension = Dimension::time,
      .range = kNotNegative,
@@ -137,8 +136,7 @@ const std::vector<Key> kRunKeys{
      .type = word,
      .words = words::list(words::step_controls),
      .default_note = "\"paper\" with step-factor, step-edges or \"euler\", else \"error\"",
-     .sentence = "What sets steps: the paper's rule, or the error with bounds from stability, "
-                 "motion and necks."},
+     .sentence = "What sets steps: the paper's rule, or errors, stability and necks."},
     {.path = "time.tolerance",
      .range = {.min = 0.0, .max = 1.0, .open_min = true},
      .value = kDefaultTolerance,
@@ -190,10 +188,9 @@ const std::vector<Key> kRunKeys{
     {.path = "time.stop-when.patch-gap",
      .dimension = Dimension::length,
      .range = {.min = 0.0, .max = 1e6},
-     .default_note = "the mean edge of the drop there",
+     .default_note = "the mean edge there",
      .applies = "where a patch is open",
-     .sentence = "A drop is nearer than this to an open patch, or would be after the next step; 0: "
-                 "never."},
+     .sentence = "A drop comes this near to an open patch. 0: never."},
 
     {.path = "output.interval",
      .dimension = Dimension::time,

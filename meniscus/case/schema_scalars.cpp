@@ -11,7 +11,7 @@ using enum Type;
 constexpr std::string_view kOfHeat = "with kind = \"heat\"";
 constexpr std::string_view kOfSpecies = "with kind = \"species\"";
 constexpr std::string_view kWithHistory = "with peclet > 0";
-constexpr std::string_view kWithSpot = "with peclet > 0 and a spot-height other than 0";
+constexpr std::string_view kWithSpot = "with peclet > 0 and a spot-height";
 constexpr std::string_view kWithValue = "with condition = \"value\"";
 constexpr std::string_view kSpotSentence =
     "Adds spot-height exp(-d²/(2 spot-width²)), d the distance from spot-center.";

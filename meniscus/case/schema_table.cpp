@@ -23,8 +23,8 @@ const std::vector<Table> kTables{
      "The outer boundary, centred at the origin. The imposed flow holds on it; z-faces of a box in "
      "simple shear are symmetries. A surface needs a [[domain.patch]] for every tag."},
     {"domain.patch[]", true,
-     "The condition on a part of the boundary: x-, x+, y-, y+, z-, z+ of a box; side, x-, x+, ends "
-     "of a cylinder; all of a sphere; tags of a surface."},
+     "The condition on a part of the boundary. Parts of a box: x-, x+, y-, y+, z-, z+; of a "
+     "cylinder: side, x-, x+, ends; of a sphere: all; of a surface: tags."},
     {"scalar[]", true,
      "A temperature or dissolved species T, with finite elements: Pe (C dT/dt + C v·grad T - q) = "
      "div(K grad T) + Br 2 mu D:D. C and K are over the matrix's. All keys are dimensionless, with "

@@ -25,8 +25,8 @@ struct Scale {
 };
 
 /// The values of a case: as given, else the schema's defaults. Numbers are returned dimensionless.
-/// Records which keys were read, so that a key without effect can be refused, and the source of
-/// each, so that later checks can name the line.
+/// Records which keys were read, so that a key without effect can be refused. It records the source
+/// of each, so that later checks can name the line.
 class Settings {
  public:
   Settings() = default;

@@ -55,8 +55,8 @@ using StudyPoint = std::vector<std::string>;
 [[nodiscard]] Case case_at(const StudyFile& study, const StudyPoint& point,
                            std::optional<double> value = std::nullopt);
 
-/// Reads the case at every point. Throws InvalidInput at the first fault, or where the case does
-/// not say when a run of a bisection is steady and when it is broken.
+/// Reads the case at every point. Throws InvalidInput at the first fault. So it does where the case
+/// does not say when a run of a bisection is steady and when broken.
 void require_valid_cases(const StudyFile& study);
 
 /// A number with six significant digits, as names of runs and brackets have it.

@@ -79,7 +79,7 @@ double given_volume(const SurfaceMesh& mesh, SurfaceShape faces) {
 }
 
 /// Refuses a surface whose faces, curved as the solver takes them, do not enclose about what the
-/// flat ones do: it is too coarse to show what curves.
+/// flat ones do. It is too coarse to show what curves.
 void require_volume(const Case& c, int index, const SurfaceMesh& mesh, double curved) {
   const double flat = enclosed_volume(mesh);
   if (curved > kLeastVolumeKept * flat && curved < kMostVolumeKept * flat) return;
@@ -90,7 +90,7 @@ void require_volume(const Case& c, int index, const SurfaceMesh& mesh, double cu
 }
 
 /// Remeshes a surface to the vertex density of its drop and keeps its volume. With curved faces the
-/// remesher does not restore the volume of flat faces: that would move vertices off the surface,
+/// remesher does not restore the volume of flat faces. That would move vertices off the surface,
 /// and undoing it by an even shift would thin the necks. If the remesher fails, the surface stays
 /// as given and the log says so.
 void resolve(const Case& c, int index, SurfaceMesh& mesh) {
@@ -113,7 +113,7 @@ constexpr int kEllipsoidOversampling = 4;
 
 /// The volume of an ellipsoid. Flat faces are made to enclose exactly this volume, so that vertices
 /// lie slightly outside the shape. A mesh inscribed in the sphere would lack 5.4/N0 of it and
-/// behave as a drop of smaller R0, the largest error of all at the paper's N0.
+/// behave as a drop of smaller R0. That is the largest error of all at the paper's N0.
 double ellipsoid_volume(const Vec3& axes) { return 4.0 / 3.0 * std::numbers::pi * axes.prod(); }
 
 }  // namespace

@@ -15,9 +15,9 @@ namespace meniscus {
 [[nodiscard]] TaggedSurface read_case_surface(const Case& c, const std::string& path,
                                               const std::filesystem::path& file, bool mends);
 
-/// The shape of one drop in the newest checkpoint-<step>.h5 of a run's folder: archive entries
-/// interfaces/<i>/x (3|V| reals), interfaces/<i>/faces (3|F| integers) and interfaces/<i>/ids, the
-/// first of which is the drop's.
+/// The shape of one drop in the newest checkpoint-<step>.h5 of a run's folder. It is read from the
+/// archive entries interfaces/<i>/x (3|V| reals), interfaces/<i>/faces (3|F| integers) and
+/// interfaces/<i>/ids, the first of which is the drop's.
 [[nodiscard]] SurfaceMesh read_run_surface(const Case& c, const std::string& path,
                                            const RunShape& shape);
 

@@ -5,7 +5,7 @@
 namespace meniscus {
 
 /// Makes the C library keep freed memory, large arrays included, for later allocations. The system
-/// need not clear its pages again: with a million nodes a second solve then takes three quarters of
+/// need not clear its pages again. With a million nodes a second solve then takes three quarters of
 /// the time of the first (docs/benchmark-stokes.md).
 inline void keep_freed_memory() {
   mallopt(M_MMAP_MAX, 0);

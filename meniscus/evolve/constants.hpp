@@ -11,7 +11,7 @@ namespace meniscus {
 /// again at half its length. Remeshing by itself shifts vertices by less than a tenth of this
 /// (tests/surface/remesh_test.cpp).
 inline constexpr double kMostShiftOverEdge = 0.01;
-/// Shortening a step is given up when more than this fraction of the shift remains: a shift caused
+/// Shortening a step is given up when more than this fraction of the shift remains. A shift caused
 /// by the step's length falls by a factor of 2 or more.
 inline constexpr double kShiftLeft = 0.9;
 /// A step is refused if it changes a drop's volume by a factor outside these bounds. A converged
@@ -29,12 +29,12 @@ inline constexpr double kUndampedShare = 0.5;
 /// more, the later slow motions are: that mode decays at 0.69 of A for λ = 1, at 0.79 for λ = 100.
 /// The least wave number of a stretched drop is then 1/R.
 inline constexpr double kSphereStiffness = 1.0;
-/// How much more waves on flat faces are damped: where the drop is viscous, linear elements let the
+/// How much more waves on flat faces are damped. Where the drop is viscous, linear elements let the
 /// shortest decay up to a fifth faster than the exact flow does. With 1.1 a deformed drop of a
 /// hundredfold viscosity became unstable (tests/evolve/semi_implicit_long_test.cpp).
 inline constexpr double kFacetedStiffness = 1.2;
 /// A shape whose turning moves it along its normals by less than the root of this, relative to the
-/// turning itself, is too round to have a spin: ellipsoids of D below 0.02.
+/// turning itself, is too round to have a spin. So are ellipsoids of D below 0.02.
 inline constexpr double kRoundness = 1e-3;
 /// [shortest edge] The tolerance of the error in a step where a case does not set one.
 inline constexpr double kDefaultTolerance = 0.03;
@@ -44,13 +44,13 @@ inline constexpr double kDefaultLongestStep = 1.0;
 /// fortieth of the slowest period, 2π(5/24)^½ for equal densities.
 inline constexpr double kDefaultLongestWave = 0.07;
 /// Edges around a neck where a case does not say how many and faces are splined. In a thinning
-/// filament the flow's power is then off by 2 % of what tension gives in the median and by 7 % at
-/// most, and by 29 to 58 % with ten.
+/// filament the flow's power is then off by 2 % of what tension gives in the median, by 7 % at
+/// most. With ten it is off by 29 to 58 %.
 inline constexpr int kDefaultNeckEdges = 15;
 /// A mesh that is kept is validated as a whole after this many steps. In every step its cells keep
 /// their orientation and its surfaces those of the scene.
 inline constexpr int kStepsBetweenChecks = 10;
-/// The next step aims at this fraction of the tolerance: the estimate of a step varies that much
+/// The next step aims at this fraction of the tolerance. The estimate of a step varies that much
 /// from the last one's, as interfaces are remeshed between them.
 inline constexpr double kAimedShare = 0.6;
 /// Steps grow by no more than this factor.

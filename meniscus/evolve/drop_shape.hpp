@@ -26,7 +26,7 @@ struct DropShape {
                                    const ReconstructedSurface& faces);
 
 /// (a − c)/(a + c), a and c the largest and the smallest half-axis of the ellipsoid with these
-/// second moments ∫ (x − c)(x − c)ᵀ dV about its centroid: along an axis a it is V a²/5.
+/// second moments. They are ∫ (x − c)(x − c)ᵀ dV about its centroid: along an axis a it is V a²/5.
 [[nodiscard]] double inertial_deformation(const Mat3& second_moments, double volume);
 
 }  // namespace meniscus

@@ -142,8 +142,8 @@ void Evolution::accept_step(const StepPlan& plan) {
   ++state_.step;
 }
 
-/// Table 1 of hooper2001 after the solve at t_k: find the mean motion of the step by the stages of
-/// the scheme, judge it, move the whole step with it, remesh.
+/// Table 1 of hooper2001 after the solve at t_k. The stages of the scheme find the mean motion of
+/// the step. It is judged, the whole step is moved with it, and remeshed.
 Report Evolution::try_step(const Scene& start, double dt) {
   const StageFlow whole = time_scheme_step(start, dt);
   if (!whole.ok()) return whole;
@@ -323,7 +323,7 @@ Report Evolution::finish_step(const Scene& start, const StageFlow& whole, double
 }
 
 /// Takes bulk scalars and surfactants through the step where the interfaces have moved and are not
-/// yet remeshed: what one loses the other takes up at the same vertices.
+/// yet remeshed. What one loses the other takes up at the same vertices.
 Report Evolution::exchange_with_liquids(const Scene& start, const FlowSolution& flow, double dt) {
   if (Report moved = move_mesh(start, mean_motion(start, state_.scene, dt), flow, dt); !moved.ok())
     return moved;

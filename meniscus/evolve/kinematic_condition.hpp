@@ -15,7 +15,7 @@ namespace meniscus {
 /// out by how much the vertices' normals differ from those of the surface that the flow is solved
 /// on. Else a shape along which liquid flows would settle where n·v = 0 with the wrong n. U, the
 /// rigid motion of the shape, needs no correction. Errors are O(h⁴) where rings are symmetric. A
-/// mean leaves the rates of the shortest waves as they were; the inverse of the mass matrix in its
+/// mean leaves the rates of the shortest waves as they were. The inverse of the mass matrix in its
 /// place would raise them to four times as much (docs/time-stepping.md).
 void follow_faces(const SurfaceMesh& mesh, const VertexField<Vec3>& normals,
                   const MiddleNodes& middles, VertexField<Vec3>& velocity);

@@ -15,8 +15,8 @@
 namespace meniscus {
 namespace {
 
-/// The radius of the circle of the same area as the section of the thinnest neck, of those thinner
-/// than half of the sphere of the same volume; on the smooth surface where faces are curved.
+/// The radius of the circle of the same area as the thinnest neck's section. Necks are thinner than
+/// half of the sphere of the same volume. It is taken on the smooth surface where faces are curved.
 std::optional<double> thinnest_neck(const Interface& interface, const ReconstructedSurface& faces) {
   const SurfaceMesh& mesh = interface.mesh;
   const SurfaceTree tree(mesh);

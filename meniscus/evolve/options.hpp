@@ -16,13 +16,13 @@ enum class TimeScheme {
 };
 /// Normal with which an interface vertex moves, ẋ = n n·v (eq. 23): of the area vector A_i (keeps
 /// the faceted volume's rate of change at round-off), of the paraboloid fit (the paper's), or of
-/// the smooth surface (O(h³), where that of an area vector on an irregular mesh is O(h)). `faces`
-/// takes the smooth normal, and lets curved faces follow the liquid in the mean (`follow_faces`).
+/// the smooth surface. The last is O(h³), an area vector's O(h) on irregular meshes. `faces` takes
+/// the smooth normal, and lets curved faces follow the liquid in the mean (`follow_faces`).
 enum class MotionNormal { area_vector, fit, smooth, faces };
 enum class StepEdges { interface, mesh };  ///< where the step rule takes l_min from
 
 /// How the length of a step is chosen: Δt = step_factor · min(1, Ca) · l_min (eq. 27 of
-/// hooper2001), or by the estimate of the step's error and the bounds of `step_control.hpp`.
+/// hooper2001). Or the estimate of the step's error and the bounds of `step_control.hpp` do.
 enum class StepControl { paper, error };
 /// The control of a case that does not name one.
 inline constexpr StepControl kDefaultStepControl = StepControl::error;
@@ -38,8 +38,8 @@ struct EvolutionOptions {
   StepEdges step_edges = StepEdges::interface;
   double max_step = 0.1;   ///< upper bound of Δt
   double min_step = 1e-6;  ///< a step that fails at this size ends the run
-  /// The frame of reference moves with the drops: after every step they are shifted so that their
-  /// centroid is where it was at the start, relative to the domain and the imposed flow.
+  /// The frame of reference moves with the drops. After every step they are shifted so that their
+  /// centroid is where it was at the start. That is relative to the domain and the imposed flow.
   /// Experiments hold a drop at a stagnation point in this way (bentley1986).
   bool follows_drops = false;
   /// Steps between remeshings; 0: when an interface is no longer fit (`is_fit`).

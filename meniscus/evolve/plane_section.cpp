@@ -45,8 +45,8 @@ Vec3 crossing(const CurvedEdge& edge, const auto& height) {
   return edge.point(0.5 * (low + high));
 }
 
-/// Extremum of |x − origin| on the parabola through three points in turn (parameter: chord length);
-/// the middle point itself where the parabola has none between them.
+/// Extremum of |x − origin| on the parabola through three points in turn (parameter: chord length).
+/// It is the middle point itself where the parabola has none between them.
 ExtremeDistance refine(const Vec3& before, const Vec3& at, const Vec3& after, const Vec3& origin) {
   const double r0 = (before - origin).norm(), r1 = (at - origin).norm(),
                r2 = (after - origin).norm();

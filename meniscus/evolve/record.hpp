@@ -64,7 +64,7 @@ struct SurfactantSpread {
 struct ScalarOnDrop {
   double amount = 0.0;  ///< ∫γT dV over the liquid just inside [R0³]
   /// Sherwood or Nusselt number 2R_d × mean outward flux density/(mean of the outer side −
-  /// reference), the flux over the matrix's diffusivity; empty where that difference is zero.
+  /// reference), the flux over the matrix's diffusivity. It is empty where that difference is zero.
   std::optional<double> transfer_number;
 };
 
@@ -85,7 +85,7 @@ struct DropRow {
   double volume_correction = 0.0;  ///< largest shift by the last restoration of volume [R0]
   DropShape shape;
   /// (area/π)^½ of the section of the thinnest neck thinner than half of the sphere of the same
-  /// volume [R0]; empty where there is none, and in runs without breakup.
+  /// volume [R0]. It is empty where there is none, and in runs without breakup.
   std::optional<double> neck_radius;
   std::optional<SurfactantSpread> surfactant;  ///< empty where there is none
   std::vector<ScalarOnDrop> scalars;           ///< by scalar of the scene

@@ -12,7 +12,7 @@ namespace meniscus {
 namespace {
 
 /// Where a point at x of the start is after `duration` of the rigid part of a motion, about the
-/// center that the shape had at the start.
+/// first center of the shape.
 Vec3 carried(const Vec3& x, const RigidMotion& first, RigidMotion motion, double duration) {
   motion.center = first.center;
   return motion.moved(x, duration);

@@ -23,17 +23,17 @@ struct ShapeMotion {
 /// each vertex sweeps per time, ∂V/∂x_v·v_v [G R0³].
 [[nodiscard]] Vec3 centroid_velocity(const SurfaceMesh& mesh, const VertexField<double>& swept);
 
-/// The rigid motion of an interface's shape: the velocity of the enclosed centroid, ∮x n·v dS/V,
-/// and the part sΩ, 0 ≤ s ≤ 1, of the mean spin Ω of v with which its normal speeds agree best. A
-/// drop that stands while its liquid goes round has none; one that is carried and turns has all of
-/// v.
+/// The rigid motion of an interface's shape. It has the velocity of the enclosed centroid, ∮x n·v
+/// dS/V. It has the part sΩ, 0 ≤ s ≤ 1, of the mean spin Ω of v with which its normal speeds agree
+/// best. A drop that stands while its liquid goes round has none; one that is carried and turns has
+/// all of v.
 [[nodiscard]] RigidMotion rigid_motion_of_shape(const SurfaceMesh& mesh,
                                                 const VertexField<Vec3>& velocity);
 
 /// ẋ in the scene that the motion was made for.
 [[nodiscard]] InterfaceMotion velocity_of(const ShapeMotion& motion, const Scene& scene);
 /// The constant velocities that take the vertices of `start` for `duration` along with a motion
-/// found on the way: shapes turn about the centers of `first`, the motion at the start, by
+/// found on the way. Shapes turn about the centers of `first`, the motion at the start, by
 /// rotations, not along tangents.
 [[nodiscard]] InterfaceMotion mean_motion(const Scene& start, const ShapeMotion& first,
                                           const ShapeMotion& motion, double duration);

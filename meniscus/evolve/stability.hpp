@@ -5,13 +5,13 @@
 
 namespace meniscus {
 
-/// The fastest rate at which tension smooths a wave that the interfaces' vertices can show [G], or
-/// the elasticity of a surfactant one of its concentration.
-/// A wave of wave number k decays at σk/(2(μ_in + μ_out)), and a triangulation of edge h shows
-/// k ≤ √6/h: the largest √6 σ/(2 (μ_in + μ_out) h) of all vertices, h the mean edge at the vertex.
-/// By power iteration the fastest wave of boundary integrals has 0.66 to 0.74 of it
-/// (tests/evolve/stability_test.cpp), which is the margin of the steps below.
-/// The viscosities are those of the liquids at rest: thinning liquids flow faster.
+/// The fastest rate at which tension smooths a wave that the interfaces' vertices can show [G]. Or
+/// the elasticity of a surfactant does so with its concentration. A wave of wave number k decays at
+/// σk/(2(μ_in + μ_out)), and a triangulation of edge h shows k ≤ √6/h. It is the largest √6 σ/(2
+/// (μ_in + μ_out) h) of all vertices, h the mean edge at the vertex. By power iteration the fastest
+/// wave of boundary integrals has 0.66 to 0.74 of it (tests/evolve/stability_test.cpp), which is
+/// the margin of the steps below. The viscosities are those of the liquids at rest: thinning
+/// liquids flow faster.
 [[nodiscard]] double capillary_rate(const Scene& scene);
 /// The fastest rate at which surfactant diffuses from vertex to vertex, 20 D/h² [G]: on equilateral
 /// triangles it is 15 D/h².

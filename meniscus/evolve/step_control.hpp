@@ -46,15 +46,15 @@ struct StepRecord {
 /// The length with which the step from a state is tried first. It depends on the state alone.
 ///
 /// With StepControl::paper (eq. 27 of hooper2001): Δt = step_factor · min(1, 1/tension) · l_min, at
-/// most `max_step`; tension is the largest of all interfaces, l_min the shortest edge that the
+/// most `max_step`. Tension is the largest of all interfaces, l_min the shortest edge that the
 /// options look at.
 ///
-/// With StepControl::error the shortest of: the step that makes the error the aimed share of the
-/// tolerance, error ~ Δt²; those that make each travel what is aimed at; the scheme's longest
-/// stable step; a multiple of the step before; `max_step`. Where there is no step to go by, a
-/// fraction of the midpoint rule's longest stable step, in which the imposed flow moves no vertex
-/// farther than a fraction of its edge. A step ends where the imposed flow jumps, and at
-/// the ends of a ramp.
+/// With StepControl::error the shortest of several. One makes the error, ~ Δt², the aimed share
+/// of the tolerance, others each travel what is aimed at. The rest are the scheme's longest
+/// stable step, a multiple of the last and `max_step`. Where there is no step to go by, a
+/// fraction of the midpoint rule's longest stable step. In it the imposed flow moves no vertex
+/// farther than a fraction of its edge. A step ends where the imposed flow jumps, and at the ends
+/// of a ramp.
 [[nodiscard]] StepPlan step_plan(const State& state, const EvolutionOptions& options);
 
 /// A fault where the estimated error of an attempt exceeds the tolerance or, with

@@ -16,11 +16,11 @@ namespace meniscus {
 
 /// [1/G] The window over which rules measure how fast a drop's length changes.
 inline constexpr double kRateWindow = 1.0;
-/// [G] A drop that grows more slowly than this share of its length is no runaway: its rate may rise
+/// [G] A drop that grows more slowly than this share of its length is no runaway. Its rate may rise
 /// by the noise of a steady length.
 inline constexpr double kLeastGrowth = 1e-3;
 /// [mean edge at the vertex] A drop nearer to an open patch than this ends the run where a case
-/// does not set a distance: the gap would have no room for a layer of cells as large as the drop's
+/// does not set a distance. The gap would have no room for a layer of cells as large as the drop's
 /// faces.
 inline constexpr double kPatchGapInEdges = 1.0;
 
@@ -124,9 +124,9 @@ struct PatchContact {
   std::string patch;
 };
 /// The first drop with a vertex that is nearer to an open patch than `gap` [R0], or than the mean
-/// edge there where no gap is given, or would be after the step ahead. A step bounds the way of
-/// vertices in edges, but for the rigid motion of their drop: one step could carry a drop through
-/// the patch. None where nothing is that near.
+/// edge there where no gap is given. So is one that would be after the step ahead. A step bounds
+/// the way of vertices in edges, but for the rigid motion of their drop. One step could carry a
+/// drop through the patch. None where nothing is that near.
 [[nodiscard]] std::optional<PatchContact> find_patch_contact(const Scene& scene,
                                                              const StepAhead& next,
                                                              std::optional<double> gap = {});

@@ -17,8 +17,8 @@ using Vec2 = Eigen::Vector2d;
 constexpr double kFirstDifference = 0.3;
 constexpr int kRounds = 4;
 
-/// The way from u = 0 to the extremum of f(u) = f0 + g·u + ½uᵀMu, a maximum for sign > 0, along
-/// each eigenvector of M of the right curvature, by at most `reach`.
+/// The way from u = 0 to the extremum of f(u) = f0 + g·u + ½uᵀMu, a maximum for sign > 0. It goes
+/// along each eigenvector of M of the right curvature, by at most `reach`.
 Vec2 way_to_extremum(const Vec2& g, const Eigen::Matrix2d& M, double sign, double reach) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(M);
   Vec2 way = Vec2::Zero();

@@ -87,7 +87,7 @@ using ConcentrationRates = std::vector<VertexField<double>>;
                                                               const TetMesh& mesh,
                                                               const BulkScalars& scalars);
 /// The rates j = Bi [K c (1 − XΓ) − Γ] at which a step of length τ is to expect that surfactants
-/// adsorb, by interface; empty where none is soluble [G]:
+/// adsorb, by interface [G]. They are empty where none is soluble:
 ///   j/[1 + τ Bi (1 + K X c)],
 /// right to first order in τ. It never leads beyond equilibrium with the c at hand.
 [[nodiscard]] ConcentrationRates expected_adsorption(const Scene& scene,
@@ -102,17 +102,17 @@ using ConcentrationRates = std::vector<VertexField<double>>;
 /// changes by round-off alone.
 void move_surfactant(Scene& scene, const SurfactantPath& path, const AmountRates& rates);
 /// Gives the interfaces that took the place of others, by remeshing, restored volumes or events,
-/// their amounts: each drop its own, new ones by one factor all of those that are gone. Fields are
-/// conserved as amounts on flat faces, which differ.
+/// their amounts. Each drop gets its own, new ones by one factor all of those that are gone. Fields
+/// are conserved as amounts on flat faces, which differ.
 void keep_surfactant(Scene& scene, const Scene& before, Carriers& carriers);
 
 /// Adds to concentrations what the surfactants took up at their vertices in `duration`, beyond what
-/// they hold as expected; both by interface, empty where they took up nothing.
+/// they hold as expected. Both are by interface, empty where they took up nothing.
 void take_up(Scene& scene, std::span<const VertexField<double>> uptake, const AmountRates& expected,
              double duration, Carriers& carriers);
 
-/// max_v |Δc_v|/⟨Γ⟩ R/h over all vertices, Δc being the `settled` concentration of dt Δṁ: how far
-/// rates of second and of first order take a concentration apart in a step. It counts as
+/// max_v |Δc_v|/⟨Γ⟩ R/h over all vertices, Δc being the `settled` concentration of dt Δṁ. It is how
+/// far rates of second and of first order take a concentration apart in a step. It counts as
 /// `step_error` counts a displacement over the radius R of the drop's sphere. h is its mean edge.
 [[nodiscard]] double surfactant_error(const SurfactantPath& path,
                                       const SurfactantTransport& transport,

@@ -22,8 +22,8 @@ struct StageFlow : Report {
   SurfactantTransport surfactant = {};  ///< at this instant
   /// With which the amounts of surfactant change where the vertices move with `motion`.
   AmountRates amount_rates = {};
-  /// Σ tension · dS/dt of the triangulations as they move at this stage; of a whole step the mean
-  /// over the step, of the order of the scheme [μ_out G² R0³].
+  /// Σ tension · dS/dt of the triangulations as they move at this stage. Of a whole step it is the
+  /// mean over the step, of the order of the scheme [μ_out G² R0³].
   double surface_rate = 0.0;
   /// Whether the scheme damps waves faster than it resolves, so that it is stable at any step.
   bool damps_waves = false;
@@ -91,7 +91,7 @@ struct StageDampers {
                                            const StageSolver& solve, const StageDampers& damp);
 /// Liquids with inertia: diagonally implicit, of second order, with γ = 1 − 1/√2 at both of its
 /// stages, γΔt and Δt after t (alexander1977). It damps what is fast. The velocity at the end is
-/// that of the second stage, at the mesh that the motion expected of it leads to; the interfaces go
+/// that of the second stage, at the mesh that the motion expected of it leads to. The interfaces go
 /// on to where its own leads. `expect` slows expected speeds by what tension will do in a stage.
 /// Surfactants go with the transport of the stages, in the shares that the motion takes them.
 [[nodiscard]] StageFlow implicit_step(const StageFlow& first, const Step& step,
@@ -100,7 +100,7 @@ struct StageDampers {
 inline constexpr double kImplicitShare = 1.0 - 0.5 * std::numbers::sqrt2;
 
 /// Runge–Kutta–Chebyshev with `num_stages` ≥ 3 (chebyshev.hpp). The motion of first order that the
-/// estimate takes is the line through the stage j next to the middle, at c_j of the step: its
+/// estimate takes is the line through the stage j next to the middle, at c_j of the step. It is its
 /// difference over 1 − c_j. Short waves, which the stages damp, enter it at no more than a few
 /// times their height.
 [[nodiscard]] StageFlow chebyshev_step(const StageFlow& first, const Step& step, int num_stages,
@@ -109,7 +109,7 @@ inline constexpr double kImplicitShare = 1.0 - 0.5 * std::numbers::sqrt2;
 /// max_v dt |n·v − n·v*| / l_v over all vertices, l_v the shortest edge at the vertex when the step
 /// began. This is how far steps of second and of first order take a vertex apart along its normal,
 /// in edges. What takes a drop apart from itself as a whole is measured in the mean edge of the
-/// scene's coarsest drop, or in its own radius if that is less. The path of a satellite need not be
+/// scene's coarsest drop. It is its own radius if that is less. The path of a satellite need not be
 /// known better than that of its parents. The result is Δt²|n·ẍ|/2 to leading order. The error of
 /// the step, of third order, is smaller; that at a fixed time is proportional to it.
 [[nodiscard]] double step_error(const Step& step, const NormalSpeeds& second,

@@ -12,7 +12,7 @@
 namespace meniscus {
 namespace {
 
-/// A neck is where the surface bends this much less along than around it: a sphere has 1, a
+/// A neck is where the surface bends this much less along than around it. A sphere has 1, a
 /// cylinder 0 and the waist of a catenoid −1. Its other side is within so many radii: a round neck
 /// has 2. The rim of a cap bends as a neck does, but has no other side.
 constexpr double kMostAxialBend = 0.25, kFarthestSide = 6.0;

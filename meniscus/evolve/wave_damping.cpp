@@ -104,8 +104,8 @@ std::array<std::complex<double>, 3> cubic_roots(double p, double q, double r) {
   return {roots[0], roots[1], roots[2]};
 }
 
-/// What 1/(1 + q²) makes of s, Λ = M⁻¹K + k: with P(Λ) = (a + bΛ)² + c²Λ³ it is
-/// Σ_z (a + bz)²/P′(z)/(Λ − z) over the roots z of P.
+/// What 1/(1 + q²) makes of s, Λ = M⁻¹K + k. With P(Λ) = (a + bΛ)² + c²Λ³ it is Σ_z (a +
+/// bz)²/P′(z)/(Λ − z) over the roots z of P.
 Eigen::VectorXd slowed(const SparseMatrix& K, const Eigen::VectorXd& mass, double k,
                        const WaveOfStage& wave, const Eigen::VectorXd& s) {
   using Complex = std::complex<double>;

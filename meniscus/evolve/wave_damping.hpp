@@ -28,9 +28,9 @@ namespace meniscus {
 [[nodiscard]] NormalSpeeds expected_speeds(const Scene& scene, const NormalSpeeds& speeds,
                                            const NormalSpeeds& about, double duration);
 
-/// `damped_speeds` for rates ∂Γ/∂t of concentrations, less their means, with the largest Gibbs
-/// elasticity −Γ dσ/dΓ in the place of σ: an elastic surface evens out short waves of Γ at the rate
-/// E|q|/(2(μ_in + μ_out)). The masses are the areas S_v of the carriers, at whose vertices the
+/// `damped_speeds` for rates ∂Γ/∂t of concentrations, less their means. The largest Gibbs
+/// elasticity −Γ dσ/dΓ is in the place of σ: an elastic surface evens out short waves of Γ at the
+/// rate E|q|/(2(μ_in + μ_out)). The masses are the areas S_v of the carriers, at whose vertices the
 /// interfaces are, so that Σ S_v ∂Γ_v/∂t stays what it is. How the surface stretches belongs to
 /// these rates. Where a film all but resists it, stretching and flux cancel. Damping one of them
 /// would leave the other.

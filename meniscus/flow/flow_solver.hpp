@@ -30,15 +30,15 @@ struct BulkScalar {
   double boundary_rate = 0.0;  ///< amount per time through the outer boundary, inwards [R0³ G]
   double source_rate = 0.0;    ///< amount per time of sources [R0³ G]
   double least = 0.0, largest = 0.0;  ///< of the values at the start and of those given since
-  /// Amount per time that left each region, less its sources, by region; empty where no step tells
-  /// it: before the first, and after regions changed [R0³ G].
+  /// Amount per time that left each region, less its sources, by region [R0³ G]. It is empty where
+  /// no step tells it: before the first, and after regions changed.
   std::vector<double> region_loss = {};
   friend bool operator==(const BulkScalar&, const BulkScalar&) = default;
 };
 /// By scalar of the scene; the rates are those of the last step.
 using BulkScalars = std::vector<BulkScalar>;
 
-/// An implicit stage in a step of liquids with inertia: at nodes that come from x̄ within the
+/// An implicit stage in a step of liquids with inertia. At nodes that come from x̄ within the
 /// duration, v = v̄ + duration ∂v/∂t, the rate being that at the stage's instant.
 struct ImplicitStage {
   double duration = 0.0;         ///< [1/G]

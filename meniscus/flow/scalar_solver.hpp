@@ -43,8 +43,8 @@ struct [[nodiscard]] ScalarAdvance : Report {
   /// ∮φ_v j dS by interface: what its surfactant took up per time at each vertex, in the mean;
   /// empty where nothing is exchanged [G R0²].
   std::vector<VertexField<double>> uptake = {};
-  /// How far a step of first order would have led a scalar from there, the largest of all: the
-  /// masses' mean square of the difference over that of the change of a field across the domain.
+  /// How far a step of first order would have led a scalar from there, the largest of all. The
+  /// masses' mean square of the difference over that of a field's change across the domain.
   double error = 0.0;
 };
 

@@ -17,8 +17,8 @@ namespace meniscus {
 [[nodiscard]] bool do_intersect(const Triangle& triangle, const Vec3& p, const Vec3& q);
 /// Whether a point lies on a triangle, edges and corners included.
 [[nodiscard]] bool contains(const Triangle& triangle, const Vec3& p);
-/// Whether the triangles a b c and b a d lie folded on one another: in one plane, and c and d on
-/// the same side of a b.
+/// Whether the triangles a b c and b a d lie folded on one another. Then they are in one plane, and
+/// c and d on the same side of a b.
 [[nodiscard]] bool is_folded(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 }  // namespace meniscus

@@ -15,8 +15,8 @@ inline constexpr int kQuadraticNodes = 6;
 template <std::size_t Nodes>
 using TriangleNodes = std::array<Vec3, Nodes>;
 
-/// The linear or quadratic functions that are 1 at one node and 0 at the others, and their
-/// derivatives by b1 and b2, b0 = 1 − b1 − b2.
+/// The linear or quadratic functions that are 1 at one node and 0 at the others. Their derivatives
+/// are by b1 and b2, b0 = 1 − b1 − b2.
 template <std::size_t Nodes>
 struct TriangleShape {
   std::array<double, Nodes> value{}, by_1{}, by_2{};

@@ -6,7 +6,7 @@
 
 namespace meniscus::io {
 
-/// Writes `bytes` under a temporary name in the folder of `path`, syncs and renames: whoever opens
+/// Writes `bytes` under a temporary name in the folder of `path`, syncs and renames. Whoever opens
 /// `path` sees the old file or the new one, whole. A device is written in place. Throws RunFailure
 /// with the path and the system's reason when the disk refuses; the temporary is removed then.
 void write_file(const std::filesystem::path& path, std::string_view bytes);

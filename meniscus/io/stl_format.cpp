@@ -12,8 +12,8 @@
 namespace meniscus::io {
 namespace {
 
-// Binary STL: 80 bytes of any text, the number of triangles, then 50 bytes for each: normal and
-// three corners as 12 floats, and 2 bytes without meaning.
+// Binary STL: 80 bytes of any text, the number of triangles, then 50 bytes for each. These are
+// normal and three corners as 12 floats, and 2 bytes without meaning.
 constexpr std::size_t header_size = 80, preamble_size = 84, facet_size = 50, normal_size = 12;
 
 /// Faces whose equal corners become one point.

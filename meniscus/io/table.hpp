@@ -10,8 +10,8 @@
 
 namespace meniscus::io {
 
-/// A cell of a table: empty, a whole number, a real number (written with the fewest digits that
-/// read back to the same double), or text.
+/// A cell of a table: empty, a whole number, a real number or text. Real numbers have the fewest
+/// digits that read back to the same double.
 using Cell = std::variant<std::monostate, std::int64_t, double, std::string>;
 
 /// A CSV file written row by row; the system holds each row before `add` returns, so that a program
@@ -21,8 +21,8 @@ class TableWriter {
   /// Starts a new file with its header line. Throws RunFailure when the disk refuses.
   TableWriter(std::filesystem::path path, const std::vector<std::string>& columns);
   /// Goes on with an existing file whose rows from the first one with `step` ≥ `first_step` on are
-  /// dropped, and with them a last line cut short by a crash. Throws InvalidInput if the header
-  /// differs, is without `step`, or a row is not ours.
+  /// dropped. So is a last line cut short by a crash. Throws InvalidInput if the header differs, is
+  /// without `step`, or a row is not ours.
   TableWriter(std::filesystem::path path, const std::vector<std::string>& columns,
               std::int64_t first_step);
 

@@ -43,7 +43,7 @@ void write_surface_vtu(const std::filesystem::path& path,
                        std::span<const SurfaceMesh* const> surfaces, const MeshData& data, double t,
                        const CurvedEdges& curved);
 /// Compressed .vtu. Cell corners are separate points when an array of `on_corners` (|C| × 4 ×
-/// components, e.g. a pressure that jumps across interfaces) is given; else vertices are shared.
+/// components, e.g. a pressure that jumps across interfaces) is given. Else vertices are shared.
 /// The middles of cells with a curved edge come after all of these points.
 void write_vtu(const std::filesystem::path& path, const TetMesh& mesh, const MeshData& data,
                double t, std::span<const NamedArray> on_corners = {},
@@ -74,7 +74,7 @@ struct VolumeFrame {
   std::vector<std::array<std::int32_t, 4>> cells;
   MeshData data;
   /// The points over the middles of the edges 01, 12, 20, 03, 13, 23 of every cell, −1 where it is
-  /// flat; empty where all are.
+  /// flat. It is empty where all are.
   std::vector<std::array<std::int32_t, 6>> middles = {};
 };
 /// Throws InvalidInput naming the file and the fault (missing, corrupt, not all tetrahedra).

@@ -4,8 +4,8 @@
 
 namespace meniscus::io {
 
-/// Takes VTK's messages instead of the terminal while it lives, and knows whether there were any:
-/// each part of VTK may be the one that finds a file broken, and some say so in no other way.
+/// Takes VTK's messages instead of the terminal while it lives, and knows whether there were any.
+/// Each part of VTK may be the one that finds a file broken, and some say so in no other way.
 class VtkMessages {
  public:
   VtkMessages();

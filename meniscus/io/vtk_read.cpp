@@ -64,7 +64,7 @@ auto read_data_set(const fs::path& path, const char* kind) {
   vtkNew<Reader> reader;
   reader->ReadFromInputStringOn();
   reader->SetInputString(bytes);
-  // VTK 9.1 trusts what a file says of itself: an absurd length asks for more memory than there is,
+  // VTK 9.1 trusts what a file says of itself. An absurd length asks for more memory than there is,
   // and blocks that are not where they should be end the process.
   const ChildResult read = run_in_child([&] { reader->Update(); }, read_limits(bytes.size()));
   if (!read.failure.empty()) reject_foreign(path, kind);

@@ -32,8 +32,8 @@ struct NestedOperator {
 };
 [[nodiscard]] NestedOperator nested_operator(MPI_Comm comm, const SaddleSystem& system);
 /// Copies the values of a system into an operator of another system with the same sparsity. Returns
-/// false and does nothing where a new operator is needed: on one rank, where matrices borrow the
-/// caller's arrays, and where only one of the two has a separate lower left block.
+/// false and does nothing where a new operator is needed. That is on one rank, where matrices
+/// borrow the caller's arrays, and where only one of the two has a separate lower left block.
 [[nodiscard]] bool take_values(MPI_Comm comm, const SaddleSystem& system, NestedOperator& nested);
 /// The system as one matrix [A Bᵀ; sB −sC] in the numbering of the nest. `pin` as in
 /// `merged_system`.

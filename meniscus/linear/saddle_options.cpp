@@ -7,9 +7,9 @@
 namespace meniscus::linear {
 namespace {
 
-// For systems with a consistent mass matrix: three Chebyshev steps on [1/2, 5/2], the spectrum of
-// the mass matrix of linear tetrahedra over its diagonal (wathen1987). They reduce the error to
-// 0.11.
+// For systems with a consistent mass matrix: three Chebyshev steps on [1/2, 5/2]. That is the
+// spectrum of the mass matrix of linear tetrahedra over its diagonal (wathen1987). They reduce the
+// error to 0.11.
 constexpr const char* kPressureMass =
     " -p_ksp_type chebyshev -p_ksp_max_it 3 -p_ksp_norm_type none"
     " -p_ksp_chebyshev_eigenvalues 0.5,2.5 -p_pc_type jacobi";

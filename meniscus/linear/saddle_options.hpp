@@ -18,8 +18,8 @@ namespace meniscus::linear {
 /// for MINRES.
 [[nodiscard]] std::string aggressive_coarsening(const std::string& prefix);
 
-/// The default options of each method, which the user's options override: with or without multigrid
-/// by degree above the algebraic multigrid, which is hypre's or PETSc's own.
+/// The default options of each method, which the user's options override. They are with or without
+/// multigrid by degree above the algebraic multigrid, which is hypre's or PETSc's own.
 [[nodiscard]] std::string default_options(SaddleMethod method, bool is_by_degree, bool is_hypre);
 
 }  // namespace meniscus::linear

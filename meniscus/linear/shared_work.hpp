@@ -18,7 +18,7 @@ using MakePiece = std::function<void(std::size_t k, Archive& archive)>;
 /// Takes piece k as another rank saved it.
 using TakePiece = std::function<void(std::size_t k, const Archive& archive)>;
 
-/// Shares independent pieces of work of about the given sizes, the same on all ranks: each is made
+/// Shares independent pieces of work of about the given sizes, the same on all ranks. Each is made
 /// by one rank and taken by the others. What `make` throws on one rank is thrown on all, as
 /// InvalidInput or RunFailure, with the text of the first rank that threw. Collective.
 void share_work(Communicator communicator, std::span<const double> work, const MakePiece& make,

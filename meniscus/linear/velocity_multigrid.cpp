@@ -15,11 +15,11 @@ constexpr double kBeyondEstimate = 1.1;
 /// The smoother treats the spectrum from this part of the estimate up, the coarse level the rest.
 constexpr double kSmoothFrom = 0.1;
 
-/// An estimate of the largest eigenvalue of D⁻¹A, D = diag A, for a symmetric positive definite A,
-/// from Lanczos' method on D^(−½) A D^(−½), whose first vector is noise.
-/// PETSc's estimate starts from D⁻¹ξ, which scales as 1/μ in a liquid of viscosity μ. If
-/// viscosities differ by 10⁴ it misses the spectrum of the more viscous liquid, and Chebyshev steps
-/// amplify the modes above the estimate.
+/// An estimate of the largest eigenvalue of D⁻¹A, D = diag A, A symmetric and positive definite. It
+/// comes from Lanczos' method on D^(−½) A D^(−½), whose first vector is noise. PETSc's estimate
+/// starts from D⁻¹ξ, which scales as 1/μ in a liquid of viscosity μ. If viscosities differ by 10⁴
+/// it misses the spectrum of the more viscous liquid, and Chebyshev steps amplify the modes above
+/// the estimate.
 double largest_eigenvalue(MPI_Comm comm, Mat matrix, PCType scaling, const Vector& right) {
   KrylovSolver lanczos;
   petsc_check(KSPCreate(comm, lanczos.out()), "KSPCreate");

@@ -42,7 +42,7 @@ class VelocityMultigrid final : public VelocityPreconditioner {
   Vector component_r_, component_z_;
 };
 
-/// Two levels, quadratic over linear functions, for systems given by products: a step of
+/// Two levels, quadratic over linear functions, for systems given by products. There is a step of
 /// Chebyshev–Jacobi smoothing before and after an algebraic cycle on the linear functions. Keeps
 /// the coarse level and the smoother's weights; residuals are those of the system being solved.
 class MultigridByDegree final : public VelocityPreconditioner {

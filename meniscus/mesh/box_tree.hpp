@@ -19,7 +19,7 @@ using Box = Eigen::AlignedBox3d;
 /// The smallest box around the vertices of a surface.
 [[nodiscard]] Box bounding_box(const SurfaceMesh& mesh);
 
-/// A tree over boxes, named by their index in the list it was built from: O(n log n) to build,
+/// A tree over boxes, named by their index in the list it was built from. O(n log n) to build,
 /// O(log n + k) for a query that k boxes answer. Queries visit in an order that the boxes decide.
 class BoxTree {
  public:
@@ -35,9 +35,9 @@ class BoxTree {
   /// The boxes before box i in the list that are nearer to it than `reach` or just as near, in
   /// rising order.
   [[nodiscard]] std::vector<std::size_t> earlier_within(std::size_t i, double reach) const;
-  /// min over i of value(i), +max of double without boxes. No value(i) may be below
-  /// bound(d), d the distance of a point from box i, which must not fall with d: boxes that
-  /// cannot hold the least value are not asked.
+  /// min over i of value(i), +max of double without boxes. No value(i) may be below bound(d), d the
+  /// distance of a point from box i, which must not fall with d. Boxes that cannot hold the least
+  /// value are not asked.
   template <class Bound, class Value>
   [[nodiscard]] double least(const Vec3& point, const Bound& bound, const Value& value) const;
 

@@ -13,7 +13,7 @@
 namespace meniscus {
 namespace {
 
-/// Least distance of a vertex from the ends of its lattice edge, in lengths of the edge: closer to
+/// Least distance of a vertex from the ends of its lattice edge, in lengths of the edge. Closer to
 /// them, triangles shrink to nothing where the surface passes through a lattice point.
 constexpr double kClearance = 0.05;
 
@@ -83,8 +83,8 @@ class Contour {
   std::unordered_map<std::uint64_t, VertexId> known_;
 };
 
-/// The paths along the edges of a cube from its lowest corner to its highest, as orders of axes:
-/// one tetrahedron each, the same on both sides of every square.
+/// The paths along the edges of a cube from its lowest corner to its highest, as orders of axes.
+/// There is one tetrahedron each, the same on both sides of every square.
 constexpr std::array<std::array<std::size_t, 3>, 6> kPaths{
     {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
 

@@ -24,9 +24,9 @@ struct Lattice {
 };
 
 /// The surface around the points whose values are below `level`, by linear interpolation in the six
-/// tetrahedra of each cube: closed, manifold, outward and without self-intersection, where no point
-/// on the faces of the lattice is below it. Its triangles are of any shape; none is shorter than
-/// a twentieth of the spacing, for which vertices move by as much.
+/// tetrahedra of each cube. It is closed, manifold, outward and without self-intersection, where no
+/// point on the faces of the lattice is below it. Its triangles are of any shape; none is shorter
+/// than a twentieth of the spacing, for which vertices move by as much.
 [[nodiscard]] SurfaceMesh contour(const Lattice& lattice, double level);
 
 }  // namespace meniscus

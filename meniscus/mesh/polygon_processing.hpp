@@ -10,8 +10,8 @@ namespace meniscus {
 
 // CGAL's Polygon Mesh Processing, whose headers are heavy, behind plain types.
 
-/// Cuts a polygon of four corners or more into triangles of its corners, turned as it is: by a
-/// constrained Delaunay triangulation in its plane; as a fan where it has none.
+/// Cuts a polygon of four corners or more into triangles of its corners, turned as it is. It takes
+/// a constrained Delaunay triangulation in its plane, or a fan where it has none.
 [[nodiscard]] std::vector<std::array<std::size_t, 3>> cut_polygon(std::span<const Vec3> corners);
 
 /// Turns faces so that neighbours agree, in each piece as most of its faces are. False, and nothing

@@ -13,7 +13,7 @@ struct RigidMotion {
 };
 
 /// Least-squares fits of rigid motions to velocities at the vertices of one surface, weighted by
-/// the vertices' areas: the projection P with P φ = φ for rigid φ.
+/// the vertices' areas. They are the projection P with P φ = φ for rigid φ.
 class RigidProjection {
  public:
   explicit RigidProjection(const SurfaceMesh& mesh);

@@ -4,8 +4,8 @@
 
 namespace meniscus {
 
-/// Sphere with exactly `num_vertices` ≥ 12 vertices on it: a spiral point set, relaxed by Lloyd
-/// sweeps on the sphere, triangulated by its convex hull; valence 5–7 nearly everywhere.
+/// Sphere with exactly `num_vertices` ≥ 12 vertices on it. It is a spiral point set, relaxed by
+/// Lloyd sweeps on the sphere, triangulated by its convex hull. Valence is 5–7 nearly everywhere.
 [[nodiscard]] SurfaceMesh sphere(int num_vertices, double radius = 1.0,
                                  const Vec3& center = Vec3::Zero());
 /// The sphere under the linear map diag(axes): vertex density of the sphere, not of curvature.

@@ -44,7 +44,7 @@ bool meet_elsewhere(const SurfaceMesh& mesh, FaceId f, FaceId g) {
   const Triangle s = corners(mesh, f), t = corners(mesh, g);
   if (num_shared == 0) return do_intersect(s, t);
   if (num_shared == 1) {
-    // What they share is convex and contains the vertex; if it is more than that, it reaches the
+    // What they share is convex and contains the vertex. If it is more than that, it reaches the
     // edge of one of them that lies opposite the vertex.
     const std::size_t i = shared_in_f[0], j = shared_in_g[0];
     return do_intersect(s, t[(j + 1) % 3], t[(j + 2) % 3]) ||
@@ -63,7 +63,7 @@ bool meet_elsewhere(const SurfaceMesh& mesh, FaceId f, FaceId g) {
 constexpr double kTurn = 1e-6;
 
 /// Whether the faces around each vertex, seen along its area vector, all turn the same way and go
-/// round it once: they then lie side by side, and no two of them meet but in what they share. Most
+/// round it once. They then lie side by side, and no two of them meet but in what they share. Most
 /// vertices of a surface that is not crumpled are such, which spares their faces exact tests.
 VertexField<char> fans(const SurfaceMesh& mesh) {
   VertexField<Vec3> t1 = vertex_area_vectors(mesh), t2(mesh.num_vertices());
@@ -108,8 +108,8 @@ std::optional<Fault> find_self_intersection(const SurfaceMesh& mesh, const Surfa
   return found;
 }
 
-/// Whether the segment p q crosses the inside of a triangle; unclear when it passes through an edge
-/// or a corner, or an end of it lies in the triangle's plane.
+/// Whether the segment p q crosses the inside of a triangle. That is unclear when it passes through
+/// an edge or a corner, or an end of it lies in the triangle's plane.
 enum class Crossing { no, yes, unclear };
 Crossing crossing(const Triangle& x, const Vec3& p, const Vec3& q) {
   const int side_of_p = orientation(x[0], x[1], x[2], p),

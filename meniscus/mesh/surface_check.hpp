@@ -8,9 +8,9 @@
 
 namespace meniscus {
 
-/// What makes a surface unfit as an interface, with the place; none when it is a finite, closed,
-/// oriented manifold in one piece that encloses positive volume, without degenerate faces and
-/// (exact predicates, CGAL) without self-intersection.
+/// What makes a surface unfit as an interface, with the place. There is none when it is a finite,
+/// closed, oriented manifold in one piece that encloses positive volume. It must lack degenerate
+/// faces and (exact predicates, CGAL) self-intersection.
 [[nodiscard]] std::optional<Fault> find_defect(const SurfaceMesh& mesh);
 /// The first face without area.
 [[nodiscard]] std::optional<Fault> find_degenerate_face(const SurfaceMesh& mesh);

@@ -4,7 +4,7 @@
 
 namespace meniscus {
 
-/// A distance found by sampling: the true one is not smaller, and not larger by more than `error`
+/// A distance found by sampling: the true one is not smaller. It is not larger by more than `error`
 /// as far as the samples tell (see `directed_distance`).
 struct SampledDistance {
   double distance = 0.0;  ///< attained between `from` and `to`

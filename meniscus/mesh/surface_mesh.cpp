@@ -17,8 +17,8 @@ struct DirectedEdge {
   FaceId face;
 };
 
-/// The edges of all faces in the order of their smaller end, larger end, direction and face: by a
-/// counting sort over the smaller ends, whose few edges are then sorted each by themselves.
+/// The edges of all faces in the order of their smaller end, larger end, direction and face. A
+/// counting sort goes over the smaller ends, whose few edges are then sorted each by themselves.
 std::vector<DirectedEdge> directed_edges(const SurfaceMesh& mesh) {
   std::vector<std::int32_t> first(static_cast<std::size_t>(mesh.num_vertices()) + 1, 0);
   const auto smaller = [](VertexId a, VertexId b) {

@@ -40,12 +40,12 @@ inline constexpr double kLargestHole = 0.1;
 
 /// A surface of polygons whose corners name points that are there, and whose coordinates are
 /// finite. Faces of more than three corners are cut into triangles. Where the faces form a closed
-/// manifold they are turned so that neighbours agree, and so that no piece is inside out but those
-/// that lie in another, as cavities. Points that no face uses are left out. Faces that need none of
-/// this stay as they are, in their order.
+/// manifold they are turned so that neighbours agree. No piece is inside out then but those that
+/// lie in another, as cavities. Points that no face uses are left out. Faces that need none of this
+/// stay as they are, in their order.
 ///
 /// With `mends`, what is no sound surface then (`find_solid_defect`) is mended by CGAL's Polygon
-/// Mesh Processing: points at one place are merged, doubled faces and faces without area removed,
+/// Mesh Processing. Points at one place are merged, doubled faces and faces without area removed,
 /// borders stitched, small holes filled, and faces that cross replaced. Tags of new faces are those
 /// of the nearest given ones. What cannot be mended stays: the result is to be checked.
 [[nodiscard]] RepairedSurface surface_of(const PolygonSoup& soup, bool mends);

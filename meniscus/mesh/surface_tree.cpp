@@ -24,8 +24,8 @@ bool boxes_touch(const Vec3& low, const Vec3& high, const Vec3& other_low, const
 Vec3 low_corner(const Triangle& x) { return x[0].cwiseMin(x[1]).cwiseMin(x[2]); }
 Vec3 high_corner(const Triangle& x) { return x[0].cwiseMax(x[1]).cwiseMax(x[2]); }
 
-/// A ray along the sides of the boxes is within a slab or far from it: no infinity, which a
-/// distance of zero would make no number.
+/// A ray along the sides of the boxes is within a slab or far from it. So there is no infinity,
+/// which a distance of zero would make no number.
 Vec3 finite_inverse(const Vec3& direction) {
   return direction.unaryExpr(
       [](double d) { return d == 0.0 ? std::numeric_limits<double>::max() : 1.0 / d; });

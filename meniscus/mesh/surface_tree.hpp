@@ -11,13 +11,13 @@
 
 namespace meniscus {
 
-/// A tree of boxes over the faces of a surface as it was when the tree was built (it keeps its own
-/// copy of the positions). Built in O(|F| log |F|), 0.20 to 0.26 µs per face at 10,000 to 100,000
+/// A tree of boxes over the faces of a surface as it was when the tree was built. It keeps its own
+/// copy of the positions. Built in O(|F| log |F|), 0.20 to 0.26 µs per face at 10,000 to 100,000
 /// faces; a query is O(log |F|).
 ///
-/// A tree of our own: CGAL's `AABB_tree` with our kernel takes 1.2 to 1.3 of its time to build, 1.7
-/// to 2.2 for nearest points, 1.4 to 2.6 within a bound, 1.8 to 3.1 for rays; with plain doubles
-/// still 1.15 to 2.9. Its answers are ours (bench/surface_tree_against_cgal.cpp: spheres and
+/// A tree of our own. CGAL's `AABB_tree` with our kernel takes 1.2 to 1.3 of its time to build, 1.7
+/// to 2.2 for nearest points. Within a bound it takes 1.4 to 2.6, 1.8 to 3.1 for rays; with plain
+/// doubles 1.15 to 2.9. Its answers are ours (bench/surface_tree_against_cgal.cpp: spheres and
 /// crumpled shapes of 10,000 and 100,000 faces, by turns in one process).
 class SurfaceTree {
  public:
@@ -30,9 +30,9 @@ class SurfaceTree {
 
   explicit SurfaceTree(const SurfaceMesh& mesh);
 
-  /// The nearest point of the surface, if it is nearer than `within`; else `face` is invalid.
-  /// With `slack` > 0 its distance may exceed the least by that fraction: much cheaper where many
-  /// faces are about equally near, as at the centre of a sphere.
+  /// The nearest point of the surface, if it is nearer than `within`; else `face` is invalid. With
+  /// `slack` > 0 its distance may exceed the least by that fraction. That is much cheaper where
+  /// many faces are about equally near, as at the centre of a sphere.
   [[nodiscard]] Hit closest(const Vec3& p, double within = std::numeric_limits<double>::infinity(),
                             double slack = 0.0) const;
   /// The first face met by the ray from `origin` along the unit vector `direction`, nearer than

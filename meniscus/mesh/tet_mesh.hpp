@@ -17,8 +17,8 @@ template <class T>
 using CellField = Field<CellId, T>;
 using CellVertices = std::array<TetVertexId, 4>;
 
-/// A triangulated surface that is part of a tetrahedral mesh: its vertex v is the mesh vertex
-/// `first_vertex + v`, and its face f is a facet of the two cells named here.
+/// A triangulated surface that is part of a tetrahedral mesh. Its vertex v is the mesh vertex
+/// `first_vertex + v`. Its face f is a facet of the two cells named here.
 struct EmbeddedSurface {
   struct Sides {
     CellId inside, outside;  ///< `outside` is invalid on the outer boundary

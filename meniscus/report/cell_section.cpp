@@ -152,7 +152,7 @@ double distance(const Crossing& a, const Crossing& b) {
 }
 
 /// The points at which a closed line turns. It may go to and fro, and a corner on the plane is many
-/// of its points: each is judged by the neighbours that are left.
+/// of its points. Each is judged by the neighbours that are left.
 std::vector<Crossing> turning_points(std::vector<Crossing> loop) {
   for (std::size_t i = 0, num_turns = 0; num_turns < loop.size();) {
     const std::size_t n = loop.size();

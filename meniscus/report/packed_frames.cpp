@@ -47,7 +47,7 @@ std::uint32_t bits_three_apart(std::uint32_t value) {
 }
 
 /// The vertices in Morton order on a grid of 2^10 cells per side (interleaved bits of the
-/// coordinates): vertices close in space are mostly close in the order.
+/// coordinates). Vertices close in space are mostly close in the order.
 std::vector<VertexId> order_along_curve(const VertexField<Vec3>& x,
                                         const std::array<Grid16, 3>& grids) {
   VertexField<std::uint32_t> code(x.size(), 0);
@@ -132,8 +132,8 @@ std::vector<RankedEdge> edges_of(const std::vector<RankedFace>& faces) {
   return edges;
 }
 
-/// How far each edge's middle is from that of the straight edge between the ends as they are
-/// packed, in steps of the grid, modulo 2^16.
+/// How far each edge's middle is from that of the straight edge between the packed ends, in steps
+/// of the grid, modulo 2^16.
 std::vector<std::uint16_t> middle_offsets(const std::vector<RankedEdge>& edges,
                                           const std::vector<std::uint16_t>& ends, int axis,
                                           const Grid16& grid) {

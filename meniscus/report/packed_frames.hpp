@@ -23,19 +23,19 @@ struct PackedFrame {
 };
 
 /// Packs a surface. Header: {t, vertices, faces, middles, wide, low, high, fields: [{name, low,
-/// high}]}. Then come the corners a < b, c of all faces, as a minus the previous face's a, b − a
-/// and c − a, in 16 or (wide) 32 bits. Then come x, y, z of all vertices on a `Grid16`, as
+/// high}]}. Then come the corners a < b, c of all faces, in 16 or (wide) 32 bits. They are a minus
+/// the previous face's a, b − a and c − a. Then come x, y, z of all vertices on a `Grid16`, as
 /// differences. Of curved faces follow x, y, z of the `middles` of edges, in the order in which
-/// faces name their edges 01, 12, 20: signed steps of that grid from the middle of the edge's two
-/// vertices. Last come the values of each field on a `Grid16`, as differences. Vertices are in
-/// Morton order, faces sorted by their corners.
+/// faces name their edges 01, 12, 20. They are signed steps of that grid from the middle of the
+/// edge's two vertices. Last come the values of each field on a `Grid16`, as differences. Vertices
+/// are in Morton order, faces sorted by their corners.
 [[nodiscard]] PackedFrame packed_surface(const SurfaceFrame& frame);
 
 /// Packs the cuts of one time. Header: {t, cuts: [{axes, normal, offset, window, polygons, points,
 /// low, high, quality, fields: [{name, low, high}]}]}. Then come, for each cut, the number of
-/// corners of every polygon (8 bits), the regions (8 bits), the qualities (8 bits, 0 to 255 for 0
-/// to `quality` degrees), the two coordinates of all points and the values of each field on the
-/// polygons, both on a `Grid16`, as differences.
+/// corners of every polygon (8 bits), the regions (8 bits), and the qualities (8 bits, 0 to 255 for
+/// 0 to `quality` degrees). The two coordinates of all points and the values of each field on the
+/// polygons follow, both on a `Grid16`, as differences.
 [[nodiscard]] PackedFrame packed_cuts(double t, const std::vector<MeshCut>& cuts);
 
 }  // namespace meniscus::report

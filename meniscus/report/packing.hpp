@@ -25,9 +25,9 @@ struct Grid16 {
   [[nodiscard]] std::uint16_t index(double value) const;
 };
 
-/// Binary data for the page: the length of a header in bytes (32 bits, lowest byte first), the
-/// header in JSON, then arrays in the order added. Numbers of several bytes are stored in planes,
-/// the lowest bytes of all numbers first: high bytes are alike and compress well.
+/// Binary data for the page. It has the length of a header in bytes (32 bits, lowest byte first),
+/// the header in JSON, then arrays in the order added. Numbers of several bytes are stored in
+/// planes, the lowest bytes of all numbers first: high bytes are alike and compress well.
 class Package {
  public:
   explicit Package(std::string_view header);

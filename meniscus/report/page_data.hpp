@@ -33,8 +33,8 @@ inline constexpr PageBudget whole_tables{.tables = std::numeric_limits<std::size
 /// left out or coarsened, and the notes say so. Unreadable files are added to the run's faults.
 [[nodiscard]] PageRun page_run(RunData& run, const PageBudget& budget);
 
-/// What pictures are drawn from, by the page's script or by node: `page`, JSON that says what there
-/// is, and by id a base-64 text for every frame, cut and table.
+/// What pictures are drawn from, by the page's script or by node. It has `page`, JSON that says
+/// what there is, and by id a base-64 text for every frame, cut and table.
 struct DrawingData {
   std::string page;
   std::vector<std::pair<std::string, std::string>> texts = {};

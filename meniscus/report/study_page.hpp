@@ -41,8 +41,8 @@ struct StudyPage {
   std::vector<StudyPageRun> runs;
 };
 
-/// Writes the page: plots, the last shapes of the runs that are shown at one scale, the table, and
-/// links to the pages of the runs. Throws RunFailure when the file cannot be written.
+/// Writes the page: plots, the last shapes of the runs that are shown at one scale, and the table.
+/// It links to the pages of the runs. Throws RunFailure when the file cannot be written.
 void write_study_page(const StudyPage& page, const std::filesystem::path& file);
 
 }  // namespace meniscus::report

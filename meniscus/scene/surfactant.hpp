@@ -18,9 +18,9 @@ struct LangmuirState {
   friend bool operator==(const LangmuirState&, const LangmuirState&) = default;
 };
 
-/// How surface tension depends on the concentration Γ of a surfactant, Γ being over its initial
-/// value and σ over the tension σ1 at Γ = 1. A further law is a type here, and what
-/// the functions below ask of it.
+/// How surface tension depends on the concentration Γ of a surfactant. Γ is over its initial value
+/// and σ over the tension σ1 at Γ = 1. A further law is a type here, and what the functions below
+/// ask of it.
 using EquationOfState = std::variant<LinearState, LangmuirState>;
 
 /// σ/σ1 at one concentration and its slope by Γ, never positive.
@@ -35,8 +35,8 @@ struct RelativeTension {
 /// The concentration at which no tension is left; infinite for a tension that does not vary.
 [[nodiscard]] double zero_tension_concentration(const EquationOfState& state);
 
-/// Exchange with a species dissolved in the liquid outside: per area and time
-/// j = Bi [K c (1 − XΓ) − Γ], X = 1/`packing_limit`, is added to Γ and δj taken from the liquid.
+/// Exchange with a species dissolved in the liquid outside. Per area and time j = Bi [K c (1 − XΓ)
+/// − Γ], X = 1/`packing_limit`, is added to Γ and δj taken from the liquid.
 struct Adsorption {
   int species = 0;        ///< its number among the scalars of the scene
   double biot = 0.0;      ///< Bi: rate of desorption [G]

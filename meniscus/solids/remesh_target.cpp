@@ -56,7 +56,7 @@ RemeshTarget scaled_target(RemeshTarget target, double radius) {
 }
 
 /// Remeshes a smooth surface. One with slivers, but no creases, is taken for smooth where the
-/// target is met so; else, as with creases, its triangles are made even first.
+/// target is met so. Else, as with creases, its triangles are made even first.
 Found search(const std::vector<Piece>& pieces, const RemeshTarget& target) {
   const auto any = [&](auto&& is_so) {
     return std::ranges::any_of(

@@ -32,26 +32,26 @@ struct [[nodiscard]] TargetReport : Report {
   bool are_creases_rounded = false, are_creases_kept = false;
 };
 
-/// Remeshes every piece of a closed surface (of any unit, any number of pieces, each without
-/// defect) until its vertices are within 2 % of the target, its mean edge within 1 %, or its
-/// largest distance from the smooth surface in [0.8, 1] of it. Each piece keeps its volume; with
-/// chordal_error, that of the smooth surface through its vertices.
+/// Remeshes every piece of a closed surface, of any unit and any number of pieces, each without
+/// defect. It does so until its vertices are within 2 % of the target, its mean edge within 1 %, or
+/// its largest distance from the smooth surface in [0.8, 1] of it. Each piece keeps its volume;
+/// with chordal_error, that of the smooth surface through its vertices.
 ///
 /// Chordal error: an equilateral triangle of edge l lies off a surface of principal curvatures k1
-/// and k2 by (k1 + k2) l²/12 at its centre and by at most max|k| l²/8 on its edges, hence by at
-/// most max|k| l²/6 anywhere, which is attained on a sphere. So l0 = (6 e/max|k|)^½, but at most
+/// and k2 by (k1 + k2) l²/12 at its centre. It is at most max|k| l²/8 on its edges, hence at most
+/// max|k| l²/6 anywhere, which is attained on a sphere. So l0 = (6 e/max|k|)^½, but at most
 /// 1/max|k| (six edges around a circle). That is the first guess; the distance of the result is
 /// then measured, and the lengths are corrected, for real triangles are not equilateral.
 ///
 /// A surface with creases (normals turned by over 50° along an edge) or slivers (5 % of the angles
-/// below 15°) is first given even triangles, half as long as the target's mean edge, on its flat
-/// faces (CGAL's isotropic remeshing, creases kept); with chordal_error, twice the error. The
+/// below 15°) is first given even triangles on its flat faces (CGAL's isotropic remeshing, creases
+/// kept). They are half as long as the target's mean edge; with chordal_error, twice the error. The
 /// smooth surface of that mesh rounds creases and corners over about that length, and no edge
 /// shorter than it is asked for. Where the target is not met so, the mesh is smoothed as a whole
-/// over half to twice that length (`DiffusedSurface`), the least that meets it. Where no smooth
-/// surface can be remeshed, as where parts are much thinner than the edges asked for, the faces as
-/// given are cut evenly, edges and corners kept: angles then are what the shape allows, and there
-/// is no chordal error.
+/// over half to twice that length (`DiffusedSurface`). It takes the least that meets it. Where no
+/// smooth surface can be remeshed, as where parts are much thinner than the edges asked for, the
+/// faces as given are cut evenly, edges and corners kept. Angles then are what the shape allows,
+/// and there is no chordal error.
 ///
 /// Transactional, like `remesh`. Throws InvalidInput where the target would take more than
 /// `kMostVertices`, or is too coarse for so thin a surface.

@@ -22,7 +22,7 @@ using By = RemeshTarget::By;
 constexpr double kRoughEdge = 0.5;  // of the target's mean edge
 /// Edge of the even triangles over the chordal error: creases are rounded by about half of it.
 constexpr double kRoughChord = 2.0;
-/// Vertices on creases over those that the area takes, above which a surface is a needle: that of a
+/// Vertices on creases over those that the area takes, above which a surface is a needle. That of a
 /// bar, one edge thick, is near 1. Beyond, CGAL makes fans of triangles without end.
 constexpr double kMostOnCreases = 2.5;
 

@@ -38,7 +38,7 @@ struct Found {
 [[nodiscard]] double band(RemeshTarget::By by);
 
 /// The next setting: first as if the measure were proportional to it, then by the secant of the two
-/// passes before in logarithms (floors and gradation bend the law; its slope stays in bounds).
+/// passes before in logarithms. Floors and gradation bend the law; its slope stays in bounds.
 [[nodiscard]] double next_setting(double setting, double measure, double last_setting,
                                   double last_measure, double aim);
 

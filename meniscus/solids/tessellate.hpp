@@ -4,8 +4,8 @@
 
 namespace meniscus {
 
-/// Flat faces that lie within about `chordal_error` [R0] of the smooth surface of `mesh`: each of
-/// its faces cut into n² on the surface, n ≤ 8 by the error max|k| l²/6n² of the pieces (see
+/// Flat faces that lie within about `chordal_error` [R0] of the smooth surface of `mesh`. Each of
+/// its faces is cut into n² on the surface, n ≤ 8 by the error max|k| l²/6n² of the pieces (see
 /// `remesh_to`). For measuring distances: faces do not share their vertices.
 [[nodiscard]] SurfaceMesh tessellation(const SurfaceMesh& mesh, const SmoothSurface& surface,
                                        double chordal_error);

@@ -23,8 +23,8 @@ void follow(FieldExcess& excess, const FieldExcess& next);
 
 /// Follows a motion of the vertices of a mesh, its faces being the same. Interpolated fields keep
 /// their values. Conserved ones become value · m_before / m_after, m being the area of the face or
-/// a third of that of the faces at the vertex [R0²], so that Σ value · m stays. Returns by how much
-/// that leaves the range the field had.
+/// a third of that of the faces at the vertex [R0²]. So Σ value · m stays. Returns by how much that
+/// leaves the range the field had.
 FieldExcess move_fields(SurfaceFields& fields, const SurfaceMesh& before, const SurfaceMesh& after);
 
 /// Fields on the surface that has taken the place of another, and by how much they left the range.
@@ -38,10 +38,10 @@ struct [[nodiscard]] ReplacedFields {
 ///
 /// Vertices and faces of both, at the same positions, keep their values; others take that of the
 /// nearest points. The amount of an old face that is gone goes to what is nearest to its parts.
-/// What a new element then has beyond value · measure is evened out along a few edges, and given to
-/// the elements as far as the old range lets them take it; the rest is passed on. What no neighbour
-/// takes is shared by the whole piece, v + θ (max − v) or v − θ (v − min), and beyond the range in
-/// equal parts. Amounts add up over the pieces to round-off. O(n log n).
+/// What a new element then has beyond value · measure is evened out along a few edges. It is given
+/// to the elements as far as the old range lets them take it; the rest is passed on. What no
+/// neighbour takes is shared by the whole piece, v + θ (max − v) or v − θ (v − min). Beyond the
+/// range the parts are equal. Amounts add up over the pieces to round-off. O(n log n).
 ///
 /// `settled` is `after` with its vertices shifted a little, as to restore its volume: it is there
 /// that amounts are kept.

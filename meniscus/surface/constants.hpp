@@ -16,9 +16,9 @@ inline constexpr int kFewestVertices = 42;
 /// truncation is worth. The spline fades out until twice that, so that middles, and the volume
 /// under them, follow the vertices without jumps.
 inline constexpr double kMostAmplification = 4.0;
-/// Over the middle of an edge a fitted surface is trusted to this many of the edge's lengths, a
-/// little more than the height of a circle over the sides of its regular triangle. Where vertices
-/// lie as on a crease, fits swing out by a hundred.
+/// Over the middle of an edge a fitted surface is trusted to this many of the edge's lengths. That
+/// is a little more than the height of a circle over the sides of its regular triangle. Where
+/// vertices lie as on a crease, fits swing out by a hundred.
 inline constexpr double kHighestMiddle = 0.3;
 /// Largest part of a drop's volume that a mending may move: one that moves more has pulled the
 /// surface off its shape.

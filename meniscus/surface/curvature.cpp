@@ -17,7 +17,7 @@ constexpr double kSlopeAtRest = 1e-8;  // radians
 /// What is fitted: heights above the tangent plane, or heights of circles.
 enum class Form { paraboloid, osculating };
 
-/// Fits and turns the frame until the linear terms vanish, by the secant method: a turn changes the
+/// Fits and turns the frame until the linear terms vanish, by the secant method. A turn changes the
 /// slope by itself times 1 + O(h), nearly the same each time.
 std::optional<HeightPatch> turned_fit(const Vec3& x, const Vec3& normal_guess,
                                       std::span<const Vec3> points, PatchDegree degree, Form form,

@@ -25,10 +25,10 @@ struct VertexCurvature {
 [[nodiscard]] VertexField<VertexCurvature> fitted_curvature(const SurfaceMesh& mesh,
                                                             const SurfaceTopology& topology);
 
-/// An independent estimate: normal curvatures k(e) = −2 n·(x_j − x)/|x_j − x|² of the circles
-/// through the vertex and its neighbours, fitted by a quadratic form of the direction e, the normal
-/// turned as above. Exact on spheres of any coarseness, where the paraboloid is too curved by
-/// O(h²).
+/// An independent estimate. Normal curvatures k(e) = −2 n·(x_j − x)/|x_j − x|² of the circles
+/// through the vertex and its neighbours are fitted by a quadratic form of the direction e. The
+/// normal is turned as above. Exact on spheres of any coarseness, where the paraboloid is too
+/// curved by O(h²).
 [[nodiscard]] VertexField<VertexCurvature> osculating_curvature(const SurfaceMesh& mesh,
                                                                 const SurfaceTopology& topology);
 /// The osculating curvature with a gatherer of rings that the caller keeps.

@@ -7,10 +7,10 @@
 
 namespace meniscus {
 
-/// Surfaces of the same volume that are smoother and smoother: where the distance from a surface,
+/// Surfaces of the same volume that are smoother and smoother. There the distance from a surface,
 /// negative inside, smoothed over a length s (by a Gaussian of that deviation), has the level that
 /// keeps the volume. As the Laplacian of the distance is 2H, that moves a place by s²(⟨H⟩ − H)
-/// along the normal to first order; but never does the result meet itself. Threads that are thinner
+/// along the normal to first order. But never does the result meet itself. Threads that are thinner
 /// than about s, and crevices that narrow, vanish, and films as thin are holed.
 class DiffusedSurface {
  public:
@@ -18,7 +18,7 @@ class DiffusedSurface {
   DiffusedSurface(const SurfaceMesh& mesh, double edge);
 
   /// Smoothed over `length`, not less than the last: its largest piece, of any number of holes, in
-  /// even triangles; none where what is lost with others is more than `most_lost` of the volume.
+  /// even triangles. There is none where more than `most_lost` of the volume is lost with others.
   [[nodiscard]] std::optional<SurfaceMesh> smoother_surface(double length, double most_lost);
 
  private:

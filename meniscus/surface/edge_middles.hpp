@@ -30,7 +30,7 @@ enum class SurfaceShape { faceted, patched, splined };
 /// The middles on splines (`SplinePatch`) through the vertices in the two rings of both ends, along
 /// the normal through the smooth surface's edge point. Their error, about O(h⁶), is a tenth of that
 /// of the cubic patches of SmoothSurface at 200 vertices. The patches' O(h⁴) repeats from edge to
-/// edge, and a flow takes it for a corrugation: it pulls the vertices in and the middles out, 1.6 %
+/// edge, and a flow takes it for a corrugation. It pulls the vertices in and the middles out, 1.6 %
 /// too slow a relaxation at 110 vertices. The smooth surface's point stands where the spline is not
 /// to be trusted, or swings far from the edge. About 16 µs per edge, where the patches take 2.
 [[nodiscard]] std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh,

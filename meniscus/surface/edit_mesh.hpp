@@ -10,7 +10,7 @@ namespace meniscus {
 using HalfedgeId = Id<struct HalfedgeTag>;
 
 /// Connectivity of a closed triangulated surface while it is edited: half-edges 3f, 3f + 1, 3f + 2
-/// run round face f; only the partner across the edge and the vertex each starts at are stored.
+/// run round face f. Only the partner across the edge and the vertex each starts at are stored.
 /// Removed faces and vertices stay behind as dead ids until `compact_mesh`.
 class EditMesh {
  public:

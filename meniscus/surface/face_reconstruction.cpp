@@ -33,9 +33,9 @@ Vec3 face_center(const SurfaceMesh& mesh, FaceId f) {
   return (mesh.x[v[0]] + mesh.x[v[1]] + mesh.x[v[2]]) / 3.0;
 }
 
-/// g in the plane of a face minimising Σ_k w_k (g·d_k − u_k + u)², w_k = 1/|d_k|², d_k the way to
-/// the centre of neighbour k turned into that plane: nearly about the common edge, at its own
-/// length.
+/// g in the plane of a face minimising Σ_k w_k (g·d_k − u_k + u)², w_k = 1/|d_k|², and d_k the way
+/// to the centre of neighbour k. That is turned into the plane of the face nearly about the common
+/// edge, at its own length.
 Vec3 fitted_gradient(const SurfaceMesh& mesh, FaceId f, const std::array<FaceId, 3>& beside,
                      const FaceField<double>& values) {
   const Vec3 here = face_center(mesh, f), normal = face_area_vector(mesh, f).normalized();

@@ -11,7 +11,7 @@ namespace meniscus {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Edges are not asked to be shorter than half of those opposite, whatever the gap: beside a wall
+/// Edges are not asked to be shorter than half of those opposite, whatever the gap. Beside a wall
 /// of far longer edges they make slivers (smallest dihedral angle 0.6° where it was 7.6°) and no
 /// layers. Two interfaces that both follow the rule come down by turns.
 constexpr double kFinerThanOpposite = 0.5;

@@ -7,12 +7,12 @@
 namespace meniscus {
 
 /// Edges per layer: a gap of width w is asked to have edges of kGapEdge · w/layers, on its surfaces
-/// and in the volume between them (docs/surface-remeshing.md: why it is below 1).
+/// and in the volume between them. docs/surface-remeshing.md says why it is below 1.
 inline constexpr double kGapEdge = 0.8;
 
-/// Width of the liquid between a vertex and the next sheet of its own surface, along the normal: on
-/// the inside a neck or a film, on the outside the gap between two lobes [R0]. Infinite where no
-/// sheet is met within the vertex's reach.
+/// Width of the liquid between a vertex and the next sheet of its own surface, along the normal. It
+/// is on the inside a neck or a film, on the outside the gap between two lobes [R0]. Infinite where
+/// no sheet is met within the vertex's reach.
 struct OwnGaps {
   VertexField<double> inside, outside;
 };

@@ -38,7 +38,7 @@ enum class PatchDegree { umbilic, quadratic, cubic };
 [[nodiscard]] HeightPatch flat_patch(const Vec3& x, const Vec3& n);
 
 /// Least-squares patch of the points around the vertex of `frame`, weighted by 1/(squared
-/// distance), so that what counts is the slope each point is missed by. (Steeper weights lower the
+/// distance). So what counts is the slope each point is missed by. (Steeper weights lower the
 /// truncation error a little, but fits then amplify the noise of coarse surfaces.) Empty when the
 /// points do not determine it: fewer than unknowns, or near singular.
 [[nodiscard]] std::optional<HeightPatch> fit_patch(const HeightPatch& frame,
@@ -46,7 +46,7 @@ enum class PatchDegree { umbilic, quadratic, cubic };
                                                    PatchDegree degree);
 
 /// Points d = p − x moved away from the axis of the frame to the distance |d| at equal height. A
-/// circle of curvature k has z = −½k|d|² exactly, so that it becomes a parabola: fits of unrolled
+/// circle of curvature k has z = −½k|d|² exactly, so that it becomes a parabola. Fits of unrolled
 /// points are free of the error O(h²) that a paraboloid makes on a sphere.
 void unroll(std::span<const Vec3> points, const HeightPatch& frame, std::vector<Vec3>& unrolled);
 

@@ -19,7 +19,7 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 
 constexpr double kLowAngleDeg = 15.0;  // of the 5 % quantile; relaxed meshes have 40° and more
 /// Edges longer than this many wanted ones are halved, the longest first, before creases are cut to
-/// pieces: creases of long slivers would make fans, and these take triangles without end.
+/// pieces. Creases of long slivers would make fans, and these take triangles without end.
 constexpr double kLongEdge = 10.0;
 constexpr int kIterations = 5;  // CGAL's examples take 1 to 10; the angles settle by 5
 

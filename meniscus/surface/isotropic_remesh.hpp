@@ -10,7 +10,7 @@ inline constexpr double kCreaseDeg = 50.0;
 /// Whether normals of a closed surface turn by more than 50° along an edge: none that is smooth
 /// fits.
 [[nodiscard]] bool has_creases(const SurfaceMesh& mesh, const SurfaceTopology& topology);
-/// Whether a closed surface may be too rough for a smooth surface to be fitted to: it has creases,
+/// Whether a closed surface may be too rough for a smooth surface to be fitted to. It has creases,
 /// or a twentieth of its angles lie below 15° (slivers).
 [[nodiscard]] bool is_rough(const SurfaceMesh& mesh, const SurfaceTopology& topology);
 

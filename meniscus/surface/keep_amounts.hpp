@@ -30,7 +30,7 @@ struct VertexPieces {
 [[nodiscard]] Shares<FaceId> face_shares(const SurfaceMesh& mesh);
 
 /// Changes values so that Σ value · measure over each piece is that of `amounts`, and near each
-/// place as well: what is missing is evened out over a few elements before they take it. Values
+/// place as well. What is missing is evened out over a few elements before they take it. Values
 /// stay in the range as long as the piece has room. Returns by how much they leave it.
 template <class IdType>
 FieldExcess keep_amounts(Field<IdType, double>& values, const Field<IdType, double>& amounts,

@@ -8,10 +8,10 @@
 
 namespace meniscus {
 
-/// The closed surface that an interface's vertices stand for, as made once for a mesh: flat faces,
-/// or quadratic ones through the vertices and the `edge_middles`. Whoever asks it need not know
-/// which. Flat faces enclose too little of a smooth surface by O(h²), quadratic ones by O(h⁴). The
-/// mesh has to outlive it and to stay as it is.
+/// The closed surface that an interface's vertices stand for, as made once for a mesh. It has flat
+/// faces, or quadratic ones through the vertices and the `edge_middles`. Whoever asks it need not
+/// know which. Flat faces enclose too little of a smooth surface by O(h²), quadratic ones by O(h⁴).
+/// The mesh has to outlive it and to stay as it is.
 class ReconstructedSurface {
  public:
   ReconstructedSurface(const SurfaceMesh& mesh, SurfaceShape shape);
@@ -29,8 +29,8 @@ class ReconstructedSurface {
   /// others. There the middles of edges get u from the quadratics that fit it around both ends, to
   /// O(h³).
   [[nodiscard]] Mat3 velocity_moment(const VertexField<Vec3>& u) const;
-  /// dS/dt for vertices that move with this velocity, ∫div_s u dS [G R0²]: exact for flat faces,
-  /// with the velocity between vertices as above for others.
+  /// dS/dt for vertices that move with this velocity, ∫div_s u dS [G R0²]. It is exact for flat
+  /// faces, with the velocity between vertices as above for others.
   [[nodiscard]] double area_rate(const VertexField<Vec3>& motion) const;
   /// ∫ σ div_s u dS of a tension and a velocity given at the vertices: the power that the liquid
   /// spends against tension [μ_out G² R0³].

@@ -52,16 +52,16 @@ struct [[nodiscard]] RemeshReport : Report {
   FieldExcess field_excess = {};   ///< of conserved fields over the range they had
 };
 
-/// Rebuilds the triangulation of a closed surface so that its vertex density is ρ = C0⟨κ⟩², by
-/// vertex addition and removal, Delaunay reconnection and spring equilibration (cristini2001), and
-/// restores its volume. Transactional: on failure the mesh is unchanged and the report says why.
+/// Rebuilds the triangulation of a closed surface so that its vertex density is ρ = C0⟨κ⟩², and
+/// restores its volume: by vertex addition and removal, Delaunay reconnection and springs
+/// (cristini2001). Transactional: on failure the mesh is unchanged and the report says why.
 RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options);
 /// Remeshes a surface with its fields; on failure both are unchanged.
 RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options, SurfaceFields& fields);
 
-/// Whether a surface that has moved since it was remeshed may stay as it is: its edges and vertices
-/// are near their density (`has_fit_density`), and no face has an angle below 20°. Surfaces that
-/// cannot be remeshed are unfit.
+/// Whether a surface that has moved since it was remeshed may stay as it is. Then its vertices are
+/// near their density (`has_fit_density`), and no face has an angle below 20°. Surfaces that cannot
+/// be remeshed are unfit.
 [[nodiscard]] bool is_fit(const SurfaceMesh& mesh, const RemeshOptions& options);
 
 /// Mean length of the edges at each vertex [R0].

@@ -52,7 +52,7 @@ struct RemeshState {
 
 [[nodiscard]] RemeshState start_state(const RemeshReference& reference, const SurfaceMesh& mesh,
                                       const SurfaceTopology& topology);
-/// The vertex at a point y = Σ b_k x_k of the reference surface, moved half of the way to the
+/// The vertex at a point y = Σ b_k x_k of the reference surface. It is moved half of the way to the
 /// tangent planes at the corners, ½ Σ b_k (n_k·(x_k − y)) n_k. It lies on the smooth surface where
 /// the curvature is even, otherwise O(h³) away. It costs a fifth. Its rest length is Σ b_k (l0_k +
 /// ½ ∇l0_k·(y − x_k)), likewise O(h³).

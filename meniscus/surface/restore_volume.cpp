@@ -16,7 +16,7 @@ constexpr double kCurvedTolerance = 1e-12;  // relative
 // The first shift leaves the O(h²) part by which curved and flat volumes answer it differently, a
 // hundredth or so. From then on the secant knows it.
 constexpr int kMostShifts = 30;
-// What is left of the missing volume after the shifts is made up for by a change of scale, which is
+// What is left of the missing volume after the shifts is made up for by a change of scale. That is
 // exact and costs no more middles.
 constexpr double kLeftToScale = 0.1;
 

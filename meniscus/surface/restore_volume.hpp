@@ -8,7 +8,7 @@ namespace meniscus {
 /// stand for encloses `volume`. Returns how far the surface moves on average [R0], signed outward.
 ///
 /// Flat faces: by Newton's method, to round-off. Quadratic faces: shifts until they lack at most a
-/// tenth of what they lacked, commonly a hundredth after one; a change of scale about the centroid
+/// tenth of what they lacked, commonly a hundredth after one. A change of scale about the centroid
 /// makes up for that exactly, to round-off. So it does for all where no shift brings the volume
 /// nearer, as coarse surfaces' volumes jump while vertices shift. Where the quadratic faces' volume
 /// is off by more than a factor of two, as on crumpled surfaces, it stays off.

@@ -62,7 +62,7 @@ std::vector<DensityEdge> density_edges(const RemeshState& state) {
 }
 
 /// Area of the smooth surface over a face: that of the face times 1 + h²/8R² (equilateral, sphere
-/// of radius R, to leading order), with Σ|Δn|² over its edges for 3h²/R².
+/// of radius R, to leading order). It is taken with Σ|Δn|² over its edges for 3h²/R².
 double curved_area(const RemeshState& state, HalfedgeId h) {
   const RemeshVertex &a = state.vertices[state.mesh.from(h)], &b = state.vertices[state.mesh.to(h)],
                      &c = state.vertices[state.mesh.opposite(h)];
@@ -87,7 +87,7 @@ VertexField<double> vertex_loads(const RemeshState& state) {
   return load;
 }
 
-/// Averages over the rings, by an exchange along each edge that keeps the sum: what is short of
+/// Averages over the rings, by an exchange along each edge that keeps the sum. What is short of
 /// vertices here and over there together comes out right.
 class RingAverage {
  public:

@@ -11,9 +11,9 @@ int flip_to_delaunay(RemeshState& state);
 struct DensityEdits {
   int splits = 0, collapses = 0;
 };
-/// One pass of vertex addition and removal where the number of vertices is out of its band: over
-/// some 12 vertices, or, when nearly all places are within, over 50, 200, or the whole. Edits of
-/// one pass lie so many rings apart that each sees the density the others left.
+/// One pass of vertex addition and removal where the number of vertices is out of its band. Bands
+/// are over some 12 vertices, or, when nearly all places are within, over 50, 200, or the whole.
+/// Edits of one pass lie so many rings apart that each sees the density the others left.
 DensityEdits balance_density(RemeshState& state);
 
 /// Whether a surface may stay as it is. Its edges are within [0.6, 1.5] of their rest length. The

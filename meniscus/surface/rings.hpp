@@ -13,7 +13,7 @@ class RingGatherer {
   RingGatherer(const SurfaceMesh& mesh, const SurfaceTopology& topology);
 
   /// Ring 1, then (if asked) ring 2, in an order that only connectivity decides. Of ring 2,
-  /// vertices whose normal is turned from that of v by more than about 75° are left out: seen from
+  /// vertices whose normal is turned from that of v by more than about 75° are left out. Seen from
   /// v they lie across a fold, or on the far side of a filament.
   std::span<const Vec3> gather(VertexId v, bool with_second_ring);
   /// Unit area vector of a vertex: the first guess of its normal.

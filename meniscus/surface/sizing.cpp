@@ -16,8 +16,8 @@ namespace {
 /// curvature across it.
 constexpr double kNeedle = 0.2;
 
-/// The normals interpolated linearly over a face turn by dn = W dx: half the trace of W, its
-/// determinant, and the area of the smooth surface (a sphere to fourth order). On a sphere both
+/// The normals interpolated linearly over a face turn by dn = W dx. These are half the trace of W,
+/// its determinant, and the area of the smooth surface (a sphere to fourth order). On a sphere both
 /// are exact, and K times the area sums to 4π as the Gauss map goes round once.
 struct FaceTurn {
   double H, K, area;
@@ -84,14 +84,14 @@ FaceField<double> excess(const FaceField<double>& values, const VertexField<doub
 /// ⟨κ⟩² = 2H² − K at the vertices, ∮⟨κ⟩² dS as its faces have it. Q is what exceeds the mean over
 /// the corners' cells.
 ///   On faces   H ← H + QH/8 + 1.2 Q²H,   ⟨κ⟩² = 2(H² + Σ(H_k − mean)²/12) − K,
-/// H_k the means over the corners' cells. H as it comes is that of the edges: for a peak ½r² it is
-/// h²/6 above the face's centre where the face's mean is h²/12, and QH = −2h²/3: hence 1/8. The
+/// H_k the means over the corners' cells. H as it comes is that of the edges. For a peak ½r² it is
+/// h²/6 above the face's centre, and the face's mean is h²/12. Then QH = −2h²/3: hence 1/8. The
 /// normals of the patches lose the curvature of waves by its fourth order. 1.2 makes ∮⟨κ⟩² right on
 /// the mean over random smooth surfaces. 0.8 does it for waves of five edges on an even lattice.
-///   At vertices   q ← q + 5/8 d · d²/(d² + (q̄/10)²),   q the mean over the cell, d = q − q̄ what it
-/// exceeds the mean of these over the cell by: back from that mean, 5h²/12 above the vertex's value
-/// for a peak, that of face means 2h²/3; but a d of a few per cent is noise of the fits, which
-/// would only make coarse meshes uneven.
+///   At vertices   q ← q + 5/8 d · d²/(d² + (q̄/10)²),   q the mean over the cell.
+/// d = q − q̄ is what it exceeds the mean of these over the cell by. For a peak this leads back from
+/// that mean, 5h²/12 above the vertex's value, that of face means 2h²/3. A d of a few per cent is
+/// noise of the fits, which would only make coarse meshes uneven.
 struct CellCurvature {
   VertexField<double> squared_rms;  // ⟨κ⟩²
   VertexField<double> gaussian;     // K
@@ -158,8 +158,8 @@ Allowance allowance(const VertexField<double>& squared_curvature, const SurfaceM
 }
 
 /// Lowers rest lengths on necks and threads, k1 being the largest principal curvature:
-///   l0 ← l0^(1−w) min(l0, 2π/(n k1))^w,   w = 1 − 2K/⟨κ⟩² within [0, 1],
-/// which is 1 on cylinders and saddles and 0 where the smaller principal curvature is more than
+///   l0 ← l0^(1−w) min(l0, 2π/(n k1))^w,   w = 1 − 2K/⟨κ⟩² within [0, 1].
+/// w is 1 on cylinders and saddles, and 0 where the smaller principal curvature is more than
 /// 0.27 of the larger one.
 void bound_by_necks(VertexField<double>& length, const CellCurvature& curvature,
                     double neck_edges) {

@@ -28,8 +28,8 @@ void limit_gradation(VertexField<double>& length, const SurfaceMesh& mesh,
 ///   l0 = (2/(√3 ρ))^½, at most edge_ceiling and size_bound(x), on necks about 2π r/neck_edges or
 ///   less, at least edge_floor;
 ///   then lowered until l0(a) ≤ l0(b) + gradation |x_a − x_b| along every edge.
-/// Before, C0 is raised to min_vertices/∮⟨κ⟩² dS where it is less, and the floor lowered to half
-/// the edge that min_vertices spread evenly would have where it is more.
+/// Before, C0 is raised to min_vertices/∮⟨κ⟩² dS where it is less. The floor is lowered to half the
+/// edge that min_vertices spread evenly would have, where it is more.
 [[nodiscard]] VertexField<double> rest_lengths(const SurfaceMesh& mesh,
                                                const SurfaceTopology& topology,
                                                const SmoothSurface& surface,

@@ -24,7 +24,7 @@ double trust_near_edges(const HeightPatch& patch, std::span<const Vec3> neighbou
   return trust(highest, kHighestMiddle);
 }
 
-/// The patch of the highest degree that the rings determine, as far as it is to be trusted; for the
+/// The patch of the highest degree that the rings determine, as far as it is to be trusted. For the
 /// rest, so that it follows the vertices without jumps, those of lower degrees.
 HeightPatch patch_at(const HeightPatch& frame, std::span<const Vec3> rings, std::size_t valence,
                      std::vector<Vec3>& unrolled) {

@@ -17,7 +17,7 @@ struct SurfacePoint {
 ///   S(b) = y + Σ_k w_k(b) (z_k(u, v) − n_k·(y − x_k)) n_k,   y = Σ b_k x_k,   w_k = b_k²/Σ b_j²
 ///
 /// where (u, v) are the coordinates of the flat point y in the frame of patch k. It passes through
-/// every vertex with the tangent plane of the vertex's patch; over an edge it depends on the
+/// every vertex with the tangent plane of the vertex's patch. Over an edge it depends on the
 /// patches of the two ends alone, so that faces join without gaps. Position error O(h⁴), normal
 /// O(h³), a patch's curvature at its vertex O(h²) on smooth surfaces; a sphere to O(h⁶). Patches
 /// fall back to lower degree where fewer than two rings can be seen (filaments as thin as an edge,

@@ -26,8 +26,8 @@ class SplinePatch {
   struct Height {
     double level = 0.0;  ///< g [R0]
     double z = 0.0;      ///< [R0]
-    /// How far the spline is to be trusted, 0 to 1: less where it amplifies the vertices' noise,
-    /// not at all where they do not determine it.
+    /// How far the spline is to be trusted, 0 to 1. It is less where it amplifies the vertices'
+    /// noise, not at all where they do not determine it.
     double trust = 0.0;
   };
   /// At the point (u, v) of the frame's plane [R0].

@@ -8,8 +8,8 @@ namespace meniscus {
 namespace {
 
 /// Springs are cut short. All are then stretched alike where the density is right, a uniform
-/// tension that no density gradient disturbs, and that gives the net the stiffness against shear
-/// and folding that springs at their rest length lack. The shorter, the better the angles around
+/// tension that no density gradient disturbs. It gives the net the stiffness against shear and
+/// folding that springs at their rest length lack. The shorter, the better the angles around
 /// vertices of valence 5 and 7, and the less the springs hold their lengths.
 constexpr double kShortening = 0.8;
 /// A vertex moves by this multiple of the move that would bring it to rest: long waves settle in
@@ -33,7 +33,7 @@ class PulledVertices {
     insert(v);
     mesh_.for_each_out(v, [&](HalfedgeId h) { insert(mesh_.to(h)); });
   }
-  /// The vertices of one round. Each is to be released when it is looked at: one that is inserted
+  /// The vertices of one round. Each is to be released when it is looked at. One that is inserted
   /// meanwhile and still to come in this round does not come again in the next.
   [[nodiscard]] std::vector<VertexId> next_round() { return std::exchange(members_, {}); }
   void release(VertexId v) { is_pulled_[v] = 0; }
@@ -50,7 +50,7 @@ class PulledVertices {
 };
 
 /// The tangential move by which the springs of a vertex would come to rest if its neighbours
-/// stayed: their pull over their stiffness, the mean of that along and across each.
+/// stayed. It is their pull over their stiffness, the mean of that along and across each.
 Vec3 move_to_rest(const RemeshState& state, VertexId v) {
   const RemeshVertex& vertex = state.vertices[v];
   Vec3 pull = Vec3::Zero();

@@ -25,7 +25,7 @@ struct Range {
   [[nodiscard]] double clamped_value(double value) const { return std::clamp(value, low, high); }
 };
 
-/// How far a smooth function may pass the values at the vertices around, over their spread: at its
+/// How far a smooth function may pass the values at the vertices around, over their spread. At its
 /// extremum amid an equilateral face it passes them by a sixth.
 constexpr double kOvershoot = 0.25;
 
@@ -192,8 +192,8 @@ class NewFunction {
   std::vector<VertexInterpolation> around_;
 };
 
-/// Conserved fields: what the old surface had beyond the new values goes to where it comes to lie;
-/// what areas have gained or lost is left to the piece.
+/// Conserved fields: what the old surface had beyond the new values goes to where it comes to lie.
+/// What areas have gained or lost is left to the piece.
 class Conservation {
  public:
   explicit Conservation(const SurfaceChange& change)
@@ -226,7 +226,7 @@ class Conservation {
                         shares, range);
   }
 
-  /// Old and new values are compared at the centre of the new face: at the part itself the slope
+  /// Old and new values are compared at the centre of the new face. At the part itself the slope
   /// would count, and with it how parts happen to lie.
   FieldExcess keep(FaceField<double>& values, const FaceField<double>& before,
                    const FaceReconstruction& reconstruction) const {

@@ -18,16 +18,16 @@ struct SurfaceChange {
 
 /// Carries fields from the old mesh to the new one.
 ///
-/// Vertices: around each old vertex a quadratic polynomial through its value, fitted to the ring;
-/// over a face those of its corners, blended as the smooth surface is: third order on smooth
+/// Vertices: around each old vertex a quadratic polynomial through its value, fitted to the ring.
+/// Over a face those of its corners, blended as the smooth surface is: third order on smooth
 /// fields. Faces: linear about each old face, fitted to the three faces beside it, its mean over a
 /// new face taken at four points: second order. Neither leaves the range of the values it is made
-/// from, so that constants stay constant and nothing changes its sign; what has not moved keeps its
+/// from, so that constants stay constant and nothing changes its sign. What has not moved keeps its
 /// value.
 ///
 /// Where a field is conserved, parts of the old faces give what they held beyond the new values to
 /// the nearest new elements (`keep_amounts`). Second order. What the area of the mesh gained or
-/// lost is shared by the piece within the old range, beyond it in equal parts: a constant stays
+/// lost is shared by the piece within the old range, beyond it in equal parts. A constant stays
 /// one, but follows the area.
 ReplacedFields transferred_fields(const SurfaceFields& fields, const SurfaceChange& change);
 

@@ -7,8 +7,8 @@
 namespace meniscus {
 
 /// Finds points on a triangulation by walking from face to face. The vertices of a remesh move by
-/// fractions of an edge, so that the next point is a face or two away from the last and no search
-/// tree is needed.
+/// fractions of an edge. So the next point is a face or two away from the last, and no search tree
+/// is needed.
 class SurfaceWalk {
  public:
   SurfaceWalk(const SurfaceMesh& mesh, const SurfaceTopology& topology);

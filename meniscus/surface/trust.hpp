@@ -7,7 +7,7 @@
 namespace meniscus {
 
 /// How far a fit is to be trusted: 1 up to a limit of what it is judged by, fading to 0 at twice
-/// the limit, so that what is fitted follows the vertices without jumps.
+/// the limit. So what is fitted follows the vertices without jumps.
 [[nodiscard]] inline double trust(double size, double limit) {
   return std::clamp(2.0 - size / limit, 0.0, 1.0);
 }

@@ -28,7 +28,7 @@ namespace meniscus {
 namespace {
 
 /// Distance from a place dealt with, in neck radii or gaps, within which nothing else is due in the
-/// same call: beyond the band that was cut and the hole that was opened.
+/// same call. It is beyond the band that was cut and the hole that was opened.
 constexpr double kWaiting = 4.0;
 /// Far beyond what one step can bring about: ends a scene of events that make each other.
 constexpr int kMaxEvents = 1000;

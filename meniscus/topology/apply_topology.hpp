@@ -33,7 +33,7 @@ struct [[nodiscard]] TopologyReport {
 };
 
 /// Cuts every neck that is due, the thinnest first, then opens every film that is due, the thinnest
-/// first; places closer than a few radii to one that was dealt with wait for the next call.
+/// first. Places closer than a few radii to one that was dealt with wait for the next call.
 /// `motion` is that of the surfaces of the scene, or unknown: then every neck thins and every gap
 /// closes.
 ///

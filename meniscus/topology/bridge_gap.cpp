@@ -25,8 +25,8 @@
 namespace meniscus {
 namespace {
 
-/// The holes that are tried, and whether they take all of the thin film around with them: smaller
-/// ones where the rim of a larger one comes round to the back of a drop or to another fold.
+/// The holes that are tried, and whether they take all of the thin film around with them. Smaller
+/// ones serve where the rim of a larger one comes round to the back of a drop or to another fold.
 constexpr std::array<std::pair<double, bool>, 5> kHoles{
     {{kHole, true}, {kHole, false}, {1.5, false}, {1.0, false}, {0.5, false}}};
 /// Edges at the hole, in limits: the rim of the film turns round within one limit.
@@ -123,9 +123,10 @@ FacePatch faces_around(const Film& film, std::vector<VertexId> vertices, double 
   return patch;
 }
 
-/// The faces around the vertices that can be reached from `start` through vertices within `hole` of
-/// it or, with `limit` > 0, on a film thinner than that. With the film goes a margin as wide as the
-/// limit: the rim is left where the film is thicker and can turn round, and it is less ragged.
+/// The faces around vertices that are reached from `start` through vertices within `hole` of it.
+/// With `limit` > 0 those on a film thinner than that count too. With the film goes a margin as
+/// wide as the limit. The rim is left where the film is thicker and can turn round, and it is less
+/// ragged.
 FacePatch hole_around(const Film& film, VertexId start, double hole, double limit) {
   VertexField<char> is_seen(film.mesh.num_vertices(), false);
   std::vector<VertexId> front{start};
@@ -172,8 +173,8 @@ bool are_apart(const Film& film, const Holes& patches) {
 }
 
 /// The holes within `hole` of the closest place and, with `limit` > 0, of all film around it that
-/// is thinner than that; none when they are no discs, run into one another, or would take out film
-/// that can be resolved.
+/// is thinner than that. There are none when they are no discs, run into one another, or would take
+/// out film that can be resolved.
 std::optional<Holes> holes(const Film& film, const std::array<VertexId, 2>& at, double hole,
                            double limit, const BridgeOptions& options) {
   Holes patches;
@@ -239,8 +240,8 @@ Opening opening(const Film& film, const Holes& patches, double unit) {
   return {{std::move(pieces), {}}, moved};
 }
 
-/// The first of the openings that leaves a sound surface, adds little area and moves little liquid;
-/// where all move much, the one that moves least. Why there is none, else.
+/// The first of the openings that leaves a sound surface, adds little area and moves little liquid.
+/// Where all move much, it is the one that moves least. Why there is none, else.
 Opening best_opening(const Film& film, const std::array<VertexId, 2>& at, double edge,
                      const BridgeOptions& options) {
   const double unit = edge / kEdge;  // the limit, but for patches too large for its edges

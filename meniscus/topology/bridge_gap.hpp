@@ -11,18 +11,18 @@ struct BridgeOptions {
 };
 
 /// Joins the two sides of a film by a tube at its closest place. Both surfaces are first refined
-/// there to half the limit; then the discs of faces within two limits of the closest place,
-/// together with all of the film around it that is thinner than the limit, are taken out, and the
-/// two holes joined and smoothed. A thicker part of the film that this would enclose is taken out
-/// with it unless it is large enough to be resolved (a sphere of its volume wider than twice the
-/// limit and four times the edge floor); then the disc of two limits alone is opened, where the
-/// film is closest. Where an opening would add area, make the surface meet itself once its volume
-/// is restored, or move more than a tenth of the liquid, smaller discs are tried, down to half a
-/// limit; a drop that lies within two limits of that place as a whole is left out rather, for its
-/// liquid to be given to the other.
+/// there to half the limit. Then the discs of faces within two limits of the closest place are
+/// taken out, with all of the film around it thinner than the limit. The two holes are joined and
+/// smoothed. A thicker part of the film that this would enclose is taken out with it unless it is
+/// large enough to be resolved. A sphere of its volume is then wider than twice the limit and four
+/// times the edge floor. The disc of two limits alone is opened, where the film is closest. Where
+/// an opening would add area, make the surface meet itself once its volume is restored, or move
+/// more than a tenth of the liquid, smaller discs are tried, down to half a limit. A drop that lies
+/// within two limits of that place as a whole is left out rather, for its liquid to be given to the
+/// other.
 ///
-/// The surface of the liquid that the bridge belongs to: for a film inside of a (between a drop in
-/// a drop and the matrix around both), that of the film's liquid.
+/// The surface of the liquid that the bridge belongs to. For a film inside of a, between a drop in
+/// a drop and the matrix around both, it is that of the film's liquid.
 Surgery bridge_gap(const Scene& scene, const Gap& gap, const BridgeOptions& options);
 
 }  // namespace meniscus

@@ -15,7 +15,7 @@ namespace meniscus {
 namespace {
 
 /// Half-width of the band, in radii. On a cylinder its ends lie 1.1 radii from the middle and the
-/// domes that close them are half a radius high: as much is taken off the lateral area as domes
+/// domes that close them are half a radius high. So as much is taken off the lateral area as domes
 /// add, and they stay 1.2 radii apart. The others are tried where the band is no ring, as beside a
 /// bulge.
 constexpr std::array<double, 4> kReaches{1.5, 1.25, 2.0, 1.0};

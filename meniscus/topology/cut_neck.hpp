@@ -18,8 +18,8 @@ struct [[nodiscard]] Surgery {
   CarryingSurface refined = {};
 };
 
-/// Cuts a thread: the band of faces around the neck within 1.5 of its radius from the middle is
-/// taken out and the two ends are rounded off. Pieces come in the order of their first faces, each
+/// Cuts a thread. The band of faces around the neck within 1.5 of its radius from the middle is
+/// taken out, and the two ends are rounded off. Pieces come in the order of their first faces, each
 /// with the orientation it had.
 Surgery cut_neck(const SurfaceMesh& mesh, const Neck& neck);
 

@@ -42,7 +42,7 @@ double cone(const SurfaceMesh& mesh, const Vec3& apex, FaceId f) {
 }
 
 /// The volume of the cone from the origin to what lies above the plane of the k-th face that a
-/// section crosses: the corner that the crossing cuts off, or the face without it.
+/// section crosses. It is of the corner that the crossing cuts off, or the face without it.
 double cone_above(const SurfaceMesh& mesh, const Ground& ground, const Section& section,
                   std::size_t k) {
   const FaceVertices& v = mesh.faces[section.faces[k]];

@@ -30,9 +30,9 @@ struct Gap {
 ///   v(from)·m(from) + v(to)·m(to) > 0,  m the normal into the film.
 /// Facing: the normals into the film are opposed to within 60°, and the line between the points is
 /// within 60° of both. Two parts of one surface count as facing only if no path on it shorter than
-/// the ball of 3 `limit` around the middle joins them: neither the rim of a film nor a neck is a
-/// gap. Of the places of one film that the limit joins, only the closest is given.
-/// O(n log n) in the number of drops as long as few are near each one.
+/// the ball of 3 `limit` around the middle joins them. Neither the rim of a film nor a neck is a
+/// gap. Of the places of one film that the limit joins, only the closest is given. O(n log n) in
+/// the number of drops as long as few are near each one.
 [[nodiscard]] std::vector<Gap> find_gaps(const Scene& scene, double limit,
                                          const SurfaceMotion& motion);
 
@@ -66,7 +66,7 @@ class GapSearch {
 };
 
 /// The width of the film beyond a vertex of a closed surface whose two sides face each other across
-/// it; infinite where it is no film thinner than `limit`.
+/// it. It is infinite where it is no film thinner than `limit`.
 [[nodiscard]] double film_width(const SurfaceMesh& mesh, const SurfaceTree& tree, const Vec3& x,
                                 const Vec3& into_film, double limit);
 

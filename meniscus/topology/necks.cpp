@@ -20,7 +20,7 @@
 namespace meniscus {
 namespace {
 
-/// Threads are followed to this multiple of the radius below which necks are cut: beyond
+/// Threads are followed to this multiple of the radius below which necks are cut. It is beyond
 /// kProminence times it, so that a neck at the limit is still seen to be one.
 constexpr double kWidest = 1.5;
 /// Faces that a section must cross at least: five edges around and five up or down. With fewer its
@@ -42,9 +42,9 @@ bool is_around_vertex(const SurfaceMesh& mesh, const Section& section) {
   });
 }
 
-/// Whether a section cuts no more off than the end of a point or the rim of a lens, or, of the
-/// outer liquid, the bottom of a dent: what is left when half of the liquid around the cut has gone
-/// is less than a ball as wide as the neck, or does not go on as far.
+/// Whether a section cuts no more off than the end of a point or the rim of a lens. Of the outer
+/// liquid that is the bottom of a dent. When half of the liquid around the cut has gone, then less
+/// than a ball as wide as the neck is left. Or what is left does not go on as far.
 bool is_near_end(const SurfaceMesh& mesh, const FaceNeighbours& neighbours,
                  const Section& section) {
   constexpr double kBeyond = 1.5;  // radii; a ball as wide as the thread reaches 1.9

@@ -19,9 +19,9 @@ struct Neck {
 };
 
 /// All places of a closed surface where a thread of the liquid on one side of it is locally
-/// thinnest, thinner than `radius` and thinning, in rising order of their radius. A place is
-/// locally thinnest when the thread widens by a tenth on either side of it before it becomes any
-/// thinner; so neither a pointed end nor the roughness of a triangulation is one. A thread of the
+/// thinnest, thinner than `radius` and thinning. They are in rising order of their radius. A place
+/// is locally thinnest when the thread widens by a tenth on either side of it before it becomes any
+/// thinner. So neither a pointed end nor the roughness of a triangulation is one. A thread of the
 /// liquid outside is the hole of a torus. Necks closer than four radii count as one. What they are
 /// depends on the surface alone, not on the numbering of its vertices. A place that is tried costs
 /// O(|F|); `find_threads` says how many are tried.

@@ -18,8 +18,9 @@ namespace {
 
 using EdgeKey = std::pair<VertexId, VertexId>;
 
-/// Where the plane crosses one face: from the edge it enters by to the edge it leaves by, in the
-/// order that keeps the side above the plane on the left. Faces share the points of their edges.
+/// Where the plane crosses one face, from the edge it enters by to the edge it leaves by. The order
+/// is the one that keeps the side above the plane on the left. Faces share the points of their
+/// edges.
 struct Crossing {
   EdgeKey from, to;
   FaceId face;

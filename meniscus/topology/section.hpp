@@ -25,14 +25,14 @@ struct SectionResult {
 };
 
 /// The curve around (or, where none goes around it, nearest to) `center` in the plane through it
-/// normal to `axis`, looked for within `reach` of it: `wide` when it leaves that cube, `none` when
-/// the plane meets no face there.
+/// normal to `axis`, looked for within `reach` of it. It is `wide` when it leaves that cube, `none`
+/// when the plane meets no face there.
 [[nodiscard]] SectionResult section_around(const SurfaceMesh& mesh, const SurfaceTree& tree,
                                            const Vec3& center, const Vec3& axis, double reach);
 
-/// What a section of the faces of `mesh` encloses on the smooth surface through its vertices
-/// [R0²]: over each face the curve becomes the parabola through its ends and middle there. A
-/// polygon through the vertices of a ring of n edges lacks 2π²/3n² of it.
+/// What a section of the faces of `mesh` encloses on the smooth surface through its vertices [R0²].
+/// Over each face the curve becomes the parabola through its ends and middle there. A polygon
+/// through the vertices of a ring of n edges lacks 2π²/3n² of it.
 [[nodiscard]] double smooth_area(const Section& section, const SurfaceMesh& mesh,
                                  const SmoothSurface& surface);
 

@@ -18,16 +18,16 @@ struct InterfaceReplacement {
   CarryingSurface refined = {};      ///< as in `Surgery`: what the pieces were made of
 };
 
-/// Replaces the parents by the pieces: volumes are made to add up, drops get new ids (the least
+/// Replaces the parents by the pieces. Volumes are made to add up, drops get new ids (the least
 /// never used), regions and nesting are found again. What the pieces enclose, less their cavities,
-/// is what the parents enclosed (of a drop released from another, less it): what the surgery took
+/// is what the parents enclosed (of a drop released from another, less it). What the surgery took
 /// from that is given back to the pieces in equal parts. A cavity becomes an interface around the
 /// liquid of the first parent's other side. Fields of the parents go to the pieces as their volumes
 /// are restored (`replaced_fields`).
 ///
 /// Interfaces that stay keep their order and come first; the event's drops, volumes, areas and
-/// energies are filled in. Not done, with the reason, when a piece encloses nothing, is
-/// no sound surface, or meets another interface or the outer boundary; the scene is then as before.
+/// energies are filled in. Not done, with the reason, when a piece encloses nothing, is no sound
+/// surface, or meets another interface or the outer boundary. The scene is then as before.
 [[nodiscard]] std::optional<Fault> replace_interfaces(Scene& scene,
                                                       InterfaceReplacement replacement,
                                                       TopologyEvent& event);

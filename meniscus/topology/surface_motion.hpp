@@ -9,8 +9,8 @@
 namespace meniscus {
 
 /// The velocity with which a set of surfaces moves, known at the vertices of each and read at any
-/// point near them: that of the nearest point, linear on its face. So it outlives a remeshing of
-/// the surfaces. Search trees are built at the first question.
+/// point near them. It is that of the nearest point, linear on its face. So it outlives a remeshing
+/// of the surfaces. Search trees are built at the first question.
 class SurfaceMotion {
  public:
   /// Adds a surface with the velocities of its vertices [G R0].

@@ -16,7 +16,7 @@ constexpr int kAlignments = 4;      // each halves the tilt of the first section
 constexpr double kCube = 3.0;       // half of the cube looked at, in the widest radius
 
 /// The direction that the normals of the faces around a point avoid most: a thread's axis. Faces
-/// count by the square of the cosine at which they face the point, else the flat sides of a plate
+/// count by the square of the cosine at which they face the point. Else the flat sides of a plate
 /// would outdo the rim of its hole.
 std::optional<Vec3> axis_guess(const SurfaceTree& tree, const Vec3& center, Side side,
                                double radius) {

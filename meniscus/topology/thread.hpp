@@ -18,7 +18,7 @@ enum class ThreadEnd {
   ring   ///< it meets its own other end
 };
 
-/// A thin part of the liquid on one side of a surface: its sections across, in order along it,
+/// A thin part of the liquid on one side of a surface. It has sections across, in order along it,
 /// about a quarter of a radius apart.
 struct Thread {
   std::vector<Section> sections;

@@ -10,11 +10,11 @@
 namespace meniscus {
 namespace {
 
-/// Thicknesses around a place without a thread within which others are taken to have none: a
+/// Thicknesses around a place without a thread within which others are taken to have none. It is a
 /// quarter of the radius, which is how far the sections of a thread are apart.
 constexpr double kLikewise = 0.125;
-/// Least thickness, in the widest radius followed, of a place that answers for all others there:
-/// where the liquid is thinner, a guess of the axis may fail beside a thread.
+/// Least thickness, in the widest radius followed, of a place that answers for all others there.
+/// Where the liquid is thinner, a guess of the axis may fail beside a thread.
 constexpr double kThick = 1.0;
 /// How near, in that radius, a place in a thinner sheet of the drop answers for one that is no more
 /// than so much thicker. Sheets of any number of vertices thus have a bounded number of places.
@@ -89,8 +89,8 @@ class ThreadSearch {
   [[nodiscard]] Thread thread_at(const ThinPlace& place) const {
     return thread_through(mesh_, tree_, place.middle, side_, widest_);
   }
-  /// A thread that a place found was in reach of a thinner place, if one that was skipped finds it:
-  /// that one's sections count, as if none had been skipped.
+  /// A thread that a place found was in reach of a thinner place, if one that was skipped finds it.
+  /// That one's sections count, as if none had been skipped.
   void add_from_skipped(const Thread& thread) {
     std::vector<ThinPlace> others;
     for (const ThinPlace& place : std::exchange(skipped_, {})) {

@@ -32,7 +32,7 @@ class CarrierSurface {
   using NodeMatrix = Eigen::Matrix<double, kQuadraticNodes, kQuadraticNodes>;
   /// ∫ψ_a ψ_b dS of every face [R0²].
   [[nodiscard]] FaceField<NodeMatrix> masses() const;
-  /// The matrix over the vertices that sums those of the faces over their nodes: EᵀAE, Ef being the
+  /// The matrix over the vertices that sums those of the faces over their nodes: EᵀAE. Ef are the
   /// values at all nodes of a function with the values f at the vertices.
   [[nodiscard]] Eigen::SparseMatrix<double> assembled(const FaceField<NodeMatrix>& of_faces) const;
   /// The nodes of a face: its corners, then the middles of its edges 01, 12, 20. Vertices come

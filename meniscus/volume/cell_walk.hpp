@@ -7,7 +7,7 @@
 
 namespace meniscus {
 
-/// Finds the cell at a point by walking across facets from a cell nearby: a step costs some 50 ns,
+/// Finds the cell at a point by walking across facets from a cell nearby. A step costs some 50 ns,
 /// where a search in a tree of boxes takes 10 µs. Linear to build. The mesh must outlive it.
 class CellWalk {
  public:

@@ -103,8 +103,8 @@ std::optional<Fault> find_inverted_cell(const TetMesh& mesh) {
   return {};
 }
 
-/// Each face of each surface is a facet of the two cells named as its sides (one on the outer
-/// boundary), and these lie in the right regions.
+/// Each face of each surface is a facet of the two cells named as its sides; one on the outer
+/// boundary. These lie in the right regions.
 std::optional<Fault> find_wrong_face(const TetMesh& mesh, const FacetTable& facets,
                                      const SurfacePair& pair) {
   for (const FaceId f : pair.surface.faces.ids()) {
@@ -129,7 +129,7 @@ std::optional<Fault> find_wrong_face(const TetMesh& mesh, const FacetTable& face
   return {};
 }
 
-/// Every facet belongs to one cell on each side; regions change, and the mesh ends, on faces of
+/// Every facet belongs to one cell on each side. Regions change, and the mesh ends, on faces of
 /// surfaces only: as many facets do as there are faces.
 std::optional<Fault> find_wrong_facet(const TetMesh& mesh, const FacetTable& facets,
                                       const Scene& scene) {

@@ -15,14 +15,14 @@ struct ForeseenCells {
   [[nodiscard]] bool is_too_many() const;
 };
 
-/// The largest number of cells that is made: a mesh of three million vertices, for which TetGen
-/// takes some 8 GB and the flow more than ten times as much.
+/// The largest number of cells that is made: a mesh of three million vertices. TetGen takes some 8
+/// GB for it and the flow more than ten times as much.
 inline constexpr double kMostCells = 2e7;
 
-/// ∫ dV/(cell_volume h³/(6√2)) over the box around the outer boundary, h = size(x) taken constant
-/// over boxes of a few h, and what the vertices of the surfaces take at least. Ends where it
-/// exceeds `kMostCells`; a size that is no positive number, or below the precision of
-/// the coordinates, counts as too many.
+/// ∫ dV/(cell_volume h³/(6√2)) over the box around the outer boundary, and what the vertices of the
+/// surfaces take at least. h = size(x) is taken constant over boxes of a few h. Ends where it
+/// exceeds `kMostCells`; a size that is no positive number, or below the precision of the
+/// coordinates, counts as too many.
 [[nodiscard]] ForeseenCells foresee_cells(const Scene& scene,
                                           const std::function<double(const Vec3&)>& size,
                                           double cell_volume);

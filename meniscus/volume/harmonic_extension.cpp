@@ -120,8 +120,8 @@ HarmonicExtension::HarmonicExtension(const HarmonicPattern& pattern, const TetMe
     : matrices_(matrices_of(pattern, mesh)), solver_(matrices_.stiffness.view()) {}
 
 int HarmonicExtension::extend(Field<TetVertexId, Vec3>& w) const {
-  // Any smooth extension will do, so the residual need not be small, and an iterate cut short after
-  // as many steps (never seen; ten are usual) would do as well.
+  // Any smooth extension will do, so the residual need not be small. An iterate cut short after as
+  // many steps (never seen; ten are usual) would do as well.
   constexpr double kTolerance = 1e-6;
   constexpr int kMostIterations = 200;
   const auto num_free = static_cast<std::size_t>(matrices_.stiffness.num_columns);

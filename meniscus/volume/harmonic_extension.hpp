@@ -16,11 +16,11 @@ struct HarmonicPattern {
   linear::CsrMatrix coupling;   ///< columns: the vertices before `first_free`
 };
 
-/// Extends a velocity given at the vertices before `first_free` to those from there on as the
+/// Extends a velocity given at the vertices before `first_free` to those from there on. It is the
 /// solution of ∇·(|K|⁻¹∇w) = 0 in linear elements on a mesh as it stands. The weight, one over the
 /// cell's volume, makes small cells stiff, so that large ones take up the deformation. Linear in
 /// the number of vertices: the matrix is assembled from the edges and solved by multigrid, which is
-/// set up once for all velocities (docs/volume-mesh.md has the seconds).
+/// set up once for all velocities. docs/volume-mesh.md has the seconds.
 class HarmonicExtension {
  public:
   HarmonicExtension(const HarmonicPattern& pattern, const TetMesh& mesh);

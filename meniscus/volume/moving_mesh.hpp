@@ -26,7 +26,7 @@ struct [[nodiscard]] MeshChange : Report {
 };
 
 /// The tetrahedra of all regions, which move with the interfaces of a scene. The mesh knows where
-/// its vertices stood when the step began and with what velocity they left; evolution owns it and
+/// its vertices stood when the step began and with what velocity they left. Evolution owns it and
 /// lends it to the flow solver. Fields that live on the tetrahedra ride on it.
 class MovingMesh {
  public:

@@ -34,7 +34,7 @@ CosineRange dihedral_cosines(const TetMesh& mesh, const CellVertices& cell) {
   return range;
 }
 
-/// 3 r/R with r = 3V/Σ areas and R = |α|/(12V), where α = a² b×c + b² c×a + c² a×b of the edges a,
+/// 3 r/R with r = 3V/Σ areas and R = |α|/(12V). Here α = a² b×c + b² c×a + c² a×b of the edges a,
 /// b, c from one vertex.
 double radius_ratio(const TetMesh& mesh, const CellVertices& cell) {
   const Vec3 a = mesh.x[cell[1]] - mesh.x[cell[0]], b = mesh.x[cell[2]] - mesh.x[cell[0]],

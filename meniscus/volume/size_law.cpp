@@ -14,9 +14,10 @@
 namespace meniscus {
 namespace {
 
-/// Layers of the surfaces' own edges that a gap may hold and still count as one: above 1/kGapEdge,
-/// the width that the surfaces have been remeshed for, by more than the error of the distances (a
-/// fifth); low enough that a sphere of 110 vertices, 5.5 edges across, is none for three layers.
+/// Layers of the surfaces' own edges that a gap may hold and still count as one. The surfaces have
+/// been remeshed for the width 1/kGapEdge. This is above it by more than the error of the distances
+/// (a fifth). It is low enough that a sphere of 110 vertices, 5.5 edges across, is none for three
+/// layers.
 constexpr double kNarrow = 1.75;
 /// Volume of the cells at the finest places, over that elsewhere at the same edge.
 constexpr double kFineVolume = 2.0;
@@ -37,8 +38,8 @@ VertexField<double> mean_edge_at_vertices(const SurfaceMesh& mesh) {
   return sum;
 }
 
-/// The surface that encloses each interface: interface i where its outside is region i + 1, the
-/// outer boundary (numbered after the interfaces) where it is the matrix.
+/// The surface that encloses each interface: interface i where its outside is region i + 1. It is
+/// the outer boundary, numbered after the interfaces, where that is the matrix.
 std::vector<std::size_t> containers(const Scene& scene) {
   std::vector<std::size_t> result;
   result.reserve(scene.interfaces.size());

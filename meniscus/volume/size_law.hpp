@@ -18,8 +18,8 @@ struct LeastSize {
   double growth = 0.0;  ///< `least_growth`
 };
 
-/// Wanted edge length at a point between a surface of edge length `h_s`, at distance `d_s`, and one
-/// of edge length `h_b`, at distance `d_b` [R0]. With s = d_s/(d_s + d_b),
+/// Wanted edge length [R0] at a point between a surface of edge length `h_s`, at distance `d_s`,
+/// and one of `h_b`, at distance `d_b`. With s = d_s/(d_s + d_b),
 ///   linear       h = h_s + (h_b − h_s) s
 ///   exponential  h = h_s (h_b/h_s)^s
 ///   gaussian     h = h_b + (h_s − h_b) (e^(−9s²/2) − e^(−9/2))/(1 − e^(−9/2)), but at least
@@ -30,36 +30,36 @@ struct LeastSize {
 [[nodiscard]] double graded_size(Grading grading, double h_s, double d_s, double h_b, double d_b,
                                  const LeastSize& least = {});
 
-/// The least growth beside an interface of resolution C0: 1/3 or less, and above 200 vertices
-/// inversely as the root of their number, so that all sizes go with those of the edges. The bell
-/// has that much by itself around a sphere in a boundary of ten radii.
+/// The least growth beside an interface of resolution C0. It is 1/3 or less, and above 200 vertices
+/// inversely as the root of their number. So all sizes go with those of the edges. The bell has
+/// that much by itself around a sphere in a boundary of ten radii.
 [[nodiscard]] double least_growth(double C0);
 
 /// By how much a place of an interface is finer than the sphere of the drop's volume, whose edges
-/// are `even_edge` long: 0 where the edges are longer than a third of those, 1 below a sixth. At
-/// such a neck or tip the mesh is scaled to a radius that is small beside the drop's. Cells have
+/// are `even_edge` long. It is 0 where the edges are longer than a third of those, 1 below a sixth.
+/// At such a neck or tip the mesh is scaled to a radius that is small beside the drop's. Cells have
 /// twice the volume there and grow from the surface on, at `least_growth`. The errors of the flow
-/// that they bring decay within some radii of the neck, and reach the drop as its small part.
-/// For the bell (`Grading::gaussian`) alone.
+/// that they bring decay within some radii of the neck, and reach the drop as its small part. For
+/// the bell (`Grading::gaussian`) alone.
 [[nodiscard]] double fineness(double edge, double even_edge);
 
 /// Bound on the edge length in a gap of width `width` between surfaces whose edges are `h` long
-/// [R0], so that the gap holds `layers` layers: kGapEdge width/layers, but no less than h. Infinite
+/// [R0]. Then the gap holds `layers` layers: kGapEdge width/layers, but no less than h. Infinite
 /// where the gap is wider than 7/4 layers of h: the surfaces hold it by themselves.
 [[nodiscard]] double gap_size(double width, double layers, double h);
 
 /// The wanted edge length of the tetrahedra of a scene as a function of the point.
 ///
-/// Each region is bounded from outside by one surface (the interface that encloses it, or the outer
-/// boundary) and from inside by any number of interfaces. The size is the smallest of the laws
-/// between each inner interface and the enclosing surface; where there is no inner interface it is
-/// h_s + interior_growth d of the enclosing one. A law between two neighbouring drops would keep
-/// all of the space between them as fine as they are, however far apart; the smallest of the laws
-/// towards the enclosing surface is fine near each of them and grows in between.
+/// Each region is bounded from outside by one surface, the interface that encloses it or the outer
+/// boundary. From inside it is bounded by any number of interfaces. The size is the smallest of the
+/// laws between each inner interface and the enclosing surface. Where there is no inner interface
+/// it is h_s + interior_growth d of the enclosing one. A law between two neighbouring drops would
+/// keep all of the space between them as fine as they are, however far apart. The smallest of the
+/// laws towards the enclosing surface is fine near each of them and grows in between.
 ///
-/// With `gap_layers` > 0 the size is, besides, at most `gap_size` of each gap the point lies in:
-/// between any two of the surfaces around its region, the width being the sum of its distances from
-/// them; and between two sheets of one of them, the width being the one at the nearest point.
+/// With `gap_layers` > 0 the size is, besides, at most `gap_size` of each gap the point lies in.
+/// Between any two of the surfaces around its region, the width is the sum of its distances from
+/// them. Between two sheets of one of them, it is the one at the nearest point.
 class SizeLaw {
  public:
   SizeLaw(const Scene& scene, const VolumeMeshOptions& options);

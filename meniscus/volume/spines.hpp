@@ -15,9 +15,9 @@ class Spines {
   [[nodiscard]] bool exist() const { return exist_; }
 
   /// `drop_motion`, interpolated where the ray through x leaves the drop at distance a from the
-  /// centre, times r/a inside and (b − r)/(b − a) outside, r being the distance of x and b that of
-  /// the boundary: whole at the drop, zero at the centre and at the boundary. (The printed ratio,
-  /// (r − a)/(b − a), is zero at the drop.)
+  /// centre, times r/a inside and (b − r)/(b − a) outside. r is the distance of x and b that of the
+  /// boundary: whole at the drop, zero at the centre and at the boundary. (The printed ratio, (r −
+  /// a)/(b − a), is zero at the drop.)
   [[nodiscard]] Vec3 velocity(const Vec3& x, const VertexField<Vec3>& drop_motion) const;
 
  private:

@@ -34,7 +34,7 @@ class HalfSpaceTet {
   std::array<double, 4> offset_{};
 };
 
-/// The moments of what two tetrahedra have in common, exact but for round-off: the first is clipped
+/// The moments of what two tetrahedra have in common, exact but for round-off. The first is clipped
 /// by those half spaces of the second that cut it, and stays a union of tetrahedra.
 [[nodiscard]] VolumeMoments tet_overlap(const HalfSpaceTet& a, const HalfSpaceTet& b);
 

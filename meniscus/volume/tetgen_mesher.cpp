@@ -25,7 +25,7 @@ using Point = const double*;
 Vec3 position(Point p) { return {p[0], p[1], p[2]}; }
 
 /// The size law at TetGen's vertices. TetGen tests each vertex with each new tetrahedron around it,
-/// dozens of times; it may also free a vertex and use its memory again, so an entry holds only for
+/// dozens of times. It may also free a vertex and use its memory again, so an entry holds only for
 /// the coordinates it was made for.
 class SizeTest {
  public:
@@ -177,8 +177,8 @@ void mesh_complex(const SurfaceComplex& complex, tetgenbehavior behavior, const 
   try {
     run_phases(*mesh, output);
   } catch (int code) {
-    // TetGen has freed the mesh's memory before it threw, and the destructor would do so again (as
-    // in TetGen's own driver, which therefore cannot be used).
+    // TetGen has freed the mesh's memory before it threw, and the destructor would do so again. So
+    // does TetGen's own driver, which therefore cannot be used.
     static_cast<void>(mesh.release());
     if (code == kOutOfMemory) throw std::bad_alloc();
     throw std::runtime_error(meaning(code));

@@ -33,16 +33,16 @@ struct [[nodiscard]] MesherResult {
 /// How large tetrahedra are to be.
 struct CellTarget {
   std::function<double(const Vec3&)> size;  ///< edge wanted at a point
-  /// A tetrahedron is cut when its volume exceeds this times h³/(6√2), the volume of the regular
-  /// one whose edge h is the mean of `size` over the vertices.
+  /// A tetrahedron is cut when its volume exceeds this times h³/(6√2). That is the volume of the
+  /// regular one whose edge h is the mean of `size` over the vertices.
   double volume_factor = 2.0;
   double num_cells = 0.0;  ///< how many are expected, for the time that meshing may take
 };
 
 /// Tetrahedra of all that the complex encloses, by TetGen under the given switches; `size` is
 /// evaluated once per vertex. TetGen works in a child process (`run_in_child`), for Debian's
-/// library is built with its assertions on: one that does not hold, as points in special positions
-/// bring out (coplanar and cospherical ones, as on a box), ends the child and is a failure here.
+/// library is built with its assertions on. One that does not hold ends the child and is a failure
+/// here. Points in special positions bring that out: coplanar and cospherical ones, as on a box.
 MesherResult run_tetgen(const SurfaceComplex& complex, const std::string& switches,
                         const CellTarget& target);
 

@@ -28,15 +28,15 @@ struct [[nodiscard]] VolumeMeshReport : Report {
   int attempt = 0;  ///< 0: first choice; higher: a fallback (docs/volume-mesh.md lists them)
 };
 
-/// Tetrahedra of all regions of the scene, conforming exactly to every interface and the outer
-/// boundary (no surface vertex or face is added, moved or lost), validated before it is returned.
-/// On failure `mesh` is unchanged.
+/// Tetrahedra of all regions of the scene, validated before it is returned. They conform exactly to
+/// every interface and the outer boundary: no surface vertex or face is added, moved or lost. On
+/// failure `mesh` is unchanged.
 VolumeMeshReport tetrahedralize(const Scene& scene, const VolumeMeshOptions& options,
                                 TetMesh& mesh);
 
-/// What is wrong with a mesh of this scene; none when every interface face is a facet of exactly
-/// two cells (boundary: one) on the right sides, volumes are positive, regions consistent, their
-/// volumes those the surfaces enclose, and surface vertices where the scene has them.
+/// What is wrong with a mesh of this scene. Interface faces must be facets of exactly two cells
+/// (boundary: one) on the right sides, and volumes be positive. Regions must be consistent, of the
+/// volumes that the surfaces enclose, and surface vertices where the scene has them.
 [[nodiscard]] std::optional<Fault> find_defect(const TetMesh& mesh, const Scene& scene);
 
 }  // namespace meniscus

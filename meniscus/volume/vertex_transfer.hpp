@@ -8,8 +8,8 @@ namespace meniscus {
 [[nodiscard]] Field<TetVertexId, CellTree::Hit> locate_vertices(const MeshOverlay& overlay);
 
 /// The values of a field on the old vertices at these points: Σ w_k (u_k + ½ ∇u_k · (x − x_k)),
-/// kept between the least and the greatest u_k, with the weights w_k of linear interpolation and
-/// the mean gradients ∇u_k of the group's cells at each corner. Linear.
+/// kept between the least and the greatest u_k. w_k are the weights of linear interpolation and
+/// ∇u_k the mean gradients of the group's cells at each corner. Linear.
 [[nodiscard]] Field<TetVertexId, double> interpolated_at_vertices(
     const MeshOverlay& overlay, const Field<TetVertexId, CellTree::Hit>& hits,
     const Field<TetVertexId, double>& values);

@@ -92,6 +92,8 @@ TEST(CommandLine, RefusesFilesThatAreNotThere) {
   expect_refusal({"resume", folder.path().string()}, "holds no checkpoint");
   expect_refusal({"report", missing}, missing);
   expect_refusal({"check", missing}, "it holds no check.toml");
+  expect_refusal({"check", "nowhere", "--cases", missing},
+                 fmt::format("neither it nor {}/nowhere holds a check.toml", missing));
   expect_refusal({"study", missing + ".toml"}, missing);
   expect_refusal({"check", "--all", "--cases", missing}, "no folder here holds a check.toml");
 }

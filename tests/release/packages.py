@@ -6,6 +6,7 @@ The notebooks are run there too.
 
 Needs mmdebstrap, a mirror of Debian and the privilege to mount and chroot; fails, and names it, where one is missing.
 """
+import re
 import shutil
 import sys
 from pathlib import Path
@@ -100,7 +101,7 @@ def main():
         development = debian.run("dpkg-query -W -f='${Package}\\n' | grep -e '-dev$' || true").split()
         expect(not development, f"meniscus pulls in {development}")
         check_program(debian)
-        recommended = debian.run("dpkg-query -W -f='${Recommends}' meniscus").replace(",", "")
+        recommended = re.sub(r"\([^)]*\)|,", "", debian.run("dpkg-query -W -f='${Recommends}' meniscus"))
         debian.measured(f"what it recommends ({recommended})", f"{APT} {recommended}")
         check_python(debian)
         check_pictures(debian)

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Prints the number of words and the lengths of the sentences of every page.
+"""Prints the number of words and the lengths of the sentences of every page, and of comments.
 
-    sentence_lengths.py ROOT
+    sentence_lengths.py ROOT [--long]    # --long: also each sentence above 25 words, by file
 
 A report, not a gate. Words are counted as by `wc -w`. Sentences are those of running text: code,
-tables, headings, pictures and bold words that open a paragraph are left out.
+tables, headings, pictures and bold words that open a paragraph are left out. Comments are those of
+the C++ sources below meniscus/, by room.
 """
 import re
 import sys
@@ -18,6 +19,8 @@ RUN_IN_HEAD = re.compile(r"^\*\*[^*]+[.:]?\*\*[.:]?\s")
 LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)")
 ABBREVIATION = re.compile(r"(^|[\s(])(e\.g|i\.e|cf|eq|eqs|fig|figs|sec|no|vs|al|[A-Z])\.$")
 END = re.compile(r"[.?!][)\"'*_`]*(?=\s)|[.?!][)\"'*_`]*$")
+COMMENT = re.compile(r"^\s*//(?!/<)/? ?(.*)")  # a line of its own
+TRAILING = re.compile(r"\S\s*//(?:/<)? (.*)|^\s*///< (.*)")
 LONGEST = 25
 
 
@@ -26,6 +29,30 @@ def pages(root):
     for folder in FOLDERS:
         search = (root / folder).glob if folder == "." else (root / folder).rglob
         yield from sorted(search("*.md"))
+
+
+def rooms(root):
+    """The folders of C++ sources below ROOT/meniscus, with their files, in a fixed order."""
+    files = sorted(f for ending in ("*.hpp", "*.cpp") for f in (root / "meniscus").rglob(ending))
+    for folder in sorted({f.parent for f in files}):
+        yield folder, [f for f in files if f.parent == folder]
+
+
+def comments(source):
+    """The comments of a C++ source as running text. Indented lines are formulas, but below a list item."""
+    lines, is_trailing, is_item = [], False, False
+    for line in source.splitlines():
+        own, trailing = COMMENT.match(line), TRAILING.search(line)
+        if own:
+            is_indented = own[1].startswith("  ")
+            is_item = bool(LIST_ITEM.match(own[1])) or (is_item and is_indented)
+            lines += ["", own[1]] if is_trailing else [""] if is_indented and not is_item else [own[1]]
+        elif trailing and not line.lstrip().startswith("///<"):
+            lines += ["", trailing[1]]
+        else:
+            lines.append(trailing[2] if trailing else "")
+        is_trailing = bool(trailing) and not own
+    return "\n".join(lines)
 
 
 def blocks(text):
@@ -81,19 +108,42 @@ def row(name, words, lengths):
             f"{lengths[-1] if lengths else 0:9}{long_ones:10}")
 
 
-def report(root):
-    """Lines of the table: one for each page, and their sum."""
-    yield (f"{'page':44}{'words':>8}{'sentences':>11}{'median':>8}{'90 %':>6}{'longest':>9}"
+def table(title, texts):
+    """Lines of a table: one for each (name, text), and their sum."""
+    yield (f"{title:44}{'words':>8}{'sentences':>11}{'median':>8}{'90 %':>6}{'longest':>9}"
            f"{f'over {LONGEST}':>10}")
     all_words, all_lengths = 0, []
-    for page in pages(root):
-        text = page.read_text(encoding="utf-8")
+    for name, text in texts:
         lengths = sentence_lengths(text)
-        yield row(page.relative_to(root).as_posix(), len(text.split()), lengths)
+        yield row(name, len(text.split()), lengths)
         all_words += len(text.split())
         all_lengths += lengths
     yield row("all", all_words, sorted(all_lengths))
 
 
+def read(file):
+    return file.read_text(encoding="utf-8")
+
+
+def report(root):
+    """The table of pages, and that of comments by room."""
+    yield from table("page", ((p.relative_to(root).as_posix(), read(p)) for p in pages(root)))
+    yield ""
+    yield from table("comments", ((folder.relative_to(root).as_posix(), "\n\n".join(comments(read(f)) for f in files))
+                                  for folder, files in rooms(root)))
+
+
+def long_sentences(root):
+    """A line for each sentence above the longest: its file, number of words, and itself."""
+    texts = [(page, read(page)) for page in pages(root)]
+    texts += [(file, comments(read(file))) for _, files in rooms(root) for file in files]
+    for file, text in texts:
+        for sentence in (s for block in blocks(text) for s in sentences(block)):
+            if num_words(sentence) > LONGEST:
+                yield f"{file.relative_to(root)}: {num_words(sentence)}: {sentence}"
+
+
 if __name__ == "__main__":
     print("\n".join(report(Path(sys.argv[1]))))
+    if "--long" in sys.argv[2:]:
+        print("\n" + "\n".join(long_sentences(Path(sys.argv[1]))))

@@ -4,7 +4,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from sentence_lengths import quantile, report, sentence_lengths
+from sentence_lengths import comments, long_sentences, quantile, report, sentence_lengths
 
 
 class SentenceLengths(unittest.TestCase):
@@ -42,15 +42,27 @@ class SentenceLengths(unittest.TestCase):
         self.assertEqual(quantile(list(range(1, 11)), 0.9), 9)
         self.assertEqual(quantile([], 0.5), 0)
 
-    def test_a_row_for_each_page_and_one_for_all(self):
+    def test_comments_of_a_source(self):
+        source = ("/// One two\n/// three. Four:\n///     ρ = 1. And\n/// five.\nint a = 1;  ///< six seven\n"
+                  "           ///< eight\nint b;  // nine\n// ten eleven\nauto u = f(\"a//b\");\n")
+        self.assertEqual(sentence_lengths(comments(source)), sorted([3, 1, 1, 3, 1, 2]))
+
+    def test_a_row_for_each_page_and_room_and_one_for_all(self):
         with tempfile.TemporaryDirectory() as folder:
-            (Path(folder) / "docs").mkdir()
-            (Path(folder) / "README.md").write_text("# Title\n\nOne two three.\n", encoding="utf-8")
-            (Path(folder) / "docs/a.md").write_text("One. Two three.\n", encoding="utf-8")
-            rows = [line.split() for line in report(Path(folder))][1:]
-        self.assertEqual(rows, [["README.md", "5", "1", "3", "3", "3", "0"],
-                                ["docs/a.md", "3", "2", "1", "2", "2", "0"],
-                                ["all", "8", "3", "2", "3", "3", "0"]])
+            root = Path(folder)
+            (root / "docs").mkdir()
+            (root / "meniscus/core").mkdir(parents=True)
+            (root / "README.md").write_text("# Title\n\nOne two three.\n", encoding="utf-8")
+            (root / "docs/a.md").write_text("One. Two three.\n", encoding="utf-8")
+            (root / "meniscus/core/a.hpp").write_text("/// " + "word " * 25 + "end.\nint a;\n", encoding="utf-8")
+            rows = [line.split() for line in report(root)]
+            long = list(long_sentences(root))
+        self.assertEqual(rows[1:4], [["README.md", "5", "1", "3", "3", "3", "0"],
+                                     ["docs/a.md", "3", "2", "1", "2", "2", "0"],
+                                     ["all", "8", "3", "2", "3", "3", "0"]])
+        self.assertEqual(rows[6:], [["meniscus/core", "26", "1", "26", "26", "26", "1"],
+                                    ["all", "26", "1", "26", "26", "26", "1"]])
+        self.assertEqual(long, ["meniscus/core/a.hpp: 26: " + "word " * 25 + "end."])
 
 
 if __name__ == "__main__":

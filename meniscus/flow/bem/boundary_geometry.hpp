@@ -9,8 +9,8 @@
 
 namespace meniscus::bem {
 
-/// The interfaces of a scene at one instant, their vertices numbered through as points: the places
-/// where the equation is required and, with their weights, the sources of the far field.
+/// The interfaces of a scene at one instant, their vertices numbered through as points. These are
+/// the places where the equation is required and, with their weights, the sources of the far field.
 struct BoundaryGeometry {
   struct Surface {
     InterfaceElements elements;

@@ -64,7 +64,7 @@ void visit_corner_points(const InterfaceElements::Face& face, std::size_t corner
     detail::visit_point(face, point, visit);
 }
 
-/// For x off the face: it is quartered until every part is small beside its distance, so that the
+/// For x off the face, which is quartered until every part is small beside its distance. So the
 /// error is about the same at any distance.
 template <class Visit>
 void visit_near_points(const InterfaceElements::Face& face, const Vec3& x, const Visit& visit) {

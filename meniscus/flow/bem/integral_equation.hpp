@@ -16,13 +16,13 @@ namespace meniscus::bem {
 ///   J = I/r + rr/r³,   (K_m u)(x) = 1/4π PV∮_m u·T·n dS,   T = −6 rrr/r⁵,
 ///
 /// with s_k = (μ_in + μ_out)/2 and d_k = (μ_out − μ_in)/2 of interface k, n out of the drop, and
-/// the jump of traction q n − ∇_s σ, q = σκ − (b_in − b_out)·x, b the body forces (the pressure
-/// being taken without its hydrostatic part). A tension σ that a surfactant lets vary adds the
-/// single layer of ∇_s σ (`MarangoniLayer`). A closed surface has ∮ n·J dS = 0, and K_m times a
+/// the jump of traction q n − ∇_s σ. Here q = σκ − (b_in − b_out)·x, b the body forces, the
+/// pressure being taken without its hydrostatic part. A tension σ that a surfactant lets vary adds
+/// the single layer of ∇_s σ (`MarangoniLayer`). A closed surface has ∮ n·J dS = 0, and K_m times a
 /// rigid motion is that motion times −1 on m, −2 inside it, 0 outside.
 ///
 /// K has the eigenvalue 1 for every drop (left eigenvector n), which makes the equation singular
-/// for μ_in → 0, and −1 for each drop's six rigid motions, for μ_in → ∞. Both are moved to 0
+/// for μ_in → 0. It has −1 for each drop's six rigid motions, for μ_in → ∞. Both are moved to 0
 /// (pozrikidis1992, chapter 4; kim1991): with P_m the projection onto the rigid motions of m, what
 /// is solved is
 ///

@@ -6,11 +6,11 @@
 
 namespace meniscus::bem {
 
-/// The single layer Σ_m ∮_m J·∇_s σ dS, J = I/r + rr/r³, with which a tension that varies pulls the
-/// liquid along the interfaces. σ is quadratic on the curved triangles, from its values at the
-/// vertices. A face that is far from a point counts by
-/// forces at the vertices it reads (`InterfaceElements::Face::columns`), as J is interpolated
-/// there; one that is near is integrated. The integrand is no more singular than 1/r and needs no
+/// The single layer Σ_m ∮_m J·∇_s σ dS, J = I/r + rr/r³, with which a tension that varies
+/// pulls the liquid along the interfaces. σ is quadratic on the curved triangles, from its
+/// values at the vertices. A face that is far from a point counts by forces at the
+/// vertices it reads (`InterfaceElements::Face::columns`), as J is interpolated there. One
+/// that is near is integrated. The integrand is no more singular than 1/r and needs no
 /// subtraction.
 class MarangoniLayer {
  public:

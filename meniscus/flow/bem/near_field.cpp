@@ -16,8 +16,8 @@ namespace {
 using Face = InterfaceElements::Face;
 using Surface = BoundaryGeometry::Surface;
 
-/// ∮ rr (r·n)/r⁵ dS seen from the surface itself and from within: 4π/6 and 8π/6 times the identity
-/// (from outside, nothing), being −1/6 of the integral of the stress kernel.
+/// ∮ rr (r·n)/r⁵ dS seen from the surface itself and from within: 4π/6 and 8π/6 times the identity;
+/// from outside, nothing. It is −1/6 of the integral of the stress kernel.
 constexpr double kOnSurface = 2.0 * std::numbers::pi / 3.0;
 constexpr double kInside = 2.0 * kOnSurface;
 

@@ -9,8 +9,8 @@
 
 namespace meniscus::bem {
 
-/// The points 0 … count − 1 shared out, a row of them to each process of a group and of those a
-/// block at a time to its threads.
+/// The points 0 … count − 1 shared out. Each process of a group gets a row of them, and each of its
+/// threads a block of those at a time.
 class SharedPoints {
  public:
   explicit SharedPoints(std::int32_t count,

@@ -28,7 +28,7 @@ class BlockRows {
   double* first_ = nullptr;
 };
 
-/// Puts a block into the frames of its row's and its column's constraint, null for free nodes, and
+/// Puts a block into the frames of its row's and its column's constraint, null for free nodes. It
 /// takes out rows and columns of fixed components, but for the diagonal.
 inline void eliminate(Mat3& block, const NodeConstraint* row, const NodeConstraint* column,
                       bool is_diagonal) {

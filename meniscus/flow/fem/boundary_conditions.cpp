@@ -66,7 +66,7 @@ double flux_through(const Vec3& area, const Vec3& velocity) {
 }
 
 /// Makes Σ A_i·v_i zero by v_i ← v_i − A_i/A_i² |A_i·v_i| (Σ A·v)/(Σ |A·v|), the last sum over the
-/// nodes that are not of the linear flow, unless the sum is too large for that.
+/// nodes that are not of the linear flow. A sum too large for that is left.
 std::optional<Fault> remove_net_flux(const OuterBoundary& boundary, const Field<NodeId, Vec3>& area,
                                      ImposedValues& values) {
   const auto is_free = [&](NodeId i) {

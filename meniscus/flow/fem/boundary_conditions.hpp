@@ -23,8 +23,8 @@ struct BoundaryConditions {
 /// Where patches meet, a node obeys ImposedVelocity first (that of the lowest patch id), then every
 /// NoPenetration. Interpolated data have a net flux through the boundary's elements of O(h²) or, on
 /// quadratic elements, O(h³). Without an open patch it is taken from the nodes that are not of the
-/// linear flow, each in proportion to the flux through it and along its area vector. Walls at rest
-/// or sliding in their plane keep their velocity exactly.
+/// linear flow. Each gives in proportion to the flux through it and along its area vector. Walls at
+/// rest or sliding in their plane keep their velocity exactly.
 [[nodiscard]] BoundaryConditions boundary_conditions(const OuterBoundary& boundary,
                                                      const FaceNodeTable& faces,
                                                      const NodePositions& positions, double t);

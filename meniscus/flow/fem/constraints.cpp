@@ -9,7 +9,7 @@
 namespace meniscus::fem {
 namespace {
 
-// Normals closer than this to the span of the others add nothing; 1e-6 is far above the roundoff of
+// Normals closer than this to the span of the others add nothing. 1e-6 is far above the roundoff of
 // a normal and far below any corner one would draw.
 constexpr double dependent = 1e-6;
 

@@ -69,7 +69,7 @@ void integrate(const CellBatch& cells, OfCells& integrals) {
 /// Four numbers as one, wherever they are.
 using Four [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
 
-/// Four cells at a time: four of their integrals are a 4 × 4 matrix, which is turned over so that
+/// Four cells at a time: four of their integrals are a 4 × 4 matrix. It is turned over, so that
 /// each cell's are side by side, as in the sums.
 MENISCUS_VECTOR_CLONES
 void add(const OfCells& integrals, const std::array<CellBatch::PerCell<std::int32_t>, 6>& edge,

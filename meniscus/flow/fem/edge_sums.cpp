@@ -31,8 +31,8 @@ void subtract(EdgeIntegrals<double>& from, const EdgeIntegrals<double>& sums, do
           from.z - turn * sums.z, 0.0};
 }
 
-/// The edges of a graph, numbered by their lower end, then by their upper one:
-/// 2·edge + (row > column) for each entry; on the diagonal edge is the number of them all.
+/// The edges of a graph, numbered by their lower end, then by their upper one: 2·edge + (row >
+/// column) for each entry. On the diagonal edge is the number of them all.
 std::vector<std::int32_t> number_edges(const NodeGraph& graph) {
   std::vector<std::int32_t> edges(graph.num_entries()), next(at(graph.num_rows()));
   const std::int32_t num_edges =

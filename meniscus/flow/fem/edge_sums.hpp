@@ -14,15 +14,15 @@ namespace meniscus::fem {
 /// The matrices of linear elements on Newtonian liquids, first summed over the cells around each
 /// edge, then written row by row.
 ///
-/// With gradients g_i, block (a, b) of A is μV (g_a·g_b I + g_b g_aᵀ), of B −V/4 g_b, of C
-/// τV g_a·g_b. All follow from sums over edges: (b, a) from (a, b), and each diagonal block is
+/// With gradients g_i, block (a, b) of A is μV (g_a·g_b I + g_b g_aᵀ), of B −V/4 g_b, of C τV
+/// g_a·g_b. All follow from sums over edges. (b, a) follows from (a, b), and each diagonal block is
 /// minus the others of its row, as Σ_b g_b = 0. A cell so adds to six places of two cache lines
 /// each, where the matrices themselves would have it add to 96 (docs/benchmark-stokes.md).
 ///
 /// As μ is constant in a liquid, two parts are not summed, but follow from the liquid's boundary Γ:
 ///   Σ V (g_b g_aᵀ − g_a g_bᵀ) = ∫(∇φ_b ∇φ_aᵀ − ∇φ_a ∇φ_bᵀ) and
 ///   −Σ V/4 (g_a + g_b) = −∫∇(φ_a φ_b) = −∫_Γ φ_a φ_b n.
-/// The first is [Σ V g_a×g_b]×, and V g_a×g_b a sixth of the cell's opposite edge: around an edge
+/// The first is [Σ V g_a×g_b]×, and V g_a×g_b a sixth of the cell's opposite edge. Around an edge
 /// these cancel but for the first and the last, on Γ.
 class EdgeSums {
  public:
@@ -42,8 +42,8 @@ class EdgeSums {
     std::span<double> pressure_mass;  ///< ∫ψ/μ
   };
   /// Sets the rows of the first so many pressures, and of the nodes that they are at, to what the
-  /// given cells make of them, with constraints eliminated. The cells are all those of some
-  /// regions, in their order; viscosity is constant in each region.
+  /// given cells make of them. Constraints are eliminated. The cells are all those of some regions,
+  /// in their order; viscosity is constant in each region.
   void assemble(const StokesProblem& problem, std::span<const CellId> cells,
                 std::int32_t num_pressures, const Matrices& matrices);
 
@@ -79,8 +79,8 @@ class EdgeSums {
   /// One for each edge in one liquid, between pressures a < b. Two more follow: one that stays
   /// zero, for diagonal entries, and one that is written to and never read.
   std::vector<EdgeIntegrals<double>> sums_;
-  /// 2·edge + whether seen from b, per edge of each cell as in `kCellEdges`, and per entry of C;
-  /// that one is longer, for what is fetched ahead.
+  /// 2·edge + whether seen from b, per edge of each cell as in `kCellEdges`, and per entry of C.
+  /// That one is longer, for what is fetched ahead.
   std::vector<std::int32_t> cell_edges_, entry_edges_;
   std::vector<std::uint16_t> places_;  ///< per entry of C: the entry of A's row that it adds to
   std::vector<std::int32_t> column_nodes_;  ///< per entry of C

@@ -29,7 +29,7 @@ struct ElementPoint {
 [[nodiscard]] std::array<double, 10> quadratic_tetrahedron_values(const std::array<double, 4>& b);
 
 /// Stabilisation parameter τ = 0.25 h²/μ, h half the edge of the regular tetrahedron of equal
-/// volume, V = (2h)³/(6√2) (eq. 11 of hooper2001; the division by μ is not printed there).
+/// volume, V = (2h)³/(6√2). It is eq. 11 of hooper2001; the division by μ is not printed there.
 [[nodiscard]] inline double pspg_parameter(double volume, double viscosity) {
   return cube_root(72.0 * volume * volume) / (16.0 * viscosity);
 }
@@ -118,7 +118,7 @@ struct CurvedMap {
     const Field<NodeId, Vec3>& x, std::span<const std::int32_t> nodes);
 
 /// Smallest determinant of ∂x/∂ξ at the points of the curved rule and at the nodes of a quadratic
-/// tetrahedron; six times the volume where it is straight.
+/// tetrahedron. It is six times the volume where it is straight.
 [[nodiscard]] double least_jacobian(const Field<NodeId, Vec3>& x,
                                     std::span<const std::int32_t> nodes);
 

@@ -60,8 +60,8 @@ Field<TetVertexId, Vec3> at_vertices(const Field<NodeId, Vec3>& v, std::int32_t 
   return Field<TetVertexId, Vec3>(std::vector<Vec3>(vertices.begin(), vertices.end()));
 }
 
-/// Where no boundary is open the pressure is given relative to its mean ∫p dV / V over the matrix,
-/// which no mesh changes but by its error.
+/// Where no boundary is open the pressure is given relative to its mean ∫p dV / V over the matrix.
+/// No mesh changes that but by its error.
 void level_pressure(const TetMesh& mesh, const PressureSpace& space,
                     std::vector<double>& pressure) {
   double integral = 0.0, volume = 0.0;
@@ -144,7 +144,7 @@ void FiniteElementFlow::follow(const MeshChange& change, const FlowDomain& domai
       interpolated_state(guess, {change.before, before}, {*domain.mesh, space_}, change.sources);
 }
 
-/// Undisturbed flow and drops change on their own: the one is known at once, what the drops add to
+/// Undisturbed flow and drops change on their own. The one is known at once, what the drops add to
 /// it is taken from the last solution.
 StokesState FiniteElementFlow::first_guess(const FlowDomain& domain,
                                            const StokesProblem& problem) const {
@@ -187,7 +187,7 @@ FlowSolution FiniteElementFlow::first_flow(const FlowDomain& domain, double t) {
 }
 
 /// Takes a velocity to the nearest one without divergence and with the boundary's, by a stage too
-/// short for anything else, and the pressure to what it is then.
+/// short for anything else. The pressure becomes what it is then.
 StokesReport FiniteElementFlow::settle(const FlowDomain& domain, double t, StokesState& state) {
   constexpr double kShare = 1e-4;  // of the time in which viscosity crosses a cell
   const NodePositions positions =

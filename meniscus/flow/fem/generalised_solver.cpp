@@ -16,7 +16,7 @@ namespace {
 
 using Kind = Linearization::Kind;
 
-// Newton's method takes five or six from a cold start; a power law of index 0.2 that it cannot take
+// Newton's method takes five or six from a cold start. A power law of index 0.2 that it cannot take
 // contracts by 0.8 with each of Picard's.
 constexpr int most_steps = 80;
 // A state whose residual is this part of that of rest knows nothing of the flow yet.
@@ -63,14 +63,14 @@ Iterate search(const StokesProblem& problem, const Iterate& from, const StokesSt
   return best;
 }
 
-/// The relative tolerance of a linear solve: as loose as the quadratic convergence of Newton's
-/// method allows (dembo1982: of the order of the residual), no tighter than the last step needs.
+/// The relative tolerance of a linear solve, no tighter than the last step needs. It is as loose as
+/// the quadratic convergence of Newton's method allows (dembo1982: of the order of the residual).
 double linear_tolerance(double norm, double reference, double target) {
   return std::max(std::min(loosest, norm / reference), 0.5 * target / norm);
 }
 
-// With inertia: steps at most, and the relative residual of the linear solve of each, which lowers
-// that of a liquid that thins by no more than its law bends.
+// With inertia: steps at most, and the relative residual of the linear solve of each. A solve
+// lowers that of a liquid that thins by no more than its law bends.
 constexpr int most_steps_with_inertia = 60;
 constexpr double reduction_with_inertia = 0.05;
 

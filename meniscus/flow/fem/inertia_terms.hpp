@@ -57,10 +57,10 @@ struct FaceElasticity {
 
 /// What inertia adds to a problem, in an implicit stage of length τ: to the momentum
 ///   ∫ρ((v − v̄)/τ + (v − w)·∇v)·φ + τσ∮∇_s(v − v*):∇_sφ + τ∮E ∇_s·(v − v*) ∇_s·φ,
-/// v̄ being the velocity that the nodes had at the other end of τ, and w their own. The interface is
-/// where v* took it, and so is its surfactant. The last two terms are what tension does on the way
-/// that v takes them beyond: its own curvature (bansch2001), and the surfactant that is spread or
-/// gathered, by its Gibbs elasticity E.
+/// v̄ being the velocity that the nodes had at the other end of τ, and w their own. The interface
+/// is where v* took it, and so is its surfactant. The last two terms are what tension does on the
+/// way that v takes them beyond. It acts by its own curvature (bansch2001), and by the surfactant
+/// that is spread or gathered, of Gibbs elasticity E.
 struct InertiaTerms {
   double duration = 1.0;                        ///< τ [1/G]
   CellField<double> density = {};               ///< ρ [μ_out/(G R0²)]

@@ -28,8 +28,8 @@ SurfaceNodes surface_nodes(const Scene& scene, const TetMesh& mesh, const FlowSp
   return nodes;
 }
 
-/// Velocities at the nodes of an interface's faces of what is given at its vertices, at the middles
-/// of edges, where they are nodes, half way between.
+/// Velocities at the nodes of an interface's faces of what is given at its vertices. At the middles
+/// of edges, where they are nodes, they are half way between.
 void add_at_faces(const SurfaceMesh& surface, const FaceNodeTable& faces,
                   const VertexField<Vec3>& at_vertices, Field<NodeId, Vec3>& to) {
   for (const FaceId f : surface.faces.ids())

@@ -57,9 +57,9 @@ struct InertialMatrices : CellMatrices<LinearElement> {
 };
 
 /// Gives a problem of linear elements with inertia its memory: θ∫∇·v̄ over each cell where its nodes
-/// were, but for what would change the volume of a region. So the subscales of the velocity, which
-/// the stabilisation stands for, have inertia of their own (badia2009). The equations then tend to
-/// a limit as stages become short. Without this the pressure would be stabilised by ever less.
+/// were. No region's volume changes. So the subscales of the velocity, which the stabilisation
+/// stands for, have inertia of their own (badia2009). The equations then have a limit for short
+/// stages. Without this the pressure would be stabilised by ever less.
 void remember_divergence(StokesProblem& problem);
 
 }  // namespace meniscus::fem

@@ -24,7 +24,7 @@ void curve_edges(const SurfaceMesh& surface, const SurfaceTopology& topology,
                  const FaceNodeTable& nodes, std::span<const Vec3> middles,
                  NodePositions& positions);
 
-/// Marks the curved cells, and straightens the edges of those whose map would fold: its Jacobian
+/// Marks the curved cells, and straightens the edges of those whose map would fold. Its Jacobian
 /// determinant at the quadrature points and at the nodes must stay above a tenth of the straight
 /// cell's.
 void settle_curved_cells(const TetMesh& mesh, const FlowSpace& space, NodePositions& positions);

@@ -36,8 +36,8 @@ std::vector<std::vector<bool>> allowed_regions(const TetMesh& before, const TetM
   return result;
 }
 
-/// The cells of allowed regions: found by a walk, or in a tree where the walk ends away from the
-/// point, as a drop was in its way.
+/// The cells of allowed regions, found by a walk. Where a drop was in its way the walk ends away
+/// from the point, and a tree is searched.
 class Search {
  public:
   Search(const TetMesh& mesh, std::vector<bool> is_allowed)

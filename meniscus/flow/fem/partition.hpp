@@ -14,7 +14,7 @@ struct OwnedCounts {
 };
 [[nodiscard]] OwnedCounts all_owned(const FlowSpace& space);
 
-/// How the linear functions of a mesh make quadratic ones, by node: a vertex has its own value, a
+/// How the linear functions of a mesh make quadratic ones, by node. A vertex has its own value, a
 /// mid-edge node the mean of its ends.
 struct LinearFunctions {
   std::vector<std::array<std::int32_t, 2>> ends;  ///< nodes; a vertex is both ends of itself
@@ -24,8 +24,8 @@ struct LinearFunctions {
 /// Empty for P1.
 [[nodiscard]] LinearFunctions linear_functions(const FlowSpace& space);
 
-/// How items of a mesh are numbered for the ranks: those of rank 0 first, then those of rank 1, …,
-/// each in the order that they have in the mesh.
+/// How items of a mesh are numbered for the ranks: those of rank 0 first, then those of rank 1, ….
+/// Each keeps the order that they have in the mesh.
 struct IndexMap {
   std::vector<std::int32_t> counts;  ///< items by rank
   std::vector<std::int32_t> number;  ///< of each item

@@ -13,7 +13,7 @@ namespace meniscus::fem {
 
 /// The Jacobian of R(u), for quadratic elements on Newtonian liquids, as a saddle system that is
 /// given by its products. Matrices are made of what preconditioners need: the mass matrix of the
-/// pressures, and the Laplacians of linear functions, the coarse level of multigrid by degree.
+/// pressures, and the Laplacians of linear functions. These are multigrid's coarse level.
 class ProductJacobian {
  public:
   /// As `StokesJacobian`'s.

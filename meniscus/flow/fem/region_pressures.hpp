@@ -5,14 +5,14 @@
 namespace meniscus::fem {
 
 /// The correction of the inverse of the mass matrix over μ, by region and as a fraction of that
-/// inverse, that makes it the Schur complement's for a pressure constant in one region and zero
+/// inverse. It makes it the Schur complement's for a pressure constant in one region and zero
 /// elsewhere. Such a pressure drives the flow of a source, which has to go on in the liquid around.
 /// For a sphere of volume V with μ inside and μ_o around,
 ///   sup_v (∮v·n)² / ∫2μ D:D = V / (4μ_o/3 + 2μ/3),
-/// where a pressure that varies has V/(2μ), and the mass matrix over μ says V/μ for both: too much
-/// by μ_o/μ for the constant one, next to the others. The fraction is 2/3 (μ_o/μ − 1) where that is
-/// positive. μ and μ_o are means over the cells on both sides of the region's interfaces. Region 0,
-/// the matrix, has none.
+/// where a pressure that varies has V/(2μ), and the mass matrix over μ says V/μ for both. That is
+/// too much by μ_o/μ for the constant one, next to the others. The fraction is 2/3 (μ_o/μ − 1)
+/// where that is positive. μ and μ_o are means over the cells on both sides of the region's
+/// interfaces. Region 0, the matrix, has none.
 [[nodiscard]] Field<RegionId, double> constant_pressure_shares(const StokesProblem& problem);
 
 }  // namespace meniscus::fem

@@ -8,7 +8,7 @@
 
 namespace meniscus::fem {
 
-/// The weights that preconditioners give to pressures constant in a region (region_pressures.hpp):
+/// The weights that preconditioners give to pressures constant in a region (region_pressures.hpp).
 /// χ w/(∫χ/μ) χᵀ, w being the region's fraction, is w μM⁻¹ for such a pressure.
 class RegionWeights {
  public:

@@ -16,8 +16,8 @@ class InertiaProduct;
 ///
 /// The gradient of a quadratic function is linear in barycentric coordinates, and so given by its
 /// values at the four corners. From them the stress S follows at the corners of a straight cell, or
-/// at the points of the curved rule, and what it does to the test functions goes back the same way.
-/// On straight cells ∫b_k b_l = V (1 + δ_kl)/20 makes all integrals exact.
+/// at the points of the curved rule. What it does to the test functions goes back the same way. On
+/// straight cells ∫b_k b_l = V (1 + δ_kl)/20 makes all integrals exact.
 ///
 /// Velocities and what is tested with them have three components side by side at each node;
 /// pressures and what is tested with them are numbers.

@@ -12,8 +12,8 @@ struct StokesResidual {
   Field<NodeId, Vec3> momentum;    ///< [μ_out G R0²]
   std::vector<double> continuity;  ///< [G R0³]
 };
-/// By `product`, the problem's own, where it is given; with inertia of quadratic elements it must
-/// be, and counts the convection by the velocity that it was told, if any. Where viscosities depend
+/// By `product`, the problem's own, where it is given. With inertia of quadratic elements it must
+/// be. It counts the convection by the velocity that it was told, if any. Where viscosities depend
 /// on the rate of shear it gives what inertia adds, and nothing else. On linear elements the
 /// state's velocity convects.
 [[nodiscard]] StokesResidual residual(const StokesProblem& problem, const StokesState& state,

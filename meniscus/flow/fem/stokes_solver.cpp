@@ -19,7 +19,7 @@ constexpr int most_newton_steps = 6;
 constexpr int most_convection_steps = 20;
 constexpr double convection_reduction = 1e-3;
 
-/// The chosen solver, then the others that the elements and their number allow: quadratic ones have
+/// The chosen solver, then the others that the elements and their number allow. Quadratic ones have
 /// no stabilisation on the diagonal, by which the paper's solver scales. The others need symmetry
 /// or matrices, which inertia does not give.
 std::vector<LinearSolver> solvers_in_order(LinearSolver first, const StokesProblem& problem) {

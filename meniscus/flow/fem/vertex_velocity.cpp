@@ -49,8 +49,8 @@ VertexField<Vec3> vertex_velocity(const SurfaceMesh& surface, const FaceNodeTabl
     fits[at].t2 = area[at].normalized().cross(fits[at].t1);
     fits[at].scale = std::sqrt(area[at].norm());
   }
-  // Each face gives a corner two middles: of the edge that leaves the corner (the next face has the
-  // one that arrives), and of the edge opposite to it.
+  // Each face gives a corner two middles: of the edge that leaves the corner, and of the edge
+  // opposite to it. The next face has the one that arrives.
   for (const FaceId f : surface.faces.ids())
     for (std::size_t k = 0; k < 3; ++k) {
       const VertexId at = surface.faces[f][k];

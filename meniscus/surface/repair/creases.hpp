@@ -18,7 +18,7 @@ struct Rounding {
 [[nodiscard]] std::optional<SurfaceMesh> rounded_shape(SurfaceMesh mesh, const Rounding& rounding);
 
 /// The largest piece of the surface without the faces within `margin` mean edges of its creases of
-/// `crease_deg`, its holes closed smoothly: a crevice or a thorn goes as a whole. None where it has
+/// `crease_deg`, its holes closed smoothly. A crevice or a thorn goes as a whole. None where it has
 /// no creases, an end cannot be closed, or the volume changes by more than `kMostMendedVolume`.
 [[nodiscard]] std::optional<SurfaceMesh> capped_shape(const SurfaceMesh& mesh, double crease_deg,
                                                       double margin);

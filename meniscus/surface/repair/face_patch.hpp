@@ -25,14 +25,14 @@ using FacePatch = FaceField<char>;
 [[nodiscard]] bool is_planar(const SurfaceMesh& mesh, const FacePatch& patch,
                              std::size_t num_boundaries);
 
-/// Makes a connected patch a disc: faces are added around vertices where its boundary touches
-/// itself, then every part of the rest of its piece of the surface except the largest (by area).
+/// Makes a connected patch a disc. Faces are added around vertices where its boundary touches
+/// itself, then all parts of the rest of its piece of the surface but the largest (by area).
 /// False when that leaves no disc, as on a patch that goes around a handle.
 [[nodiscard]] bool make_disc(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                              const FaceNeighbours& neighbours, FacePatch& patch);
 
-/// Makes a patch around a thread a ring with two boundary curves, as `make_disc` makes discs: the
-/// two largest parts of the rest stay (on a torus they are one). False when that leaves no ring, as
+/// Makes a patch around a thread a ring with two boundary curves, as `make_disc` makes discs. The
+/// two largest parts of the rest stay; on a torus they are one. False when that leaves no ring, as
 /// at the end of a point.
 [[nodiscard]] bool make_ring(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                              const FaceNeighbours& neighbours, FacePatch& patch);

@@ -4,9 +4,9 @@
 
 namespace meniscus {
 
-/// Remeshes a surface. One that the remesher gives up on, because a flow has drawn a crease or
-/// surgery left one that no smooth surface fits, is mended first. These remedies are tried, the
-/// mildest first, until one leaves a surface that can be remeshed (`apply_first`):
+/// Remeshes a surface. One that the remesher gives up on is mended first. A flow may have drawn a
+/// crease, or surgery left one, that no smooth surface fits. These remedies are tried, the mildest
+/// first, until one leaves a surface that can be remeshed (`apply_first`):
 ///
 /// 1. the faces beside sharp edges, and rings of faces around them, give way to the bi-Laplace
 ///    surface that joins the rest with a common tangent plane;

@@ -38,7 +38,7 @@ struct [[nodiscard]] MendReport {
 };
 
 /// The policy of all repairs. Remedies are tried in their order, the mildest first, until one gives
-/// a sound surface with no more holes than there were that can be remeshed: `mesh` and `fields`
+/// a sound surface with no more holes than there were that can be remeshed. `mesh` and `fields`
 /// become it. None, and they stay, where no remedy does.
 [[nodiscard]] std::optional<MendReport> apply_first(SurfaceMesh& mesh, SurfaceFields& fields,
                                                     std::span<const Remedy> remedies,

@@ -37,8 +37,8 @@ std::vector<CgalMesh::Vertex_index> vertices_within(const CgalMesh& mesh,
   return {found.begin(), found.end()};
 }
 
-/// CGAL does not take in a face that has an edge for the third time, or that makes a vertex the
-/// meeting point of two sheets.
+/// CGAL does not take in a face that has an edge for the third time, or that makes two sheets meet
+/// at a vertex.
 bool has_all_faces(const CgalMesh& cgal, const SurfaceMesh& mesh) {
   return static_cast<std::int32_t>(cgal.number_of_faces()) == mesh.num_faces();
 }

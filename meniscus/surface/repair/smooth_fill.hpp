@@ -6,8 +6,8 @@
 namespace meniscus {
 
 /// Closes every hole of a surface with boundaries by a patch as fine as the faces around it, that
-/// joins them with a common tangent plane: the bi-Laplace surface (CGAL's hole filling). On a tube
-/// of radius r it is a dome r/2 high. False when a hole cannot be filled; the mesh is then as
+/// joins them with a common tangent plane. It is the bi-Laplace surface (CGAL's hole filling). On a
+/// tube of radius r it is a dome r/2 high. False when a hole cannot be filled; the mesh is then as
 /// given.
 [[nodiscard]] bool cap_holes(SurfaceMesh& mesh);
 

@@ -7,8 +7,8 @@
 
 namespace meniscus {
 
-/// Lengths that a crumpled surface is smoothed over, in mean edges, the least first: from what the
-/// lattice of `DiffusedSurface` resolves to where a fold two edges wide is gone.
+/// Lengths that a crumpled surface is smoothed over, in mean edges, the least first. They go from
+/// what the lattice of `DiffusedSurface` resolves to where a fold two edges wide is gone.
 inline constexpr std::array<double, 5> kSmoothingLengths{0.5, 0.71, 1.0, 1.41, 2.0};
 
 /// The shapes of `DiffusedSurface` that lose little volume, made when they are asked for.

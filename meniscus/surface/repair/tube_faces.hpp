@@ -7,10 +7,10 @@
 
 namespace meniscus {
 
-/// The faces of a tube between two closed curves of vertices of a surface, each given with the disc
-/// that was taken out on its left. Of all ways to join them that begin with the shortest line
-/// between them and twist them by less than half a turn, the one whose lines across have the least
-/// sum of squares. O(m n).
+/// The faces of a tube between two closed curves of vertices of a surface. Each is given with the
+/// disc that was taken out on its left. Ways to join them begin with the shortest line between them
+/// and twist them by less than half a turn. Of these it is the one whose lines across have the
+/// least sum of squares. O(m n).
 [[nodiscard]] std::vector<FaceVertices> tube_faces(const SurfaceMesh& mesh,
                                                    std::span<const VertexId> a,
                                                    std::span<const VertexId> b);

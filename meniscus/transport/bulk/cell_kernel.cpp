@@ -64,8 +64,8 @@ MENISCUS_VECTOR_CLONES void combine(const double* tables, const double* u, std::
   }
 }
 
-/// Σ_i values_i(q) field_i, `values` by node, the points side by side in rows of 16; for `count`
-/// fields of which `field` holds the values node by node.
+/// Σ_i values_i(q) field_i, `values` by node, the points side by side in rows of 16. It is for
+/// `count` fields of which `field` holds the values node by node.
 MENISCUS_VECTOR_CLONES void evaluate(const double* values, const double* field, std::size_t count,
                                      double* result) {
   for (std::size_t k = 0; k < count; ++k) {

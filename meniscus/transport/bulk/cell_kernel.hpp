@@ -8,10 +8,10 @@
 
 namespace meniscus::bulk {
 
-/// The points of one cell: of a rule exact for a product of two functions of the element and a
-/// velocity's derivative along one, where the cell is straight. Tables have a row for each point
-/// and a column for each node, and zeros up to a width that vector instructions like; matrices of
-/// the element are row by row.
+/// The points of one cell. Where it is straight the rule is exact for a product of two functions of
+/// the element and a velocity's derivative along one. Tables have a row for each point and a column
+/// for each node, and zeros up to a width that vector instructions like. Matrices of the element
+/// are row by row.
 template <int Nodes>
 class CellKernel {
  public:

@@ -18,7 +18,7 @@ struct ValueBounds {
 /// no more.
 [[nodiscard]] ValueBounds around(double least, double largest);
 
-/// Cuts values off at bounds and keeps the amount Σ rows·values: what is missing goes to nodes with
+/// Cuts values off at bounds and keeps the amount Σ rows·values. What is missing goes to nodes with
 /// room, in proportion to their room and to how much the field varies around them. Where bounds and
 /// amount exclude each other the amount wins, by one shift. `is_given` nodes keep their values.
 void keep_range(const ValueBounds& bounds, double amount, std::span<const double> rows,

@@ -6,7 +6,7 @@
 namespace meniscus::bulk {
 
 /// What tables say of scalar k (`ScalarMeasures`). What leaves a drop is what its balance over the
-/// last step says; where there was none, the mean of the fluxes on both sides of its interface.
+/// last step says. Where there was none, it is the mean of the fluxes on its interface's two sides.
 [[nodiscard]] ScalarMeasures scalar_measures(const Scene& scene, const TetMesh& mesh,
                                              const ScalarSpace& space,
                                              const NodePositions& positions, std::size_t k,

@@ -205,7 +205,7 @@ class ScalarStep {
                               coefficients_.capacity, growth);
   }
 
-  /// What does not depend on the new values, as rates of amounts; the defect of the velocity takes
+  /// What does not depend on the new values, as rates of amounts. The defect of the velocity takes
   /// the mean, so that a constant stays and no amount is lost.
   void set_forcing(std::size_t k) {
     const Scalar& scalar = motion_.start.scalars[k];
@@ -286,8 +286,8 @@ class ScalarStep {
     scalar.values = std::move(second);
   }
 
-  /// The root of the mean square of what lies between the step's end and the line through its first
-  /// stage, over that of the values before about their mean; 0 where they hardly vary.
+  /// What lies between the step's end and the line through its first stage, as a root of the mean
+  /// square. It is over that of the values before about their mean; 0 where they hardly vary.
   [[nodiscard]] double error_of(std::span<const double> first, const BulkScalar& scalar) const {
     const double mean = dot(mass0_.rows, before_) / sum(mass0_.rows);
     double difference = 0.0, spread = 0.0, whole = 0.0;

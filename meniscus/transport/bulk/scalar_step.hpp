@@ -35,7 +35,7 @@ struct ScalarMotion {
 };
 
 /// Takes scalar number `k` of the scene through one step, L-stable and of second order
-/// (alexander1977, two stages), by finite elements upstream weighted as a whole (SUPG). The mass
+/// (alexander1977, two stages). Finite elements are upstream weighted as a whole (SUPG). The mass
 /// matrix is taken to change linearly. Amounts change by boundaries, sources and interfaces alone;
 /// a constant stays.
 ScalarAdvance convect(const ScalarMotion& motion, std::size_t k, BulkScalar& scalar);

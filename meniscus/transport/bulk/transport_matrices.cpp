@@ -98,8 +98,8 @@ std::vector<double> solve_potential(const ScalarSpace& space, const MatrixValues
   return defect;
 }
 
-/// How far the stabilisation looks upstream [1/G]: as far as half a cell where convection outweighs
-/// conduction, half a step where neither does much in it; not at all where conduction outweighs.
+/// How far the stabilisation looks upstream [1/G]. It is half a cell where convection outweighs
+/// conduction, half a step where neither does much in it. Where conduction outweighs it is nothing.
 double upstream_time(double speed, double size, double diffusivity, double duration) {
   const double peclet = diffusivity > 0.0 ? 0.5 * speed * size / diffusivity : HUGE_VAL;
   if (!(peclet > 1.0)) return 0.0;

@@ -16,7 +16,7 @@ struct Coefficients {
   std::vector<double> source;        ///< q [G]
 };
 
-/// ∫ s γ φ_i φ_j, s by region: with s the nominal volume over that of the elements, a constant's
+/// ∫ s γ φ_i φ_j, s by region. With s the nominal volume over that of the elements, a constant's
 /// amount does not depend on how well the elements fill the regions.
 struct MassMatrix {
   MatrixValues values;
