@@ -20,7 +20,11 @@ def with_inertia(text, density_ratio):
         "nodes = 42\n", f"nodes = 42\ndensity-ratio = {density_ratio}\n")
 
 
-def check_momentum(folder):
+# Of the kinetic energy, what a new mesh may take: linear elements took 25 % where the thread broke.
+MOST_ENERGY_LOST = {"P2-P1": 0.1, "P1-P1": 0.35}
+
+
+def check_momentum(folder, elements):
     events = rows(folder, "events.csv")
     steps = {event["step"] for event in events}
     for event in events:
@@ -32,29 +36,33 @@ def check_momentum(folder):
             print(f"{folder.name}: step {row['step']} loses {lost:.1e} of the momentum, "
                   f"{row['transfer_energy_lost']} of an energy of {energy:.3g}")
             require(lost < 1e-10, f"{folder}: step {row['step']} loses {lost} of the gross momentum")
-            require(abs(float(row["transfer_energy_lost"])) < 0.1 * energy, f"{folder}: the energy of step {row['step']}")
+            require(abs(float(row["transfer_energy_lost"])) < MOST_ENERGY_LOST[elements] * energy,
+                    f"{folder}: the energy of step {row['step']}")
 
 
 def main():
     program, root, work = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
-    solver = SOLVERS["P2-P1"]
-    meet = work / "meet.toml"
-    meet.write_text(with_inertia(MEET.format(end=0.22), 1.0) + COMMON + solver.format(radius=3), encoding="utf-8")
-    run(program, "run", str(meet), "-o", str(work / "meet"), "-q")
-    check_resuming(program, work / "meet", check_meeting(work / "meet"))
-    check_momentum(work / "meet")
-
     subprocess.run([sys.executable, str(root / "cases/pinching-filament/make_surface.py"),
                     str(work / "thread.off"), "--aspect", "6", "--amplitude", "0.6", "--edges", "8"],
                    check=True)
-    thread = work / "thread.toml"
-    thread.write_text(with_inertia(BREAK.format(radius=0.2, end=0.12), 0.5) + COMMON + solver.format(radius=5),
-                      encoding="utf-8")
-    run(program, "run", str(thread), "-o", str(work / "break"), "-q")
-    check_resuming(program, work / "break", check_breaking(work / "break"))
-    check_momentum(work / "break")
+    for elements in ("P2-P1", "P1-P1"):
+        solver = SOLVERS[elements]
+        meet = work / f"meet-{elements}.toml"
+        meet.write_text(with_inertia(MEET.format(end=0.22), 1.0) + COMMON + solver.format(radius=3), encoding="utf-8")
+        folder = meet.with_suffix("")
+        run(program, "run", str(meet), "-o", str(folder), "-q")
+        check_resuming(program, folder, check_meeting(folder))
+        check_momentum(folder, elements)
+
+        thread = work / f"break-{elements}.toml"
+        thread.write_text(with_inertia(BREAK.format(radius=0.2, end=0.12), 0.5) + COMMON + solver.format(radius=5),
+                          encoding="utf-8")
+        folder = thread.with_suffix("")
+        run(program, "run", str(thread), "-o", str(folder), "-q")
+        check_resuming(program, folder, check_breaking(folder))
+        check_momentum(folder, elements)
 
 
 if __name__ == "__main__":

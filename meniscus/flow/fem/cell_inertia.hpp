@@ -2,7 +2,6 @@
 // Private header of the products of cells: what inertia does, cell by cell.
 
 #include <span>
-#include <vector>
 
 #include "meniscus/flow/fem/cell_lanes.hpp"
 #include "meniscus/flow/fem/elements.hpp"
@@ -45,15 +44,179 @@ struct StraightMasses {
   std::span<const Density> density;
   double rate = 0.0;
 
+  /// `kQuadraticMass` by sums: 420 of it is 5v_k + Σv + 2Σ_k v_e − 6Σv_e at a corner k, and
+  /// 16v_e − 8v_o + 16Σv_e − 6Σv + 2(v_i + v_j) at an edge e of the corners i and j, o = 5 − e
+  /// being the opposite edge, Σv and Σv_e sums over corners and edges, Σ_k one over the edges at k.
   MENISCUS_INLINE void add(const StraightCells& cells, std::size_t n, const Nodal& v,
                            Nodal& r) const {
-    const Lanes scale = 20.0 * rate * cells.volume * density[n].of;
-    for (std::size_t i = 0; i < 10; ++i) {
-      Lanes3 sum = {};
-      for (std::size_t j = 0; j < 10; ++j)
-        for (std::size_t k = 0; k < 3; ++k) sum[k] += kQuadraticMass[i][j] * v[j][k];
-      for (std::size_t k = 0; k < 3; ++k) r[i][k] += scale * sum[k];
+    const Lanes scale = 20.0 / 420.0 * rate * cells.volume * density[n].of;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Lanes corners = v[0][k] + v[1][k] + v[2][k] + v[3][k];
+      const Lanes edges = v[4][k] + v[5][k] + v[6][k] + v[7][k] + v[8][k] + v[9][k];
+      std::array<Lanes, 4> at_corner;
+      for (std::size_t i = 0; i < 4; ++i) at_corner[i] = 5.0 * v[i][k] + corners - 6.0 * edges;
+      for (std::size_t e = 0; e < 6; ++e) {
+        const auto [i, j] = kCellEdges[e];
+        at_corner[i] += 2.0 * v[4 + e][k];
+        at_corner[j] += 2.0 * v[4 + e][k];
+        r[4 + e][k] += scale * (16.0 * (v[4 + e][k] + edges) - 8.0 * v[9 - e][k] - 6.0 * corners +
+                                2.0 * (v[i][k] + v[j][k]));
+      }
+      for (std::size_t i = 0; i < 4; ++i) r[i][k] += scale * at_corner[i];
     }
+  }
+};
+
+/// Values at the points of the rule: four near the corners, four more, and six near the edges, in
+/// the order of `kCellEdges`.
+using AtPoints = std::array<Lanes3, kTetrahedronRule5.size()>;
+
+/// Points that are near corners or edges alike: the barycentric coordinate b of what they are near,
+/// and that of the other corners.
+struct Orbit {
+  std::size_t first;
+  double near = kTetrahedronRule5[first].barycentric[0],
+         other = kTetrahedronRule5[first].barycentric[3];
+  /// b(2b − 1) of the other corners, and how much more it is of the near ones.
+  double corner = other * (2.0 * other - 1.0), near_corner = near * (2.0 * near - 1.0) - corner;
+};
+inline constexpr std::array<Orbit, 2> kCornerOrbits = {Orbit{0}, Orbit{4}};
+inline constexpr Orbit kEdgeOrbit{8};
+
+/// Sums of values at the nodes: of corners, of edges, and of the edges at each corner.
+struct NodeSums {
+  Lanes corners, edges;
+  Corners edges_at;
+};
+MENISCUS_INLINE NodeSums sums_of(const Nodal& v, std::size_t k) {
+  NodeSums sums;
+  sums.corners = v[0][k] + v[1][k] + v[2][k] + v[3][k];
+  sums.edges_at = {v[4][k] + v[5][k] + v[6][k], v[4][k] + v[7][k] + v[8][k],
+                   v[5][k] + v[7][k] + v[9][k], v[6][k] + v[8][k] + v[9][k]};
+  sums.edges = sums.edges_at[0] + v[7][k] + v[8][k] + v[9][k];
+  return sums;
+}
+
+/// Σ_i φ_i v_i at the points: φ_k = b_k(2b_k − 1) at corners, 4b_ib_j at edges.
+MENISCUS_INLINE void find_at_points(const Nodal& v, AtPoints& at) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const NodeSums sums = sums_of(v, k);
+    for (const auto& [first, near, other, corner, near_corner] : kCornerOrbits) {
+      const Lanes base = corner * sums.corners + (4.0 * other * other) * sums.edges;
+      for (std::size_t i = 0; i < 4; ++i)
+        at[first + i][k] =
+            base + near_corner * v[i][k] + (4.0 * other * (near - other)) * sums.edges_at[i];
+    }
+    const auto& [first, near, other, corner, near_corner] = kEdgeOrbit;
+    const Lanes base = corner * sums.corners + (4.0 * near * other) * sums.edges;
+    for (std::size_t e = 0; e < 6; ++e) {
+      const auto [i, j] = kCellEdges[e];
+      at[first + e][k] = base + near_corner * (v[i][k] + v[j][k]) +
+                         (4.0 * (near - other)) * (near * v[4 + e][k] - other * v[9 - e][k]);
+    }
+  }
+}
+
+/// The transpose of `find_at_points`, added.
+MENISCUS_INLINE void add_to_nodes(const AtPoints& at, Nodal& r) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    Lanes to_corners = {}, to_edges = {};
+    for (const auto& [first, near, other, corner, near_corner] : kCornerOrbits) {
+      const Lanes sum = at[first][k] + at[first + 1][k] + at[first + 2][k] + at[first + 3][k];
+      to_corners += corner * sum;
+      to_edges += (4.0 * other * other) * sum;
+      for (std::size_t i = 0; i < 4; ++i) r[i][k] += near_corner * at[first + i][k];
+      for (std::size_t e = 0; e < 6; ++e) {
+        const auto [i, j] = kCellEdges[e];
+        r[4 + e][k] += (4.0 * other * (near - other)) * (at[first + i][k] + at[first + j][k]);
+      }
+    }
+    const auto& [first, near, other, corner, near_corner] = kEdgeOrbit;
+    Lanes sum = {};
+    for (std::size_t e = 0; e < 6; ++e) sum += at[first + e][k];
+    to_corners += corner * sum;
+    to_edges += (4.0 * near * other) * sum;
+    for (std::size_t e = 0; e < 6; ++e) {
+      const auto [i, j] = kCellEdges[e];
+      r[i][k] += near_corner * at[first + e][k];
+      r[j][k] += near_corner * at[first + e][k];
+      r[4 + e][k] += to_edges + (4.0 * (near - other)) *
+                                    (near * at[first + e][k] - other * at[first + 5 - e][k]);
+    }
+    for (std::size_t i = 0; i < 4; ++i) r[i][k] += to_corners;
+  }
+}
+
+/// Adds to forces along one axis, at all points, a velocity times a linear function of the corners.
+MENISCUS_INLINE void add_slopes(const AtPoints& along, std::size_t l, const Corners& slope,
+                                std::size_t k, AtPoints& force) {
+  const Lanes sum = slope[0] + slope[1] + slope[2] + slope[3];
+  for (const Orbit& orbit : kCornerOrbits)
+    for (std::size_t i = 0; i < 4; ++i)
+      force[orbit.first + i][k] +=
+          along[orbit.first + i][l] * (orbit.other * sum + (orbit.near - orbit.other) * slope[i]);
+  constexpr Orbit orbit = kEdgeOrbit;
+  for (std::size_t e = 0; e < 6; ++e) {
+    const auto [i, j] = kCellEdges[e];
+    force[orbit.first + e][k] +=
+        along[orbit.first + e][l] *
+        (orbit.other * sum + (orbit.near - orbit.other) * (slope[i] + slope[j]));
+  }
+}
+
+/// ρa times the weights of the points, and the derivatives that go with its components: by x in
+/// straight cells, by barycentric coordinates in curved ones.
+MENISCUS_INLINE void weigh(const StraightCells& cells, const Lanes& density, AtPoints& a,
+                           Derivatives& d) {
+  const Lanes scale = 20.0 * cells.volume * density;
+  for (std::size_t q = 0; q < a.size(); ++q)
+    for (std::size_t k = 0; k < 3; ++k) a[q][k] *= kTetrahedronRule5[q].share * scale;
+  for (Tensor& at_corner : d) {
+    const Tensor gradient = gradient_of(at_corner, cells.gradient);
+    for (std::size_t l = 0; l < 3; ++l)
+      for (std::size_t k = 0; k < 3; ++k) at_corner[l][k] = gradient[k][l];
+  }
+}
+MENISCUS_INLINE void weigh(const CurvedCells& cells, const Lanes& density, AtPoints& a,
+                           Derivatives&) {
+  for (std::size_t q = 0; q < a.size(); ++q) {
+    const auto& [g, weight] = cells.points[q];
+    const Lanes scale = weight * density;
+    Lanes3 along;
+    for (std::size_t l = 0; l < 3; ++l)
+      along[l] = scale * (a[q][0] * g[l][0] + a[q][1] * g[l][1] + a[q][2] * g[l][2]);
+    a[q] = along;
+  }
+}
+
+/// Adds ∫ρφ_i a·∇v, a given at the nodes.
+template <class Batch>
+MENISCUS_INLINE void add_convection(const Batch& cells, const Lanes& density, const Nodal& a,
+                                    const Nodal& v, Nodal& r) {
+  AtPoints along, force = {};
+  find_at_points(a, along);
+  Derivatives d;
+  differentiate(v, d);
+  weigh(cells, density, along, d);
+  for (std::size_t l = 0; l < 3; ++l)
+    for (std::size_t k = 0; k < 3; ++k)
+      add_slopes(along, l, {d[0][l][k], d[1][l][k], d[2][l][k], d[3][l][k]}, k, force);
+  add_to_nodes(force, r);
+}
+
+/// Masses and convection, by a velocity at the nodes.
+template <class Masses>
+struct WithConvection {
+  Masses masses;
+  std::span<const Density> density;
+  const double* convecting;
+
+  template <class Batch>
+  MENISCUS_INLINE void add(const Batch& cells, std::size_t n, const Nodal& v, Nodal& r) const {
+    masses.add(cells, n, v, r);
+    Nodal a;
+    take(cells.nodes, convecting, a);
+    add_convection(cells, density[n].of, a, v, r);
   }
 };
 
@@ -67,7 +230,8 @@ struct CellInertia {
   lanes::CellSquares curved;
 };
 struct ConvectedCells {
-  lanes::CellSquares straight, curved;
+  lanes::WithConvection<lanes::StraightMasses> straight;
+  lanes::WithConvection<lanes::CellSquares> curved;
 };
 
 }  // namespace meniscus::fem

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "meniscus/core/archive_entries.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/excess_stress.hpp"
 #include "meniscus/flow/fem/face_elements.hpp"
@@ -117,8 +118,10 @@ class FiniteElementFlow final : public FlowSolver {
   std::int64_t connectivity_ = 0;  // that all below is made for
   FlowSpace space_;
   std::optional<StokesSolver> stokes_;
-  /// The last solution less the undisturbed flow: the next solve's first guess.
+  /// The last solution less the undisturbed flow, or less what the stage began with: the next
+  /// solve's first guess.
   std::optional<StokesState> guess_;
+  double guess_duration_ = 0.0;  // of the stage that it comes from; 0: of none
   KeptPreconditioner preconditioner_;
   double last_duration_ = 0.0;  // of the last stage
   PhaseTimes times_;
@@ -145,20 +148,22 @@ void FiniteElementFlow::follow(const MeshChange& change, const FlowDomain& domai
 }
 
 /// Undisturbed flow and drops change on their own. The one is known at once, what the drops add to
-/// it is taken from the last solution.
+/// it is taken from the last solution. With inertia the undisturbed flow is what a stage begins
+/// with, and each node goes on with its acceleration.
 StokesState FiniteElementFlow::first_guess(const FlowDomain& domain,
                                            const StokesProblem& problem) const {
-  if (domain.stage != nullptr)
-    return {Field<NodeId, Vec3>(domain.stage->expected_v),
-            guess_ ? guess_->p : stokes_->state_at_rest().p};
   StokesState state = guess_ ? *guess_ : stokes_->state_at_rest();
-  for (const NodeId i : state.v.ids()) state.v[i] += problem.undisturbed[i];
+  const double longer = domain.stage != nullptr && guess_duration_ > 0.0
+                            ? domain.stage->duration / guess_duration_
+                            : 1.0;
+  for (const NodeId i : state.v.ids()) state.v[i] = problem.undisturbed[i] + longer * state.v[i];
   return state;
 }
 
 void FiniteElementFlow::keep_solution(const StokesProblem& problem, StokesState state) {
   for (const NodeId i : state.v.ids()) state.v[i] -= problem.undisturbed[i];
   guess_ = std::move(state);
+  guess_duration_ = problem.inertia ? problem.inertia->duration : 0.0;
 }
 
 /// The flow with which a run of liquids with inertia begins, without divergence and with the
@@ -182,7 +187,8 @@ FlowSolution FiniteElementFlow::first_flow(const FlowDomain& domain, double t) {
   const int iterations = result.iterations;
   result = solution(domain, problem, state, stokes_->power(problem.stokes, state));
   result.iterations = iterations;
-  keep_solution(problem.stokes, std::move(state));
+  guess_ = StokesState{stokes_->state_at_rest().v, std::move(state.p)};
+  guess_duration_ = 0.0;
   return result;
 }
 
@@ -361,6 +367,7 @@ FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const Instant
 void FiniteElementFlow::save(Archive& archive, const FlowDomain& domain) const {
   if (!has_connectivity_of(domain)) return;
   if (guess_) fem::save(*guess_, archive, "flow/guess");
+  if (guess_ && guess_duration_ > 0.0) archive.reals["flow/guess/duration"] = {guess_duration_};
   preconditioner_.save(archive);
 }
 
@@ -387,6 +394,8 @@ void FiniteElementFlow::load(const Archive& archive, const FlowDomain& domain) {
   restore_preconditioner(archive, domain);
   if (!archive.reals.contains("flow/guess/velocity")) return;
   guess_ = load_state(archive, "flow/guess");
+  if (archive.reals.contains("flow/guess/duration"))
+    guess_duration_ = entry_of_size(archive.reals, "flow/guess/duration", 1).front();
   const StokesState rest = stokes_->state_at_rest();
   if (guess_->v.size() != rest.v.size() || guess_->p.size() != rest.p.size())
     reject_input("checkpoint: flow/guess does not fit the volume mesh");

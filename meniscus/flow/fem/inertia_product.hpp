@@ -12,18 +12,19 @@ struct CellBatches;
 struct CellInertia;
 struct ConvectedCells;
 
-/// What inertia (`InertiaTerms`) does to a velocity, by cells of quadratic elements. The matrix of
-/// a cell, ∫ρφ_i(φ_j/τ + a·∇φ_j), is the same for the three components. a = v − w is taken at the
-/// points of a rule of degree 5. Velocities have three components side by side at each node.
+/// What inertia (`InertiaTerms`) does to a velocity, by cells of quadratic elements. Masses
+/// are products of matrices, those of straight cells multiples of one. Convection, by a = v − w, is
+/// summed over the points of a rule of degree 5, which is exact on straight cells. Velocities have
+/// three components side by side at each node.
 class InertiaProduct {
  public:
-  /// The problem has inertia, and must outlive this, as must its cells.
-  InertiaProduct(const StokesProblem& problem, const CellBatches& cells);
+  /// The problem has inertia, and must outlive this, as must the batches of its cells.
+  InertiaProduct(const StokesProblem& problem, const CellBatches& batches);
   ~InertiaProduct();
 
   /// Sets the velocity that convects; nothing does before.
   void convect(std::span<const double> v);
-  [[nodiscard]] bool convects() const { return convects_; }
+  [[nodiscard]] bool convects() const { return !convecting_.empty(); }
   /// ∫ρv/τ·φ by cells.
   [[nodiscard]] CellInertia by_cells() const;
   /// ∫ρ(v/τ + a·∇v)·φ by cells, once there is what convects.
@@ -44,12 +45,12 @@ class InertiaProduct {
  private:
   void add_mass(std::span<const double> v, std::span<double> momentum) const;
 
-  struct Matrices;
+  struct Cells;
   const InertiaTerms& terms_;
-  const CellBatches& cells_;
-  std::unique_ptr<Matrices> matrices_;
+  const CellBatches& batches_;
+  std::unique_ptr<Cells> cells_;
   std::vector<double> given_mass_, given_tension_;
-  bool convects_ = false;
+  std::vector<double> convecting_;  ///< a, by nodes; empty where nothing convects
 };
 
 }  // namespace meniscus::fem

@@ -44,6 +44,17 @@ Solution solved(const StokesProblem& problem, Options options, linear::Processes
   return solution;
 }
 
+/// What one process finds alone and all find together; a failure of either fails the test.
+struct BothWays {
+  Solution alone, together;
+};
+BothWays solved_both_ways(const StokesProblem& problem, const Options& options) {
+  BothWays both{solved(problem, options, linear::Processes::alone),
+                solved(problem, options, linear::Processes::all)};
+  EXPECT_TRUE(both.alone.report.ok() && both.together.report.ok()) << both.together.report.text();
+  return both;
+}
+
 double largest_velocity_difference(const StokesState& a, const StokesState& b) {
   double largest = 0.0;
   for (const NodeId i : a.v.ids()) largest = std::max(largest, (a.v[i] - b.v[i]).norm());
@@ -71,9 +82,7 @@ TEST_P(RanksBySolver, TogetherFindWhatOneFindsAlone) {
   Options options;
   options.linear = linear_solver;
   options.rtol = 1e-10;
-  const Solution alone = solved(problem, options, linear::Processes::alone),
-                 together = solved(problem, options, linear::Processes::all);
-  ASSERT_TRUE(alone.report.ok() && together.report.ok()) << together.report.text();
+  const auto [alone, together] = solved_both_ways(problem, options);
   EXPECT_EQ(together.report.solver, linear_solver);
   EXPECT_LT(together.report.residual, 2.1e-10 * together.report.reference);
   EXPECT_NEAR(together.report.reference, alone.report.reference, 1e-12 * alone.report.reference);
@@ -114,9 +123,7 @@ TEST(Ranks, AgreeWhereWallsSlip) {
     problem.constraints = test.conditions(box.boundary).constraints;
     Options options;
     options.rtol = 1e-11;
-    const Solution alone = solved(problem, options, linear::Processes::alone),
-                   together = solved(problem, options, linear::Processes::all);
-    ASSERT_TRUE(alone.report.ok() && together.report.ok()) << together.report.text();
+    const auto [alone, together] = solved_both_ways(problem, options);
     EXPECT_LT(largest_velocity_difference(alone.state, together.state), 1e-8);
   }
 }
@@ -129,9 +136,7 @@ TEST(Ranks, AgreeOnGeneralisedNewtonianLiquids) {
     problem.laws.add(CarreauYasuda{.time_constant = 2.0, .power_index = 0.5});
     Options options;
     options.rtol = 1e-10;
-    const Solution alone = solved(problem, options, linear::Processes::alone),
-                   together = solved(problem, options, linear::Processes::all);
-    ASSERT_TRUE(alone.report.ok() && together.report.ok()) << together.report.text();
+    const auto [alone, together] = solved_both_ways(problem, options);
     EXPECT_GT(together.report.newton_steps, 1);
     EXPECT_LT(largest_velocity_difference(alone.state, together.state), 4e-6);
     EXPECT_NEAR(together.power.dissipation, alone.power.dissipation, 1e-6);
@@ -154,9 +159,7 @@ TEST(Ranks, AgreeOnLiquidsWithInertia) {
     EXPECT_FALSE(problem.inertia->tension.empty());
     Options options;
     options.rtol = 1e-10;
-    const Solution alone = solved(problem, options, linear::Processes::alone),
-                   together = solved(problem, options, linear::Processes::all);
-    ASSERT_TRUE(alone.report.ok() && together.report.ok()) << together.report.text();
+    const auto [alone, together] = solved_both_ways(problem, options);
     EXPECT_LT(largest_velocity_difference(alone.state, together.state), 4e-6);
     EXPECT_NEAR(together.power.dissipation, alone.power.dissipation, 1e-5);
     EXPECT_NEAR(together.power.kinetic_rate, alone.power.kinetic_rate, 1e-4);
