@@ -111,11 +111,12 @@ const MassMatrix& FiniteElementScalars::mass(const Placed& at, const Scene& scen
 /// each.
 std::vector<double> FiniteElementScalars::initial_values(const Scene& scene, const TetMesh& mesh,
                                                          const Placed& here, std::size_t k) {
-  const std::vector<double> filling = volume_shares(scene, mesh, *here.space, *here.positions);
+  const std::vector<double> filling =
+      volume_shares(scene, element_volumes(mesh, *here.space, *here.positions));
   std::vector<double> held(at(here.space->num_nodes()), 0.0), room = held;
   with_kernel(*here.space, *here.positions, [&](auto& cell) {
     for (const CellId c : mesh.cells.ids()) {
-      cell.go_to(c);
+      cell.go_to(c, false);
       const ScalarLiquid& liquid = scene.liquids[mesh.region[c]].scalars[k];
       const double unit = scene.scalars[k].is_species ? liquid.capacity : 1.0;
       const auto shares = cell.integral(cell.values());
@@ -252,8 +253,8 @@ std::vector<ScalarMeasures> FiniteElementScalars::measures(const FlowDomain& dom
   const Placed here = placed(domain);
   std::vector<ScalarMeasures> result;
   for (std::size_t k = 0; k < scalars.size(); ++k)
-    result.push_back(
-        scalar_measures(domain.scene, *domain.mesh, *here.space, *here.positions, k, scalars[k]));
+    result.push_back(scalar_measures(domain.scene, *domain.mesh, *here.space, *here.positions,
+                                     mass(here, domain.scene, *domain.mesh, k), k, scalars[k]));
   return result;
 }
 
