@@ -5,6 +5,8 @@
 #include <numeric>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
 #include "meniscus/flow/fem/node_sources.hpp"
@@ -32,6 +34,25 @@ Field<NodeId, Vec3> node_velocity(const FlowSolution& flow, const ScalarSpace& s
 
 double amount(std::span<const double> rows, std::span<const double> values) {
   return std::inner_product(rows.begin(), rows.end(), values.begin(), 0.0);
+}
+
+/// A fault where a species is below zero by more than a hundredth of its largest concentration, or
+/// not a number.
+std::optional<Fault> find_negative(const Scalar& kind, const BulkScalar& scalar,
+                                   const NodePositions& positions) {
+  if (!kind.is_species) return {};
+  const double least =
+      around(0.0, std::max(scalar.largest, *std::ranges::max_element(scalar.values))).least;
+  for (const NodeId i : positions.x.ids()) {
+    const double value = scalar.values[at(i.value)];
+    if (value >= least) continue;
+    return Fault{FaultKind::surfactant,
+                 fmt::format("the concentration of {} falls to {:.4g} (in the matrix) at {}; it "
+                             "must be at least 0",
+                             kind.name, value, text_of(positions.x[i])),
+                 positions.x[i]};
+  }
+  return {};
 }
 
 /// Adds what interfaces took up of one species.
@@ -143,10 +164,12 @@ Report FiniteElementScalars::initial(const FlowDomain& domain, BulkScalars& scal
     const auto [least, largest] = std::ranges::minmax(scalars[k].values);
     scalars[k].least = least;
     scalars[k].largest = largest;
-    if (scene.scalars[k].peclet > 0.0) continue;
-    if (Report solved = conduct(scene, mesh, *here.space, *here.positions, k, {}, scalars[k]);
-        !solved.ok())
-      return solved;
+    if (scene.scalars[k].peclet == 0.0)
+      if (Report solved = conduct(scene, mesh, *here.space, *here.positions, k, {}, scalars[k]);
+          !solved.ok())
+        return solved;
+    if (auto fault = find_negative(scene.scalars[k], scalars[k], *here.positions))
+      return {std::move(fault)};
   }
   return {};
 }
@@ -184,6 +207,7 @@ ScalarAdvance FiniteElementScalars::advance(const ScalarPath& path, BulkScalars&
                                 path.expected_adsorption};
       ScalarAdvance moved = convect(motion, k, scalars[k]);
       if (!moved.ok()) return moved;
+      if (auto fault = find_negative(scalar, scalars[k], *to.positions)) return {std::move(fault)};
       take_up(moved.uptake, result.uptake);
       result.error = std::max(result.error, moved.error);
       continue;
@@ -195,6 +219,7 @@ ScalarAdvance FiniteElementScalars::advance(const ScalarPath& path, BulkScalars&
                                 sources, scalars[k]);
         !solved.ok())
       return {std::move(solved)};
+    if (auto fault = find_negative(scalar, scalars[k], *to.positions)) return {std::move(fault)};
   }
   return result;
 }
