@@ -207,7 +207,10 @@ ScalarAdvance FiniteElementScalars::advance(const ScalarPath& path, BulkScalars&
                                 path.expected_adsorption};
       ScalarAdvance moved = convect(motion, k, scalars[k]);
       if (!moved.ok()) return moved;
-      if (auto fault = find_negative(scalar, scalars[k], *to.positions)) return {std::move(fault)};
+      // A species that is exchanged has no bounds (`keep_range`), and undershoots beside fronts.
+      if (moved.uptake.empty())
+        if (auto fault = find_negative(scalar, scalars[k], *to.positions))
+          return {std::move(fault)};
       take_up(moved.uptake, result.uptake);
       result.error = std::max(result.error, moved.error);
       continue;
