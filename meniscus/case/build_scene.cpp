@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "meniscus/case/case.hpp"
+#include "meniscus/case/concentrations.hpp"
 #include "meniscus/case/outer_boundary.hpp"
 #include "meniscus/case/surface_source.hpp"
 #include "meniscus/core/error.hpp"
@@ -223,6 +224,7 @@ Scene build_scene(const Case& c) {
   spread_surfactants(scene);
   require_no_conflict(c, scene);
   require_no_net_inflow(c, scene);
+  require_concentrations(c, scene);
   return scene;
 }
 

@@ -12,7 +12,8 @@ namespace {
 std::string options_of(ScalarSystem kind) {
   switch (kind) {
     case ScalarSystem::transport:
-      return "-ksp_type gmres -ksp_gmres_restart 60 -ksp_pc_side right -pc_type ilu";
+      return "-ksp_type gmres -ksp_gmres_restart 60 -ksp_pc_side right -pc_type sor "
+             "-pc_sor_symmetric";
     case ScalarSystem::conduction:
       return "-ksp_type gmres -ksp_gmres_restart 60 -ksp_pc_side right" +
              multigrid_options("", has_hypre());

@@ -9,7 +9,7 @@ namespace meniscus::linear {
 
 /// What a scalar system is like.
 enum class ScalarSystem {
-  transport,   ///< mass and convection outweigh conduction: GMRES with an incomplete factorisation
+  transport,   ///< mass and convection outweigh conduction: GMRES with Gauss–Seidel
   conduction,  ///< conduction outweighs: GMRES with one cycle of algebraic multigrid
   potential    ///< symmetric, perhaps singular: conjugate gradients with symmetric Gauss–Seidel
 };

@@ -103,7 +103,7 @@ Eigen::SparseMatrix<double> CarrierSurface::assembled(const FaceField<NodeMatrix
   Eigen::SparseMatrix<double> over_nodes(at_nodes_.rows(), at_nodes_.rows());
   over_nodes.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SparseMatrix<double> E = at_nodes_;
-  return E.transpose() * Eigen::SparseMatrix<double>(over_nodes * E);
+  return at_nodes_.transpose() * Eigen::SparseMatrix<double>(over_nodes * E);
 }
 
 }  // namespace meniscus

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseLU>
 
 #include "meniscus/core/error.hpp"
@@ -18,6 +19,21 @@ using Matrix = Eigen::SparseMatrix<double>;
 
 /// Where the inner stage of SDIRK2 stands in a step.
 constexpr double kInnerStage = 1.0 - std::numbers::sqrt2 / 2.0;
+
+/// Solves equations of a stage, in which masses mostly outweigh what is carried and spread: by
+/// iterations from a guess, and by factors where these do not come to an end.
+Vector solved(const Matrix& matrix, const Vector& right, const Vector& guess) {
+  constexpr double kTolerance = 1e-13;
+  constexpr int kMostIterations = 40;
+  Eigen::BiCGSTAB<Eigen::SparseMatrix<double, Eigen::RowMajor>> iteration(matrix);
+  iteration.setTolerance(kTolerance);
+  iteration.setMaxIterations(kMostIterations);
+  Vector solution = iteration.solveWithGuess(right, guess);
+  if (iteration.info() == Eigen::Success && solution.allFinite()) return solution;
+  const Eigen::SparseLU<Matrix> factors(matrix);
+  MENISCUS_ASSERT(factors.info() == Eigen::Success, "{}", factors.lastErrorMessage());
+  return factors.solve(right);
+}
 
 VertexField<Vec3> along_surface(const SurfaceMesh& mesh, VertexField<Vec3> v) {
   const VertexField<Vec3> area = vertex_area_vectors(mesh);
@@ -84,23 +100,20 @@ VertexField<double> SurfaceTransport::rates_of_sources(const VertexField<double>
 
 VertexField<double> SurfaceTransport::settled(const VertexField<double>& amounts,
                                               const SurfaceMass& mass, double dt) const {
-  const Eigen::SparseLU<Matrix> factors(mass.matrix() + kInnerStage * dt * L_);
-  MENISCUS_ASSERT(factors.info() == Eigen::Success, "{}", factors.lastErrorMessage());
-  const Vector once = factors.solve(vector_of(amounts));
-  return field_of(factors.solve(mass.matrix() * once));
+  const Matrix matrix = mass.matrix() + kInnerStage * dt * L_;
+  const Vector once = solved(matrix, vector_of(amounts), Vector::Zero(L_.rows()));
+  return field_of(solved(matrix, mass.matrix() * once, once));
 }
 
 Vector SurfaceTransport::mean_rates(const Vector& amounts, const Vector& sources,
                                     const Path& path) const {
-  Eigen::SparseLU<Matrix> factors;
+  Vector reached = amounts.cwiseQuotient(vector_of(path.start.areas()));
   // Between the ends of the step masses change linearly, but for the square of its length.
   const auto stage = [&](const Vector& begin, double part) -> Vector {
     const Matrix mass = (1.0 - part) * path.start.matrix() + part * path.end.matrix();
-    const Matrix matrix = mass + kInnerStage * path.dt * L_;
-    if (part != 1.0) factors.analyzePattern(matrix);  // for both stages: the same entries
-    factors.factorize(matrix);
-    MENISCUS_ASSERT(factors.info() == Eigen::Success, "{}", factors.lastErrorMessage());
-    return sources - L_ * factors.solve(begin + kInnerStage * path.dt * sources);
+    reached =
+        solved(mass + kInnerStage * path.dt * L_, begin + kInnerStage * path.dt * sources, reached);
+    return sources - L_ * reached;
   };
   const Vector first = stage(amounts, kInnerStage),
                second = stage(amounts + (1.0 - kInnerStage) * path.dt * first, 1.0);

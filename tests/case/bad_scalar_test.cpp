@@ -61,6 +61,19 @@ const std::vector<BadScalar> kScalars{
      heat("kind = \"species\"\n[[scalar.patch]]\nname = \"x-\"\ncondition = \"value\"\nvalue = "
           "-1\n"),
      "case.toml:12: scalar.patch.value = -1.0 must be at least 0: it is a concentration"},
+    {"a gradient to negative concentrations",
+     heat("kind = \"species\"\ninitial = 1\ninitial-gradient = [0, 0, 0.2]\n"),
+     "case.toml:10: scalar.initial-gradient = [0.0, 0.0, 0.2] makes a concentration of -1 at "
+     "(-10, -10, -10): it must be at least 0"},
+    {"a gradient to negative concentrations in a drop",
+     heat("kind = \"species\"\n[[scalar.drop]]\ninitial = 1\ninitial-gradient = [0, 0, 2]\n"),
+     "case.toml:11: scalar.drop.initial-gradient = [0.0, 0.0, 2.0] makes a concentration of "
+     "-0.9725 at (-0.00579921, 0.165787, -0.986253): it must be at least 0"},
+    {"a gradient to negative concentrations on a patch",
+     heat("kind = \"species\"\n[[scalar.patch]]\nname = \"x-\"\ncondition = \"value\"\nvalue = "
+          "1\ngradient = [0, 0.2, 0]\n"),
+     "case.toml:13: scalar.patch.gradient = [0.0, 0.2, 0.0] makes a concentration of -1 at "
+     "(-10, -10, -10): it must be at least 0"},
     {"a surfactant dissolved in heat",
      heat("[drop.surfactant]\nelasticity = 0.1\nspecies = \"heat\"\n"),
      "case.toml:10: drop.surfactant.species = \"heat\" must be the name of a [[scalar]] with kind "

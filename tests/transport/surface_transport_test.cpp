@@ -94,6 +94,41 @@ TEST(SurfaceTransport, LeavesARigidMotionAlone) {
     EXPECT_NEAR(carrier.concentration[v], before[v], 1e-6);  // the turn by chords: O(dt²)
 }
 
+/// Where the amounts of a concentration settle on the unit sphere at rest, D = 1, within so long.
+VertexField<double> settled(const SurfaceMesh& mesh, const VertexField<double>& concentration,
+                            double dt) {
+  const CarrierSurface surface(mesh, SurfaceShape::patched);
+  const SurfaceMass mass(surface);
+  return SurfaceTransport(surface, at_vertices(mesh, kNone), 1.0)
+      .settled(mass.amounts(concentration), mass, dt);
+}
+
+// Twice an implicit stage of gamma dt, gamma = 1 - 1/sqrt(2): mode l = 1 is divided by
+// (1 + 2 gamma dt)².
+TEST(SurfaceTransport, SettlesASmoothConcentrationAsTheStagesDo) {
+  const SurfaceMesh mesh = sphere(200);
+  VertexField<double> concentration;
+  for (const Vec3& x : mesh.x) concentration.add(x.z());
+  const double dt = 0.3, stage = 1.0 + 2.0 * (1.0 - std::sqrt(0.5)) * dt;
+  const VertexField<double> reached = settled(mesh, concentration, dt);
+  for (const VertexId v : reached.ids())
+    EXPECT_NEAR(reached[v], concentration[v] / (stage * stage), 2e-3);
+}
+
+// Mode l = 6 is divided by (1 + 42 gamma dt)² = 177, or stays where dt is short.
+TEST(SurfaceTransport, EvensOutWhatVariesWithinAStep) {
+  const SurfaceMesh mesh = sphere(400);
+  VertexField<double> wavy;
+  for (const Vec3& x : mesh.x) wavy.add(std::legendre(6, x.z()));
+  const auto norm = [](const VertexField<double>& values) {
+    double sum = 0.0;
+    for (const double each : values) sum += each * each;
+    return std::sqrt(sum);
+  };
+  EXPECT_NEAR(norm(settled(mesh, wavy, 1.0)) / norm(wavy), 1.0 / 177.0, 3e-4);
+  EXPECT_NEAR(norm(settled(mesh, wavy, 1e-6)) / norm(wavy), 1.0, 1e-3);
+}
+
 // Mode l of a sphere decays at l(l + 1)D.
 double decay_error(int num_vertices, double dt) {
   Covered carrier{sphere(num_vertices), {}};

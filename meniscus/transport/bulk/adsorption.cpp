@@ -13,15 +13,6 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-std::size_t place_of(const fem::NodeGraph& graph, NodeId row, NodeId column) {
-  const auto begin = graph.columns.begin() + graph.row_start[at(row.value)],
-             end = graph.columns.begin() + graph.row_start[at(row.value) + 1];
-  const auto found = std::lower_bound(begin, end, column.value);
-  MENISCUS_ASSERT(found != end && *found == column.value, "no entry {}, {}", row.value,
-                  column.value);
-  return static_cast<std::size_t>(found - graph.columns.begin());
-}
-
 /// What is given at the vertices, at the first `count` nodes of a surface.
 std::vector<double> at_nodes(const CarrierSurface& surface, const VertexField<double>& values,
                              std::size_t count) {
@@ -156,11 +147,10 @@ std::vector<VertexField<double>> InterfaceExchange::uptake(const ByInterface& ra
   return result;
 }
 
-double InterfaceExchange::loss(const ByInterface& rates) const {
+double InterfaceExchange::loss(std::span<const VertexField<double>> uptake) const {
   double total = 0.0;
-  for (std::size_t i = 0; i < sides_.size(); ++i)
-    if (sides_[i])
-      for (const double each : uptake(*sides_[i], rates[i])) total += sides_[i]->depth * each;
+  for (std::size_t i = 0; i < uptake.size(); ++i)
+    for (const double each : uptake[i]) total += sides_[i]->depth * each;
   return total;
 }
 

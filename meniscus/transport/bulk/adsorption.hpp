@@ -38,8 +38,8 @@ class InterfaceExchange {
                                   const ByInterface& guess) const;
   /// ∮φ_v j dS at the vertices, the mean over both ends of the step; φ_v as in `SurfaceMass`.
   [[nodiscard]] std::vector<VertexField<double>> uptake(const ByInterface& rates) const;
-  /// What the liquid loses per time.
-  [[nodiscard]] double loss(const ByInterface& rates) const;
+  /// What the liquid loses per time to that uptake.
+  [[nodiscard]] double loss(std::span<const VertexField<double>> uptake) const;
 
  private:
   /// An entry of the matrix ∮φ_i φ_n dS.

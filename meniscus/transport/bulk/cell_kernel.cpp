@@ -84,6 +84,8 @@ struct Reference {
   static constexpr std::size_t n = Kernel::kNodes, width = Kernel::kWidth;
   typename Kernel::Table value{};
   std::array<typename Kernel::Table, 4> derivative{};  ///< by barycentric coordinate
+  /// By the coordinates but the first, which is 1 less their sum.
+  std::array<typename Kernel::Table, 3> relative_derivative{};
   /// Values and derivatives by node, the points side by side (`evaluate`).
   alignas(64) std::array<double, n * kWide> value_by_node{};
   alignas(64) std::array<std::array<double, n * kWide>, 4> derivative_by_node{};
@@ -117,6 +119,9 @@ struct Reference {
               by(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
       for (std::size_t i = 0; i < n; ++i) value_by_node[i * kWide + q] = value[q * width + i];
     }
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t e = 0; e < value.size(); ++e)
+        relative_derivative[a][e] = derivative[a + 1][e] - derivative[0][e];
   }
 };
 
@@ -134,7 +139,7 @@ const typename CellKernel<Nodes>::Table& CellKernel<Nodes>::values() {
 }
 
 template <int Nodes>
-void CellKernel<Nodes>::go_to(CellId c) {
+void CellKernel<Nodes>::go_to(CellId c, bool has_gradients) {
   nodes_ = space_.elements.velocity.of(c);
   is_curved_ = Nodes == 10 && positions_.is_curved[c] != 0;
   const auto x = [&](std::size_t i) -> const Vec3& { return positions_.x[NodeId{nodes_[i]}]; };
@@ -144,18 +149,16 @@ void CellKernel<Nodes>::go_to(CellId c) {
   if constexpr (Nodes == 10)
     if (is_curved_) {
       const auto maps = fem::curved_maps(positions_.x, nodes_);
+      std::array<std::array<double, 3 * kPoints>, 3> slope;  // ∂b_a/∂x_k
       volume_ = 0.0;
       for (std::size_t q = 0; q < kPoints; ++q) {
         volume_ += weight_[q] = maps[q].weight;
         for (std::size_t k = 0; k < 3; ++k)
-          for (std::size_t i = 0; i < kNodes; ++i) {
-            double sum = 0.0;
-            for (std::size_t a = 0; a < 3; ++a)
-              sum += maps[q].gradient[a][static_cast<Eigen::Index>(k)] *
-                     (at.derivative[a + 1][q * kWidth + i] - at.derivative[0][q * kWidth + i]);
-            gradient_[k][q * kWidth + i] = sum;
-          }
+          for (std::size_t a = 0; a < 3; ++a)
+            slope[k][3 * q + a] = maps[q].gradient[a][static_cast<Eigen::Index>(k)];
       }
+      for (std::size_t k = 0; has_gradients && k < 3; ++k)
+        combine(at.relative_derivative[0].data(), slope[k].data(), 3, gradient_[k].data());
       return;
     }
   volume_ = tet.volume;

@@ -27,8 +27,8 @@ class CellKernel {
   CellKernel(const ScalarSpace& space, const NodePositions& positions)
       : space_(space), positions_(positions) {}
 
-  /// Evaluates the maps of a cell.
-  void go_to(CellId c);
+  /// Evaluates the maps of a cell. Without gradients there are values, weights and masses alone.
+  void go_to(CellId c, bool has_gradients = true);
 
   [[nodiscard]] std::span<const std::int32_t> nodes() const { return nodes_; }
   [[nodiscard]] double volume() const { return volume_; }
@@ -99,17 +99,18 @@ void with_kernel(const ScalarSpace& space, const NodePositions& positions, Actio
   return action(kernel);
 }
 
-/// Adds an element matrix to the values of a matrix on the space's graph.
+/// Adds a multiple of an element matrix to the values of a matrix on the space's graph.
 template <std::size_t Size>
 void add_to(const ScalarSpace& space, CellId c, const std::array<double, Size>& element,
-            std::vector<double>& values) {
+            double factor, std::vector<double>& values) {
   const auto nodes = space.elements.velocity.of(c);
   const std::size_t count = nodes.size();
   std::size_t pair = static_cast<std::size_t>(c.value) * count * count;
   const double* entry = element.data();
   for (std::size_t a = 0; a < count; ++a) {
     double* row = values.data() + space.graph.row_start[static_cast<std::size_t>(nodes[a])];
-    for (std::size_t b = 0; b < count; ++b, ++pair) row[space.graph.position[pair]] += *entry++;
+    for (std::size_t b = 0; b < count; ++b, ++pair)
+      row[space.graph.position[pair]] += factor * *entry++;
   }
 }
 

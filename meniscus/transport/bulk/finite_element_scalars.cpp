@@ -5,6 +5,8 @@
 #include <numeric>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
 #include "meniscus/flow/fem/node_sources.hpp"
@@ -32,6 +34,25 @@ Field<NodeId, Vec3> node_velocity(const FlowSolution& flow, const ScalarSpace& s
 
 double amount(std::span<const double> rows, std::span<const double> values) {
   return std::inner_product(rows.begin(), rows.end(), values.begin(), 0.0);
+}
+
+/// A fault where a species is below zero by more than a hundredth of its largest concentration, or
+/// not a number.
+std::optional<Fault> find_negative(const Scalar& kind, const BulkScalar& scalar,
+                                   const NodePositions& positions) {
+  if (!kind.is_species) return {};
+  const double least =
+      around(0.0, std::max(scalar.largest, *std::ranges::max_element(scalar.values))).least;
+  for (const NodeId i : positions.x.ids()) {
+    const double value = scalar.values[at(i.value)];
+    if (value >= least) continue;
+    return Fault{FaultKind::surfactant,
+                 fmt::format("the concentration of {} falls to {:.4g} (in the matrix) at {}; it "
+                             "must be at least 0",
+                             kind.name, value, text_of(positions.x[i])),
+                 positions.x[i]};
+  }
+  return {};
 }
 
 /// Adds what interfaces took up of one species.
@@ -111,11 +132,12 @@ const MassMatrix& FiniteElementScalars::mass(const Placed& at, const Scene& scen
 /// each.
 std::vector<double> FiniteElementScalars::initial_values(const Scene& scene, const TetMesh& mesh,
                                                          const Placed& here, std::size_t k) {
-  const std::vector<double> filling = volume_shares(scene, mesh, *here.space, *here.positions);
+  const std::vector<double> filling =
+      volume_shares(scene, element_volumes(mesh, *here.space, *here.positions));
   std::vector<double> held(at(here.space->num_nodes()), 0.0), room = held;
   with_kernel(*here.space, *here.positions, [&](auto& cell) {
     for (const CellId c : mesh.cells.ids()) {
-      cell.go_to(c);
+      cell.go_to(c, false);
       const ScalarLiquid& liquid = scene.liquids[mesh.region[c]].scalars[k];
       const double unit = scene.scalars[k].is_species ? liquid.capacity : 1.0;
       const auto shares = cell.integral(cell.values());
@@ -142,10 +164,12 @@ Report FiniteElementScalars::initial(const FlowDomain& domain, BulkScalars& scal
     const auto [least, largest] = std::ranges::minmax(scalars[k].values);
     scalars[k].least = least;
     scalars[k].largest = largest;
-    if (scene.scalars[k].peclet > 0.0) continue;
-    if (Report solved = conduct(scene, mesh, *here.space, *here.positions, k, {}, scalars[k]);
-        !solved.ok())
-      return solved;
+    if (scene.scalars[k].peclet == 0.0)
+      if (Report solved = conduct(scene, mesh, *here.space, *here.positions, k, {}, scalars[k]);
+          !solved.ok())
+        return solved;
+    if (auto fault = find_negative(scene.scalars[k], scalars[k], *here.positions))
+      return {std::move(fault)};
   }
   return {};
 }
@@ -183,6 +207,10 @@ ScalarAdvance FiniteElementScalars::advance(const ScalarPath& path, BulkScalars&
                                 path.expected_adsorption};
       ScalarAdvance moved = convect(motion, k, scalars[k]);
       if (!moved.ok()) return moved;
+      // A species that is exchanged has no bounds (`keep_range`), and undershoots beside fronts.
+      if (moved.uptake.empty())
+        if (auto fault = find_negative(scalar, scalars[k], *to.positions))
+          return {std::move(fault)};
       take_up(moved.uptake, result.uptake);
       result.error = std::max(result.error, moved.error);
       continue;
@@ -194,6 +222,7 @@ ScalarAdvance FiniteElementScalars::advance(const ScalarPath& path, BulkScalars&
                                 sources, scalars[k]);
         !solved.ok())
       return {std::move(solved)};
+    if (auto fault = find_negative(scalar, scalars[k], *to.positions)) return {std::move(fault)};
   }
   return result;
 }
@@ -252,8 +281,8 @@ std::vector<ScalarMeasures> FiniteElementScalars::measures(const FlowDomain& dom
   const Placed here = placed(domain);
   std::vector<ScalarMeasures> result;
   for (std::size_t k = 0; k < scalars.size(); ++k)
-    result.push_back(
-        scalar_measures(domain.scene, *domain.mesh, *here.space, *here.positions, k, scalars[k]));
+    result.push_back(scalar_measures(domain.scene, *domain.mesh, *here.space, *here.positions,
+                                     mass(here, domain.scene, *domain.mesh, k), k, scalars[k]));
   return result;
 }
 

@@ -10,25 +10,12 @@
 namespace meniscus::bulk {
 namespace {
 
-std::vector<ScalarContent> contents(const Scene& scene, const TetMesh& mesh,
-                                    const ScalarSpace& space, const NodePositions& positions,
-                                    std::size_t k, std::span<const double> values) {
-  const std::vector<double> filled = element_volumes(mesh, space, positions);
-  const std::vector<double> shares = volume_shares(scene, mesh, space, positions);
-  std::vector<ScalarContent> result(filled.size());
-  with_kernel(space, positions, [&](auto& cell) {
-    for (const CellId c : mesh.cells.ids()) {
-      cell.go_to(c);
-      const auto here = cell.at_points(values);
-      for (std::size_t q = 0; q < here.size(); ++q)
-        result[static_cast<std::size_t>(mesh.region[c].value)].amount +=
-            cell.weights()[q] * here[q];
-    }
-  });
+std::vector<ScalarContent> contents(const MassMatrix& mass, std::span<const double> values) {
+  const std::vector<double> amounts = region_amounts(mass, values);
+  std::vector<ScalarContent> result(amounts.size());
   for (std::size_t r = 0; r < result.size(); ++r) {
-    result[r].volume = shares[r] * filled[r];
-    result[r].amount *=
-        shares[r] * scene.liquids[RegionId{static_cast<std::int32_t>(r)}].scalars[k].capacity;
+    result[r].volume = mass.volumes[r];
+    result[r].amount = amounts[r];
   }
   return result;
 }
@@ -114,11 +101,11 @@ std::optional<double> given_mean(const Scene& scene, const ScalarSpace& space,
 }  // namespace
 
 ScalarMeasures scalar_measures(const Scene& scene, const TetMesh& mesh, const ScalarSpace& space,
-                               const NodePositions& positions, std::size_t k,
-                               const BulkScalar& scalar) {
+                               const NodePositions& positions, const MassMatrix& mass,
+                               std::size_t k, const BulkScalar& scalar) {
   const std::span<const double> values = scalar.values;
   ScalarMeasures result;
-  result.regions = contents(scene, mesh, space, positions, k, values);
+  result.regions = contents(mass, values);
   for (std::size_t i = 0; i < space.interfaces.size(); ++i) {
     result.interfaces.push_back(exchange(scene, mesh, space, positions, k, values, i));
     if (!scalar.region_loss.empty())

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "meniscus/flow/scalar_solver.hpp"
-#include "meniscus/transport/bulk/scalar_space.hpp"
+#include "meniscus/transport/bulk/transport_matrices.hpp"
 
 namespace meniscus::bulk {
 
@@ -9,7 +9,7 @@ namespace meniscus::bulk {
 /// last step says. Where there was none, it is the mean of the fluxes on its interface's two sides.
 [[nodiscard]] ScalarMeasures scalar_measures(const Scene& scene, const TetMesh& mesh,
                                              const ScalarSpace& space,
-                                             const NodePositions& positions, std::size_t k,
-                                             const BulkScalar& scalar);
+                                             const NodePositions& positions, const MassMatrix& mass,
+                                             std::size_t k, const BulkScalar& scalar);
 
 }  // namespace meniscus::bulk

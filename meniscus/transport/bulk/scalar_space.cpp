@@ -1,10 +1,17 @@
 #include "meniscus/transport/bulk/scalar_space.hpp"
 
+#include <algorithm>
 #include <numeric>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/elements.hpp"
 
 namespace meniscus::bulk {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
 
 ScalarSpace scalar_space(const FlowDomain& domain, fem::Elements elements) {
   const TetMesh& mesh = *domain.mesh;
@@ -16,6 +23,15 @@ ScalarSpace scalar_space(const FlowDomain& domain, fem::Elements elements) {
         fem::face_nodes(space.elements, mesh, domain.scene.interfaces[i].mesh, mesh.interfaces[i]));
   space.boundary = fem::face_nodes(space.elements, mesh, domain.scene.boundary.mesh, mesh.boundary);
   return space;
+}
+
+std::size_t place_of(const fem::NodeGraph& graph, NodeId row, NodeId column) {
+  const auto begin = graph.columns.begin() + graph.row_start[at(row.value)],
+             end = graph.columns.begin() + graph.row_start[at(row.value) + 1];
+  const auto found = std::lower_bound(begin, end, column.value);
+  MENISCUS_ASSERT(found != end && *found == column.value, "no entry {}, {}", row.value,
+                  column.value);
+  return static_cast<std::size_t>(found - graph.columns.begin());
 }
 
 NodePositions halfway(const NodePositions& from, const NodePositions& to) {
@@ -54,9 +70,7 @@ std::vector<double> nominal_volumes(const Scene& scene, double total) {
   return volumes;
 }
 
-std::vector<double> volume_shares(const Scene& scene, const TetMesh& mesh, const ScalarSpace& space,
-                                  const NodePositions& positions) {
-  const std::vector<double> filled = element_volumes(mesh, space, positions);
+std::vector<double> volume_shares(const Scene& scene, std::span<const double> filled) {
   std::vector<double> shares =
       nominal_volumes(scene, std::accumulate(filled.begin(), filled.end(), 0.0));
   for (std::size_t r = 0; r < shares.size(); ++r)

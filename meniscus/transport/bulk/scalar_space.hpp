@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "meniscus/flow/fem/node_graph.hpp"
@@ -22,6 +23,9 @@ struct ScalarSpace {
 };
 [[nodiscard]] ScalarSpace scalar_space(const FlowDomain& domain, fem::Elements elements);
 
+/// Where an entry is in the values of a matrix on a graph; it must be there.
+[[nodiscard]] std::size_t place_of(const fem::NodeGraph& graph, NodeId row, NodeId column);
+
 /// Where the nodes are half way on straight lines.
 [[nodiscard]] NodePositions halfway(const NodePositions& from, const NodePositions& to);
 
@@ -32,9 +36,8 @@ struct ScalarSpace {
 [[nodiscard]] std::vector<double> nominal_volumes(const Scene& scene, double total);
 
 /// The volume that each region is to have over that of its elements, near 1.
-[[nodiscard]] std::vector<double> volume_shares(const Scene& scene, const TetMesh& mesh,
-                                                const ScalarSpace& space,
-                                                const NodePositions& positions);
+[[nodiscard]] std::vector<double> volume_shares(const Scene& scene,
+                                                std::span<const double> element_volumes);
 
 /// The nodes at which a scalar is given, with its value.
 struct GivenValues {

@@ -21,8 +21,8 @@ namespace {
 
 /// The share of a step that each of the two stages is implicit in (alexander1977): 1 − 1/√2.
 constexpr double kStage = 1.0 - 0.5 * std::numbers::sqrt2;
-/// Of the linear systems; what an amount loses by it is put back where no value is given.
-constexpr double kTolerance = 1e-7, kExchangeTolerance = 1e-11;
+/// Of the linear systems; what an amount loses by it is put back.
+constexpr double kTolerance = 1e-6, kExchangeTolerance = 1e-11;
 constexpr int kMostIterations = 500;
 
 double sum(std::span<const double> values) {
@@ -79,15 +79,12 @@ void fix_rows(const ScalarSpace& space, const GivenValues& given, MatrixValues& 
 /// Whether conduction outweighs the masses of most nodes in a stage of this length.
 linear::ScalarSystem kind_of(const ScalarSpace& space, const MassMatrix& mass,
                              const TransportMatrices& matrices, double stage) {
-  const fem::NodeGraph& graph = space.graph;
   double masses = 0.0, rates = 0.0;
-  for (std::size_t i = 0; i < mass.rows.size(); ++i)
-    for (auto e = static_cast<std::size_t>(graph.row_start[i]);
-         e < static_cast<std::size_t>(graph.row_start[i + 1]); ++e)
-      if (graph.columns[e] == static_cast<std::int32_t>(i)) {
-        masses += mass.values[e];
-        rates += stage * std::abs(matrices.rates[e]);
-      }
+  for (const NodeId i : ids<NodeId>(space.num_nodes())) {
+    const std::size_t diagonal = place_of(space.graph, i, i);
+    masses += mass.values[diagonal];
+    rates += stage * std::abs(matrices.rates[diagonal]);
+  }
   constexpr double kOutweighs = 100.0;
   return rates > kOutweighs * masses ? linear::ScalarSystem::conduction
                                      : linear::ScalarSystem::transport;
@@ -105,27 +102,24 @@ class ScalarStep {
         mass0_(motion.mass_at_start),
         mass1_(motion.mass_at_end),
         middle_(halfway(motion.at_start, motion.at_end)),
-        velocity_(relative_velocity(motion.start.scalars[k].is_convected)),
-        matrices_(transport_matrices(motion.mesh, space_, middle_, velocity_, coefficients_, dt_)),
+        matrices_(matrices_of(motion.start.scalars[k].is_convected)),
         given_(given_values(motion.end, k, space_, motion.at_end)),
         exchange_(motion, middle_, k) {
     set_forcing(k);
   }
 
   ScalarAdvance take(BulkScalar& scalar) {
-    const std::vector<double> start = start_amounts();
     const double stage = kStage * dt_, ratio = (1.0 - kStage) / kStage;
-    Stage first{.share = kStage, .right = start, .begin = exchange_.carried(kStage), .T = before_};
-    for (std::size_t i = 0; i < start.size(); ++i) first.right[i] += stage * forcing_[i];
+    start_ = set_system(kStage, 0.0, before_);
+    Stage first{.right = start_, .begin = exchange_.carried(kStage), .T = before_};
+    for (std::size_t i = 0; i < start_.size(); ++i) first.right[i] += stage * forcing_[i];
     if (Report solved = solve(first); !solved.ok()) return {std::move(solved)};
 
     // The first stage says what its rates are: (A first − start)/(kStage Δt).
-    Stage second{.share = 1.0,
-                 .right = mass_times(first.T, kStage),
-                 .begin = exchange_.carried(1.0),
-                 .T = before_};
-    for (std::size_t i = 0; i < start.size(); ++i) {
-      second.right[i] = start[i] + ratio * (second.right[i] - start[i]) + stage * forcing_[i];
+    Stage second{
+        .right = set_system(1.0, kStage, first.T), .begin = exchange_.carried(1.0), .T = before_};
+    for (std::size_t i = 0; i < start_.size(); ++i) {
+      second.right[i] = start_[i] + ratio * (second.right[i] - start_[i]) + stage * forcing_[i];
       // Stages lie on a line to first order.
       second.T[i] += (first.T[i] - before_[i]) / kStage;
     }
@@ -135,17 +129,16 @@ class ScalarStep {
     for (std::vector<double>& values : mean)
       for (double& each : values) each *= 1.0 - kStage;
     add(mean, kStage, second.rates);
-    settle(first.T, second.T, exchange_.loss(mean), scalar);
     ScalarAdvance result;
-    result.error = error_of(first.T, scalar);
     if (!exchange_.empty()) result.uptake = exchange_.uptake(mean);
+    settle(first.T, second.T, exchange_.loss(result.uptake), scalar);
+    result.error = error_of(first.T, scalar);
     return result;
   }
 
  private:
-  /// An implicit stage: its equations at a share of the step, and what solves them.
+  /// The right-hand sides of an implicit stage, whose matrix is the system, and what solves them.
   struct Stage {
-    double share;
     std::vector<double> right;
     ByInterface begin;  ///< Γ
     std::vector<double> T;
@@ -162,14 +155,12 @@ class ScalarStep {
     constexpr int kMostProducts = 20;
     constexpr double kProductTolerance = 1e-12;  // of concentrations, which are about 1
     const double length = kStage * dt_;
-    const MatrixValues values = system_matrix(stage.share);
+    const MatrixValues without = exchange_.is_linear() ? MatrixValues{} : system_;
     ByInterface guess = stage.begin;
     for (int pass = 0; pass < kMostProducts; ++pass) {
       std::vector<double> right = stage.right;
-      if (system_.empty())
-        system_ = values;
-      else
-        std::ranges::copy(values, system_.begin());  // in place: the solver refers to it
+      if (pass > 0)
+        std::ranges::copy(without, system_.begin());  // in place: the solver refers to it
       exchange_.add_to(system_, right, length, stage.begin, guess);
       fix_rows(space_, given_, system_, right);
       if (!solver_) solver_.emplace(view(system_), kind_of(space_, mass1_, matrices_, length));
@@ -192,7 +183,7 @@ class ScalarStep {
     return {Fault{FaultKind::not_converged, "the adsorption of a surfactant was not found"}};
   }
 
-  TransportVelocity relative_velocity(bool is_convected) {
+  [[nodiscard]] TransportMatrices matrices_of(bool is_convected) const {
     Field<NodeId, Vec3> u(space_.num_nodes(), Vec3::Zero());
     const Field<NodeId, Vec3> none = u;
     const Field<NodeId, Vec3>& v = is_convected ? motion_.v : none;
@@ -201,8 +192,7 @@ class ScalarStep {
     std::vector<double> growth(mass0_.rows.size());
     for (std::size_t i = 0; i < growth.size(); ++i)
       growth[i] = (mass1_.rows[i] - mass0_.rows[i]) / dt_;
-    return transport_velocity(motion_.mesh, space_, middle_, std::move(u), v,
-                              coefficients_.capacity, growth);
+    return transport_matrices(motion_.mesh, space_, middle_, {u, v, growth}, coefficients_, dt_);
   }
 
   /// What does not depend on the new values, as rates of amounts. The defect of the velocity takes
@@ -220,7 +210,7 @@ class ScalarStep {
     note_drives(k);
     const double mean = dot(mass0_.rows, before_) / sum(mass0_.rows);
     for (std::size_t i = 0; i < forcing_.size(); ++i)
-      forcing_[i] += sources[i] - mean * velocity_.defect[i];
+      forcing_[i] += sources[i] - mean * matrices_.defect[i];
   }
 
   /// Notes what may lead beyond the range of the values.
@@ -240,46 +230,37 @@ class ScalarStep {
             values};
   }
 
-  /// An entry of M_s + S, M_s the mass matrix after a share s of the step.
-  [[nodiscard]] double mass_at(std::size_t entry, double share) const {
-    return matrices_.streamline[entry] + mass0_.values[entry] +
-           share * (mass1_.values[entry] - mass0_.values[entry]);
-  }
-  /// (M_s + S) x.
-  [[nodiscard]] std::vector<double> mass_times(std::span<const double> x, double share) const {
+  /// Makes M_s + S − kStage Δt L the system, M_s the mass matrix after a share s of the step;
+  /// returns (M_r + S) x at another share r.
+  [[nodiscard]] std::vector<double> set_system(double share, double share_of_x,
+                                               std::span<const double> x) {
     const fem::NodeGraph& graph = space_.graph;
+    system_.resize(matrices_.rates.size());
     std::vector<double> result(x.size());
     for (std::size_t i = 0; i < result.size(); ++i) {
       double total = 0.0;
       for (auto e = static_cast<std::size_t>(graph.row_start[i]);
-           e < static_cast<std::size_t>(graph.row_start[i + 1]); ++e)
-        total += mass_at(e, share) * x[static_cast<std::size_t>(graph.columns[e])];
+           e < static_cast<std::size_t>(graph.row_start[i + 1]); ++e) {
+        const double start = mass0_.values[e] + matrices_.streamline[e],
+                     change = mass1_.values[e] - mass0_.values[e];
+        system_[e] = start + share * change - kStage * dt_ * matrices_.rates[e];
+        total += (start + share_of_x * change) * x[static_cast<std::size_t>(graph.columns[e])];
+      }
       result[i] = total;
     }
     return result;
   }
-  [[nodiscard]] MatrixValues system_matrix(double share) const {
-    MatrixValues values(matrices_.rates.size());
-    for (std::size_t e = 0; e < values.size(); ++e)
-      values[e] = mass_at(e, share) - kStage * dt_ * matrices_.rates[e];
-    return values;
-  }
-  [[nodiscard]] std::vector<double> start_amounts() const { return mass_times(before_, 0.0); }
 
   /// Records the rates, and puts back what the linear solver's residual took of the amount.
   void settle(std::span<const double> first, std::vector<double>& second, double loss,
               BulkScalar& scalar) {
     const double before = dot(mass0_.rows, before_);
     double boundary = flux_rate_;
-    if (!matrices_.boundary.empty())
-      boundary += (1.0 - kStage) * sum(product(space_, matrices_.boundary, first)) +
-                  kStage * sum(product(space_, matrices_.boundary, second));
-    double amount = dot(mass1_.rows, second);
-    if (given_.any) {
-      boundary += reaction(first, second);
-    } else {
-      amount = before + dt_ * (boundary + source_rate_ - loss);
-    }
+    if (!matrices_.inflow.empty())
+      boundary +=
+          (1.0 - kStage) * dot(matrices_.inflow, first) + kStage * dot(matrices_.inflow, second);
+    if (given_.any) boundary += reaction(first, second);
+    const double amount = before + dt_ * (boundary + source_rate_ - loss);
     keep_range(bounds(scalar), amount, mass1_.rows, space_, given_.is_given, second);
     scalar.boundary_rate = boundary;
     scalar.source_rate = source_rate_;
@@ -321,14 +302,19 @@ class ScalarStep {
   /// What comes through the nodes of given values: what their rows leave over.
   [[nodiscard]] double reaction(std::span<const double> first,
                                 std::span<const double> second) const {
-    const std::vector<double> start = start_amounts(), end = mass_times(second, 1.0),
-                              rates1 = product(space_, matrices_.rates, first),
-                              rates2 = product(space_, matrices_.rates, second);
+    const fem::NodeGraph& graph = space_.graph;
     double total = 0.0;
-    for (std::size_t i = 0; i < start.size(); ++i)
-      if (given_.is_given[i] != 0)
-        total += (end[i] - start[i]) / dt_ - (1.0 - kStage) * rates1[i] - kStage * rates2[i] -
-                 forcing_[i];
+    for (std::size_t i = 0; i < start_.size(); ++i) {
+      if (given_.is_given[i] == 0) continue;
+      double end = 0.0, rate = 0.0;
+      for (auto e = static_cast<std::size_t>(graph.row_start[i]);
+           e < static_cast<std::size_t>(graph.row_start[i + 1]); ++e) {
+        const auto j = static_cast<std::size_t>(graph.columns[e]);
+        end += (mass1_.values[e] + matrices_.streamline[e]) * second[j];
+        rate += matrices_.rates[e] * ((1.0 - kStage) * first[j] + kStage * second[j]);
+      }
+      total += (end - start_[i]) / dt_ - rate - forcing_[i];
+    }
     return total;
   }
 
@@ -339,11 +325,11 @@ class ScalarStep {
   std::vector<double> before_;
   const MassMatrix &mass0_, &mass1_;
   NodePositions middle_;
-  TransportVelocity velocity_;
   TransportMatrices matrices_;
   GivenValues given_;
   InterfaceExchange exchange_;
   MatrixValues system_;
+  std::vector<double> start_;                      // (M_0 + S) T at the start
   std::optional<linear::TransportSolver> solver_;  // refers to the system
   std::vector<double> forcing_;
   double flux_rate_ = 0.0, source_rate_ = 0.0;
@@ -358,35 +344,13 @@ std::vector<double> capacities(const Scene& scene, std::size_t k) {
   return result;
 }
 
-std::vector<double> inner_amounts(const Scene& scene, const TetMesh& mesh, const ScalarSpace& space,
-                                  const NodePositions& positions, std::size_t k,
-                                  std::span<const double> values) {
-  const std::vector<double> shares = volume_shares(scene, mesh, space, positions);
-  std::vector<double> amounts(shares.size(), 0.0);
-  with_kernel(space, positions, [&](auto& cell) {
-    for (const CellId c : mesh.cells.ids()) {
-      const auto region = static_cast<std::size_t>(mesh.region[c].value);
-      if (region == 0) continue;
-      cell.go_to(c);
-      const auto here = cell.at_points(values);
-      for (std::size_t q = 0; q < here.size(); ++q) amounts[region] += cell.weights()[q] * here[q];
-    }
-  });
-  const std::vector<double> capacity = capacities(scene, k);
-  for (std::size_t r = 1; r < amounts.size(); ++r) amounts[r] *= capacity[r] * shares[r];
-  return amounts;
-}
-
 ScalarAdvance convect(const ScalarMotion& motion, std::size_t k, BulkScalar& scalar) {
   MENISCUS_ASSERT(static_cast<std::int32_t>(scalar.values.size()) == motion.space.num_nodes(),
                   "{} values at {} nodes", scalar.values.size(), motion.space.num_nodes());
-  const auto held = [&](const Scene& scene, const NodePositions& positions) {
-    return inner_amounts(scene, motion.mesh, motion.space, positions, k, scalar.values);
-  };
-  const std::vector<double> before = held(motion.start, motion.at_start);
+  const std::vector<double> before = region_amounts(motion.mass_at_start, scalar.values);
   ScalarAdvance report = ScalarStep(motion, k, scalar).take(scalar);
   if (!report.ok()) return report;
-  const std::vector<double> after = held(motion.end, motion.at_end);
+  const std::vector<double> after = region_amounts(motion.mass_at_end, scalar.values);
   scalar.region_loss.resize(after.size());
   const Scalar& kind = motion.end.scalars[k];
   std::vector<double> heating(after.size(), 0.0);

@@ -43,12 +43,6 @@ ScalarAdvance convect(const ScalarMotion& motion, std::size_t k, BulkScalar& sca
 Report conduct(const Scene& scene, const TetMesh& mesh, const ScalarSpace& space,
                const NodePositions& positions, std::size_t k, std::span<const double> heat,
                BulkScalar& scalar);
-/// ∫γT dV of every region [R0³]; the matrix's is not asked for, and 0.
-[[nodiscard]] std::vector<double> inner_amounts(const Scene& scene, const TetMesh& mesh,
-                                                const ScalarSpace& space,
-                                                const NodePositions& positions, std::size_t k,
-                                                std::span<const double> values);
-
 /// γ of scalar k by region.
 [[nodiscard]] std::vector<double> capacities(const Scene& scene, std::size_t k);
 

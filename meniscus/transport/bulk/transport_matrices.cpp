@@ -16,11 +16,6 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 std::size_t region_of(const TetMesh& mesh, CellId c) { return at(mesh.region[c].value); }
 
 template <std::size_t Size>
-std::array<double, Size> scaled(std::array<double, Size> element, double factor) {
-  for (double& each : element) each *= factor;
-  return element;
-}
-template <std::size_t Size>
 void add(std::array<double, Size>& total, double factor, const std::array<double, Size>& part) {
   for (std::size_t e = 0; e < Size; ++e) total[e] += factor * part[e];
 }
@@ -29,73 +24,83 @@ double sum(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// ∮γ v·n φ_i dS by node, and the same with 1 for v·n.
-struct BoundaryFlow {
-  std::vector<double> flux, area;
-};
+double normal_flow(std::span<const NodeId> nodes, const fem::FacePoint& point,
+                   const Field<NodeId, Vec3>& v) {
+  Vec3 here = Vec3::Zero();
+  for (std::size_t i = 0; i < nodes.size(); ++i) here += point.value[i] * v[nodes[i]];
+  return here.dot(point.area);
+}
 
-template <class Action>
-void at_boundary_points(const ScalarSpace& space, const NodePositions& positions, Action action) {
+/// −∮γφ_j v·n dS by node; v·n is shifted so that the boundary has no net flux. Adds −∮γφ_iφ_j v·n
+/// dS to the rates. Empty where nothing crosses the boundary.
+std::vector<double> add_inflow(const ScalarSpace& space, const NodePositions& positions,
+                               const Field<NodeId, Vec3>& v, double capacity, MatrixValues& rates) {
+  const auto count = at(space.num_nodes());
+  std::vector<double> flux(count, 0.0), area(count, 0.0);
   for (const FaceId f : space.boundary.faces()) {
     const auto nodes = space.boundary.of(f);
-    for (const fem::FacePoint& point : fem::face_points(positions.x, nodes)) action(nodes, point);
+    for (const fem::FacePoint& point : fem::face_points(positions.x, nodes)) {
+      const double through = normal_flow(nodes, point, v), here = point.area.norm();
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        flux[at(nodes[i].value)] += capacity * point.value[i] * through;
+        area[at(nodes[i].value)] += capacity * point.value[i] * here;
+      }
+    }
   }
-}
-
-BoundaryFlow boundary_flow(const ScalarSpace& space, const NodePositions& positions,
-                           const Field<NodeId, Vec3>& v, double capacity) {
-  const auto count = at(space.num_nodes());
-  BoundaryFlow flow{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
-  at_boundary_points(space, positions, [&](auto nodes, const fem::FacePoint& point) {
-    Vec3 here = Vec3::Zero();
-    for (std::size_t i = 0; i < nodes.size(); ++i) here += point.value[i] * v[nodes[i]];
-    const double through = here.dot(point.area), area = point.area.norm();
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      flow.flux[at(nodes[i].value)] += capacity * point.value[i] * through;
-      flow.area[at(nodes[i].value)] += capacity * point.value[i] * area;
+  const double whole = sum(area);
+  const double largest =
+      std::abs(*std::ranges::max_element(flux, {}, [](double each) { return std::abs(each); }));
+  if (!(largest > 1e-13 * whole)) return {};
+  const double shift = -sum(flux) / whole;
+  for (std::size_t i = 0; i < count; ++i) flux[i] = -(flux[i] + shift * area[i]);
+  for (const FaceId f : space.boundary.faces()) {
+    const auto nodes = space.boundary.of(f);
+    Eigen::MatrixXd element = Eigen::MatrixXd::Zero(std::ssize(nodes), std::ssize(nodes));
+    for (const fem::FacePoint& point : fem::face_points(positions.x, nodes)) {
+      const Eigen::Map<const Eigen::VectorXd> value(point.value.data(), element.rows());
+      element += capacity * (normal_flow(nodes, point, v) + shift * point.area.norm()) * value *
+                 value.transpose();
     }
-  });
-  return flow;
+    for (Eigen::Index i = 0; i < element.rows(); ++i)
+      for (Eigen::Index j = 0; j < element.cols(); ++j)
+        rates[place_of(space.graph, nodes[static_cast<std::size_t>(i)],
+                       nodes[static_cast<std::size_t>(j)])] -= element(i, j);
+  }
+  return flux;
 }
 
-/// ∫γ u·∇φ_i, and ∫γ ∇φ_i·∇φ_j.
-struct WeakDivergence {
-  std::vector<double> of_velocity;
-  MatrixValues of_potential;
-};
-WeakDivergence weak_divergence(const TetMesh& mesh, const ScalarSpace& space,
-                               const NodePositions& positions, const Field<NodeId, Vec3>& u,
-                               std::span<const double> capacity) {
-  WeakDivergence result{std::vector<double>(at(space.num_nodes()), 0.0),
-                        MatrixValues(space.graph.num_entries(), 0.0)};
-  with_kernel(space, positions, [&](auto& cell) {
-    for (const CellId c : mesh.cells.ids()) {
-      cell.go_to(c);
-      const double weight = capacity[region_of(mesh, c)];
-      const auto part = cell.integral(cell.along(cell.at_points(u)));
-      for (std::size_t i = 0; i < part.size(); ++i)
-        result.of_velocity[at(cell.nodes()[i])] += weight * part[i];
-      add_to(space, c, scaled(cell.stiffness(), weight), result.of_potential);
-    }
-  });
-  return result;
-}
-
-/// ψ with Kψ near −d; returns what of d is left.
+/// ψ with Kψ near −d.
 std::vector<double> solve_potential(const ScalarSpace& space, const MatrixValues& stiffness,
-                                    std::vector<double> defect, std::vector<double>& potential) {
+                                    std::span<const double> defect) {
   // What is left multiplies the difference from a mean alone, so that it need not be small.
   constexpr double kTolerance = 0.3;
   constexpr int kMostIterations = 10;
   const linear::TransportSolver solver(
       {space.num_nodes(), space.num_nodes(), space.graph.row_start, space.graph.columns, stiffness},
       linear::ScalarSystem::potential);
-  for (double& each : defect) each = -each;
-  potential.assign(defect.size(), 0.0);
-  (void)solver.solve(defect, potential, kTolerance, kMostIterations);
-  const std::vector<double> reached = product(space, stiffness, potential);
-  for (std::size_t i = 0; i < defect.size(); ++i) defect[i] = reached[i] - defect[i];
-  return defect;
+  std::vector<double> right(defect.begin(), defect.end()), potential(defect.size(), 0.0);
+  for (double& each : right) each = -each;
+  (void)solver.solve(right, potential, kTolerance, kMostIterations);
+  return potential;
+}
+
+/// Adds what a potential convects to the rates, and its rows' sums to the defect.
+void add_potential_flow(const ScalarSpace& space, const MatrixValues& stiffness,
+                        std::span<const double> potential, MatrixValues& rates,
+                        std::vector<double>& defect) {
+  const fem::NodeGraph& graph = space.graph;
+  for (std::size_t i = 0; i < defect.size(); ++i) {
+    double half = 0.0;
+    for (auto e = at(graph.row_start[i]); e < at(graph.row_start[i + 1]); ++e) {
+      // Zero at the diagonal.
+      const double flow = 0.5 * stiffness[e] * (potential[at(graph.columns[e])] - potential[i]);
+      rates[e] += flow;
+      half += flow;
+    }
+    const NodeId node{static_cast<std::int32_t>(i)};
+    rates[place_of(graph, node, node)] += half;
+    defect[i] += 2.0 * half;
+  }
 }
 
 /// How far the stabilisation looks upstream [1/G]. It is half a cell where convection outweighs
@@ -107,26 +112,59 @@ double upstream_time(double speed, double size, double diffusivity, double durat
   return (1.0 - 1.0 / peclet) / std::hypot(convection, step);
 }
 
-MatrixValues boundary_matrix(const ScalarSpace& space, const NodePositions& positions,
-                             const TransportVelocity& velocity, double capacity) {
-  MatrixValues values(space.graph.num_entries(), 0.0);
-  const auto entry = [&](std::int32_t row, std::int32_t column) -> double& {
-    const auto begin = space.graph.columns.begin() + space.graph.row_start[at(row)],
-               end = space.graph.columns.begin() + space.graph.row_start[at(row) + 1];
-    const auto found = std::lower_bound(begin, end, column);
-    MENISCUS_ASSERT(found != end && *found == column, "no entry {}, {}", row, column);
-    return values[static_cast<std::size_t>(found - space.graph.columns.begin())];
-  };
-  at_boundary_points(space, positions, [&](auto nodes, const fem::FacePoint& point) {
-    double through = velocity.normal_correction * point.area.norm();
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      through += point.value[i] * (velocity.u[nodes[i]]).dot(point.area);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      for (std::size_t j = 0; j < nodes.size(); ++j)
-        entry(nodes[i].value, nodes[j].value) -=
-            capacity * point.value[i] * point.value[j] * through;
+/// What the cells give: the operators without potential and boundary, ∫γu·∇φ_i as the defect, and
+/// ∫γ∇φ_i·∇φ_j.
+struct CellSums {
+  TransportMatrices matrices;
+  MatrixValues stiffness;
+};
+CellSums cell_sums(const TetMesh& mesh, const ScalarSpace& space, const NodePositions& positions,
+                   const Field<NodeId, Vec3>& velocity, const Coefficients& coefficients,
+                   double duration) {
+  const std::size_t entries = space.graph.num_entries(), nodes = at(space.num_nodes());
+  CellSums sums{{.rates = MatrixValues(entries, 0.0),
+                 .inflow = {},
+                 .streamline = MatrixValues(entries, 0.0),
+                 .sources = std::vector<double>(nodes, 0.0),
+                 .defect = std::vector<double>(nodes, 0.0)},
+                MatrixValues(entries, 0.0)};
+  with_kernel(space, positions, [&](auto& cell) {
+    for (const CellId c : mesh.cells.ids()) {
+      cell.go_to(c);
+      const double capacity = coefficients.capacity[region_of(mesh, c)],
+                   conductivity = coefficients.conductivity[region_of(mesh, c)],
+                   source = coefficients.source[region_of(mesh, c)];
+      const auto u = cell.at_points(velocity);
+      double squared = 0.0;
+      for (std::size_t q = 0; q < u.size(); ++q) squared += cell.weights()[q] * u[q].squaredNorm();
+      const auto along = cell.along(u);
+      const auto upstream = cell.integral(along);
+      const double tau = upstream_time(std::sqrt(squared / cell.volume()), cell.size(),
+                                       conductivity / capacity, duration);
+      auto stiffness = cell.stiffness();
+      auto rates = cell.product(along, cell.values());
+      if (tau > 0.0) add_to(space, c, rates, tau * capacity, sums.matrices.streamline);
+      for (std::size_t e = 0; e < rates.size(); ++e)
+        rates[e] = capacity * rates[e] - conductivity * stiffness[e];
+      if (tau > 0.0) {
+        const auto laplacians = cell.laplacians();
+        add(rates, -tau * capacity, cell.product(along, along));
+        for (std::size_t a = 0; a < upstream.size(); ++a)
+          for (std::size_t b = 0; b < upstream.size(); ++b)
+            rates[a * upstream.size() + b] += tau * conductivity * upstream[a] * laplacians[b];
+      }
+      add_to(space, c, rates, 1.0, sums.matrices.rates);
+      add_to(space, c, stiffness, capacity, sums.stiffness);
+      for (std::size_t a = 0; a < upstream.size(); ++a)
+        sums.matrices.defect[at(cell.nodes()[a])] += capacity * upstream[a];
+      if (source == 0.0) continue;
+      auto given = cell.integral(cell.values());
+      add(given, tau, upstream);
+      for (std::size_t a = 0; a < given.size(); ++a)
+        sums.matrices.sources[at(cell.nodes()[a])] += source * given[a];
+    }
   });
-  return values;
+  return sums;
 }
 
 }  // namespace
@@ -146,21 +184,41 @@ std::vector<double> product(const ScalarSpace& space, const MatrixValues& values
 
 MassMatrix mass_matrix(const Scene& scene, const TetMesh& mesh, const ScalarSpace& space,
                        const NodePositions& positions, std::span<const double> capacity) {
-  std::vector<double> density = volume_shares(scene, mesh, space, positions);
-  for (std::size_t r = 0; r < density.size(); ++r) density[r] *= capacity[r];
+  std::vector<double> volumes = element_volumes(mesh, space, positions),
+                      density = volume_shares(scene, volumes);
+  for (std::size_t r = 0; r < density.size(); ++r) {
+    volumes[r] *= density[r];
+    density[r] *= capacity[r];
+  }
   MassMatrix mass{MatrixValues(space.graph.num_entries(), 0.0),
-                  std::vector<double>(at(space.num_nodes()), 0.0)};
+                  std::vector<double>(at(space.num_nodes()), 0.0),
+                  {},
+                  std::move(volumes)};
   with_kernel(space, positions, [&](auto& cell) {
     for (const CellId c : mesh.cells.ids()) {
-      cell.go_to(c);
-      const auto element = scaled(cell.mass(), density[region_of(mesh, c)]);
-      add_to(space, c, element, mass.values);
+      cell.go_to(c, false);
+      const std::size_t region = region_of(mesh, c);
+      const auto element = cell.mass();
+      add_to(space, c, element, density[region], mass.values);
       const std::size_t count = cell.nodes().size();
-      for (std::size_t i = 0; i < count; ++i)
-        mass.rows[at(cell.nodes()[i])] += sum(std::span(element).subspan(i * count, count));
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::int32_t node = cell.nodes()[i];
+        const double part = density[region] * sum(std::span(element).subspan(i * count, count));
+        mass.rows[at(node)] += part;
+        if (region > 0) mass.of_drops.push_back({static_cast<std::int32_t>(region), node, part});
+      }
     }
   });
   return mass;
+}
+
+std::vector<double> region_amounts(const MassMatrix& mass, std::span<const double> values) {
+  std::vector<double> amounts(mass.volumes.size(), 0.0);
+  for (const MassMatrix::Part& part : mass.of_drops)
+    amounts[at(part.region)] += part.value * values[at(part.node)];
+  const double drops = sum(amounts);
+  amounts[0] = std::inner_product(mass.rows.begin(), mass.rows.end(), values.begin(), -drops);
+  return amounts;
 }
 
 MatrixValues stiffness_matrix(const TetMesh& mesh, const ScalarSpace& space,
@@ -170,87 +228,28 @@ MatrixValues stiffness_matrix(const TetMesh& mesh, const ScalarSpace& space,
   with_kernel(space, positions, [&](auto& cell) {
     for (const CellId c : mesh.cells.ids()) {
       cell.go_to(c);
-      add_to(space, c, scaled(cell.stiffness(), conductivity[region_of(mesh, c)]), values);
+      add_to(space, c, cell.stiffness(), conductivity[region_of(mesh, c)], values);
     }
   });
   return values;
 }
 
-TransportVelocity transport_velocity(const TetMesh& mesh, const ScalarSpace& space,
-                                     const NodePositions& positions, Field<NodeId, Vec3> u,
-                                     const Field<NodeId, Vec3>& v, std::span<const double> capacity,
-                                     std::span<const double> growth) {
-  TransportVelocity result;
-  result.u = std::move(u);
-  BoundaryFlow through = boundary_flow(space, positions, v, capacity[0]);
-  const double net = sum(through.flux), area = sum(through.area);
-  const double largest = std::abs(
-      *std::ranges::max_element(through.flux, {}, [](double each) { return std::abs(each); }));
-  result.crosses_boundary = largest > 1e-13 * area;
-  if (result.crosses_boundary) result.normal_correction = -net / area;
-  WeakDivergence divergence = weak_divergence(mesh, space, positions, result.u, capacity);
-  std::vector<double> defect = std::move(divergence.of_velocity);
+TransportMatrices transport_matrices(const TetMesh& mesh, const ScalarSpace& space,
+                                     const NodePositions& positions, const RelativeFlow& flow,
+                                     const Coefficients& coefficients, double duration) {
+  auto [matrices, stiffness] = cell_sums(mesh, space, positions, flow.u, coefficients, duration);
+  matrices.inflow = add_inflow(space, positions, flow.v, coefficients.capacity[0], matrices.rates);
+  std::vector<double>& defect = matrices.defect;
   for (std::size_t i = 0; i < defect.size(); ++i) {
-    defect[i] -= growth[i];
-    if (result.crosses_boundary)
-      defect[i] -= through.flux[i] + result.normal_correction * through.area[i];
+    defect[i] -= flow.growth[i];
+    if (!matrices.inflow.empty()) defect[i] += matrices.inflow[i];
   }
   // The sum is that of what boundaries and volumes lose to round-off.
   const double rest = sum(defect) / static_cast<double>(defect.size());
   for (double& each : defect) each -= rest;
-  result.defect =
-      solve_potential(space, divergence.of_potential, std::move(defect), result.potential);
-  return result;
-}
-
-TransportMatrices transport_matrices(const TetMesh& mesh, const ScalarSpace& space,
-                                     const NodePositions& positions,
-                                     const TransportVelocity& velocity,
-                                     const Coefficients& coefficients, double duration) {
-  TransportMatrices matrices{MatrixValues(space.graph.num_entries(), 0.0),
-                             {},
-                             MatrixValues(space.graph.num_entries(), 0.0),
-                             std::vector<double>(at(space.num_nodes()), 0.0)};
-  with_kernel(space, positions, [&](auto& cell) {
-    for (const CellId c : mesh.cells.ids()) {
-      cell.go_to(c);
-      const double capacity = coefficients.capacity[region_of(mesh, c)],
-                   conductivity = coefficients.conductivity[region_of(mesh, c)];
-      auto u = cell.at_points(velocity.u);
-      const auto correction = cell.gradients_of(velocity.potential);
-      double squared = 0.0;
-      for (std::size_t q = 0; q < u.size(); ++q)
-        squared += cell.weights()[q] * (u[q] += correction[q]).squaredNorm();
-      const auto along = cell.along(u);
-      const auto convection = scaled(cell.product(along, cell.values()), capacity);
-      const double tau = upstream_time(std::sqrt(squared / cell.volume()), cell.size(),
-                                       conductivity / capacity, duration);
-      auto rates = convection;
-      add(rates, -conductivity, cell.stiffness());
-      const double source = coefficients.source[region_of(mesh, c)];
-      auto given = scaled(cell.integral(cell.values()), source);
-      if (tau > 0.0) {
-        const auto upstream = cell.integral(along);
-        const auto laplacians = cell.laplacians();
-        add(rates, -tau * capacity, cell.product(along, along));
-        for (std::size_t a = 0; a < upstream.size(); ++a)
-          for (std::size_t b = 0; b < upstream.size(); ++b)
-            rates[a * upstream.size() + b] += tau * conductivity * upstream[a] * laplacians[b];
-        add_to(space, c, scaled(convection, tau), matrices.streamline);
-        add(given, tau * source, upstream);
-      }
-      if (source != 0.0)
-        for (std::size_t a = 0; a < given.size(); ++a)
-          matrices.sources[at(cell.nodes()[a])] += given[a];
-      add_to(space, c, rates, matrices.rates);
-    }
-  });
-  if (velocity.crosses_boundary) {
-    matrices.boundary = boundary_matrix(space, positions, velocity, coefficients.capacity[0]);
-    for (std::size_t k = 0; k < matrices.rates.size(); ++k)
-      matrices.rates[k] += matrices.boundary[k];
-  }
-  return matrices;
+  const std::vector<double> potential = solve_potential(space, stiffness, defect);
+  add_potential_flow(space, stiffness, potential, matrices.rates, defect);
+  return std::move(matrices);
 }
 
 }  // namespace meniscus::bulk

@@ -21,48 +21,52 @@ struct Coefficients {
 struct MassMatrix {
   MatrixValues values;
   std::vector<double> rows;  ///< ∫ s γ φ_i: the amount of a field is the sum of rows times values
+  /// What one cell of a drop adds to a row.
+  struct Part {
+    std::int32_t region = 0, node = 0;
+    double value = 0.0;
+  };
+  std::vector<Part> of_drops;
+  std::vector<double> volumes;  ///< ∫ s of every region [R0³]
 };
 [[nodiscard]] MassMatrix mass_matrix(const Scene& scene, const TetMesh& mesh,
                                      const ScalarSpace& space, const NodePositions& positions,
                                      std::span<const double> capacity);
+/// ∫γT dV of every region [R0³].
+[[nodiscard]] std::vector<double> region_amounts(const MassMatrix& mass,
+                                                 std::span<const double> values);
 
 /// ∫ k ∇φ_i·∇φ_j, k by region.
 [[nodiscard]] MatrixValues stiffness_matrix(const TetMesh& mesh, const ScalarSpace& space,
                                             const NodePositions& positions,
                                             std::span<const double> conductivity);
 
-/// The liquid's velocity relative to a moving mesh, u + ∇ψ, ψ in the scalars' space. With it the
-/// weak divergence of γ u is that of the mesh's own volumes, but for `defect`:
-///   ∫γ(u + ∇ψ)·∇φ_i − ∮γ φ_i v·n dS = (m1_i − m0_i)/Δt + defect_i,
-/// m the rows of the mass matrices before and after the motion. The defects sum to zero.
-struct TransportVelocity {
-  Field<NodeId, Vec3> u;           ///< [G R0]
-  std::vector<double> potential;   ///< ψ [G R0²]
-  std::vector<double> defect;      ///< [G R0³]
-  double normal_correction = 0.0;  ///< added to v·n, so that the boundary has no net flux
-  bool crosses_boundary = false;
+/// How the liquid moves relative to the mesh.
+struct RelativeFlow {
+  const Field<NodeId, Vec3>& u;  ///< the liquid's velocity less the mesh's [G R0]
+  const Field<NodeId, Vec3>& v;  ///< the liquid's
+  /// By how much the rows of the mass matrix grow per time, (m1 − m0)/Δt.
+  std::span<const double> growth;
 };
-/// `u` is the liquid's velocity less the mesh's at positions half way; `v` the liquid's.
-[[nodiscard]] TransportVelocity transport_velocity(const TetMesh& mesh, const ScalarSpace& space,
-                                                   const NodePositions& positions,
-                                                   Field<NodeId, Vec3> u,
-                                                   const Field<NodeId, Vec3>& v,
-                                                   std::span<const double> capacity,
-                                                   std::span<const double> growth);
 
-/// The operators of one step.
+/// The operators of one step, on positions half way. The discrete u has another divergence than the
+/// mesh's volumes say; a potential ψ in the scalars' space corrects that. Its part of the
+/// convection ∫γφ_j(u + ∇ψ)·∇φ_i is taken by differences, K_ij(ψ_j − ψ_i)/2 for i ≠ j with K =
+/// ∫γ∇φ_i·∇φ_j and the sum of these for i = j, so that columns add up to zero.
 struct TransportMatrices {
   /// L: ∫γφ_j(u + ∇ψ)·∇φ_i − ∫(k/Pe)∇φ_j·∇φ_i − ∮γφ_iφ_j v·n dS, and the stabilisation's part,
-  /// whose columns sum to zero.
+  /// whose columns sum to zero. The rows of a constant sum to (m1_i − m0_i)/Δt + defect_i.
   MatrixValues rates;
-  MatrixValues boundary;  ///< −∮γφ_iφ_j v·n dS alone; empty where nothing crosses
-  /// ∫τγ(u + ∇ψ)·∇φ_i φ_j: what the stabilisation adds to the mass matrix.
+  /// −∮γφ_j v·n dS: the rate of the amount by what crosses the boundary; empty where nothing does.
+  std::vector<double> inflow;
+  /// ∫τγu·∇φ_i φ_j: what the stabilisation adds to the mass matrix.
   MatrixValues streamline;
   std::vector<double> sources;  ///< ∫q φ_i, and the stabilisation's part, whose sum is zero
+  std::vector<double> defect;   ///< what the potential leaves [G R0³]; its sum is zero
 };
 [[nodiscard]] TransportMatrices transport_matrices(const TetMesh& mesh, const ScalarSpace& space,
                                                    const NodePositions& positions,
-                                                   const TransportVelocity& velocity,
+                                                   const RelativeFlow& flow,
                                                    const Coefficients& coefficients,
                                                    double duration);
 

@@ -98,5 +98,29 @@ TEST_P(EveryElement, KeepsTotalsOnAMovingMesh) {
   EXPECT_NEAR(RandomStep::total(step.after, scalars), before, 1e-12 * before);
 }
 
+// A sink takes more than there is; of heat that is allowed.
+TEST(BulkSpecies, RefuseAStepBelowZero) {
+  const auto step = [](bool is_species, double dt) {
+    ScalarScene::Options options;
+    options.spheres.num_vertices = 60;
+    options.spheres.outer_radius = 3.0;
+    options.scalar.is_species = is_species;
+    options.matrix.initial.value = options.drop.initial.value = 1.0;
+    options.drop.source = -20.0;
+    const ScalarScene drop(options);
+    BulkScalars scalars;
+    EXPECT_TRUE(drop.solver->initial(drop.domain(), scalars).ok());
+    return Report(
+        drop.solver->advance({drop.domain(), drop.domain(), dt, FlowSolution()}, scalars));
+  };
+  EXPECT_TRUE(step(true, 0.01).ok());
+  EXPECT_TRUE(step(false, 0.2).ok());
+  const Report refused = step(true, 0.2);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.text().find("must be at least 0"), std::string::npos) << refused.text();
+  ASSERT_TRUE(refused.fault->position);
+  EXPECT_LT(refused.fault->position->norm(), 1.5);
+}
+
 }  // namespace
 }  // namespace meniscus::bulk
