@@ -183,10 +183,11 @@ double deformation_at(double t, Evolution evolution) {
 TEST(InertialDrop, ThinsInShearAsInStokesFlowWhereInertiaIsSmall) {
   const auto deformation = [](const std::string& more) {
     return deformation_at(
-        1.0, evolution_of("[flow]\nkind = \"simple-shear\"\ncapillary-number = 0.3\n" + more +
-                          "[domain]\nhalf-width = 4\nnodes = 150\n[time]\nend = 1\ntolerance = 0.003\n"
-                          "[[drop]]\nradius = 1\nnodes = 60\nviscosity-law = \"carreau-yasuda\"\n"
-                          "power-index = 0.4\ntime-constant = 2\nviscosity-ratio = 3\n"));
+        1.0,
+        evolution_of("[flow]\nkind = \"simple-shear\"\ncapillary-number = 0.3\n" + more +
+                     "[domain]\nhalf-width = 4\nnodes = 150\n[time]\nend = 1\ntolerance = 0.003\n"
+                     "[[drop]]\nradius = 1\nnodes = 60\nviscosity-law = \"carreau-yasuda\"\n"
+                     "power-index = 0.4\ntime-constant = 2\nviscosity-ratio = 3\n"));
   };
   EXPECT_NEAR(deformation("reynolds-number = 0.001\n") / deformation(""), 1.0, 0.003);
 }
