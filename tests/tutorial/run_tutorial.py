@@ -11,7 +11,7 @@ in the last of several digits quoted. A comment before a block of commands chang
     <!-- test: run --set time.end=1 -->   every `meniscus run` of the block gets these options; its quotation is held to its
                                           words, not to its numbers
 
-Pictures of a page must be in their place, and smaller than 60 kB.
+Pictures of a page must be in their place, and smaller than 100 kB.
 """
 import argparse
 import os
