@@ -27,7 +27,7 @@ inline constexpr double kDampedShare = 1.0 - 0.5 * std::numbers::sqrt2;
 inline constexpr double kUndampedShare = 0.5;
 /// [1/R²] What damping adds to −Δ_s, which has 6 in the slowest mode of a sphere of radius R. With
 /// 1 slow motions would be less late, but a sheared drop in steps as long as slip allows turns away
-/// from its angle (boundary integrals, Ca = 0.2, 110 vertices: by 1.3° in 17 steps).
+/// from its angle (boundary integrals, Ca = 0.2, 110 vertices: by 1.3° in 21 steps).
 inline constexpr double kSphereStiffness = 6.0;
 /// How much more waves on flat faces are damped. Where the drop is viscous, linear elements let the
 /// shortest decay up to a fifth faster than the exact flow does. With 1.1 a deformed drop of a
