@@ -77,4 +77,14 @@ void visit_near_points(const InterfaceElements::Face& face, const Vec3& x, const
   detail::visit_part(face, {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}, 0, x, visit);
 }
 
+/// For x the vertex `corner` of the face, or off the face where `corner` is 3.
+template <class Visit>
+void visit_points(const InterfaceElements::Face& face, std::size_t corner, const Vec3& x,
+                  const Visit& visit) {
+  if (corner < 3)
+    visit_corner_points(face, corner, visit);
+  else
+    visit_near_points(face, x, visit);
+}
+
 }  // namespace meniscus::bem

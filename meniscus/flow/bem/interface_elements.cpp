@@ -97,6 +97,15 @@ InterfaceElements make_elements(const SurfaceMesh& mesh) {
   return result;
 }
 
+NodeValues node_values(const Face& face, const VertexField<double>& at_vertices) {
+  NodeValues values{};
+  for (std::size_t a = 0; a < values.size(); ++a)
+    for (std::size_t c = 0; c < face.columns.size(); ++c)
+      values[a] += face.to_nodes(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(c)) *
+                   at_vertices[face.columns[c]];
+  return values;
+}
+
 std::vector<double> value_weights(const Face& face, const Vec3& b) {
   const std::array<double, kQuadraticNodes> values = quadratic_values({b[0], b[1], b[2]});
   const Eigen::VectorXd weights =

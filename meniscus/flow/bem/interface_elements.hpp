@@ -37,6 +37,12 @@ struct InterfaceElements {
 /// O(N): about 20 µs per vertex.
 [[nodiscard]] InterfaceElements make_elements(const SurfaceMesh& mesh);
 
+/// A function's values at the six nodes of a face.
+using NodeValues = std::array<double, kQuadraticNodes>;
+/// Those of a function with these values at the vertices.
+[[nodiscard]] NodeValues node_values(const InterfaceElements::Face& face,
+                                     const VertexField<double>& at_vertices);
+
 /// Weights of the vertices columns[c] in the value at barycentric b of a face.
 [[nodiscard]] std::vector<double> value_weights(const InterfaceElements::Face& face, const Vec3& b);
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/core/vector_clones.hpp"
 
 // The sums are reassociated (omp simd), in an order that only the width of the vectors decides.
@@ -100,7 +101,15 @@ void SourcePoints::add(const Vec3& at, const Vec3& weighted_normal) {
 }
 
 Vec3 single_layer_sum(const SourcePoints& points, const std::vector<double>& q, const Vec3& p) {
-  const Sum3 sum = single_layer(arrays(points, 0), q.data(), q.size(), {p.x(), p.y(), p.z()});
+  return single_layer_sum(points, {.begin = 0, .end = points.size()}, q, p);
+}
+
+Vec3 single_layer_sum(const SourcePoints& points, SourceRange range, const std::vector<double>& q,
+                      const Vec3& p) {
+  MENISCUS_ASSERT(q.size() == static_cast<std::size_t>(range.end - range.begin),
+                  "{} densities of {} points", q.size(), range.end - range.begin);
+  const Sum3 sum = single_layer(arrays(points, static_cast<std::size_t>(range.begin)), q.data(),
+                                q.size(), {p.x(), p.y(), p.z()});
   return {sum.x, sum.y, sum.z};
 }
 

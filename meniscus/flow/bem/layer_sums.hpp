@@ -58,6 +58,9 @@ using Symmetric = std::array<double, 6>;
 /// itself counts nothing. About 30 flops a pair; compiled for several widths of vectors.
 [[nodiscard]] Vec3 single_layer_sum(const SourcePoints& points, const std::vector<double>& q,
                                     const Vec3& p);
+/// The same over a range of the points, with a q for each of the range.
+[[nodiscard]] Vec3 single_layer_sum(const SourcePoints& points, SourceRange range,
+                                    const std::vector<double>& q, const Vec3& p);
 /// Σ_j r (r·u_j)(r·a_j)/r⁵: the double layer of u, times −4π/6 when the kernel is −6 rrr/r⁵.
 [[nodiscard]] Vec3 double_layer_sum(const SourcePoints& points, const SourceVectors& u,
                                     const Vec3& p);

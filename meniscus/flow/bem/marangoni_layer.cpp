@@ -10,17 +10,6 @@ namespace meniscus::bem {
 namespace {
 
 using Face = InterfaceElements::Face;
-using NodeValues = std::array<double, kQuadraticNodes>;
-
-/// σ at the nodes of a face, from its values at the vertices.
-NodeValues node_tension(const VertexField<double>& at_vertices, const Face& face) {
-  NodeValues tension{};
-  for (std::size_t a = 0; a < tension.size(); ++a)
-    for (std::size_t c = 0; c < face.columns.size(); ++c)
-      tension[a] += face.to_nodes(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(c)) *
-                    at_vertices[face.columns[c]];
-  return tension;
-}
 
 /// ∇_s σ at a point of a face.
 Vec3 tension_gradient(const Face& face, const NodeValues& tension, const std::array<double, 3>& b) {
@@ -58,7 +47,7 @@ MarangoniLayer::MarangoniLayer(const Scene& scene, const BoundaryGeometry& geome
     if (!scene.interfaces[m].surfactant) continue;
     const VertexField<double> tension = vertex_tension(scene.interfaces[m]);
     for (const Face& face : geometry.surfaces[m].elements.faces) {
-      FaceLoad load{.tension = node_tension(tension, face), .forces = {}};
+      FaceLoad load{.tension = node_values(face, tension), .forces = {}};
       load.forces = column_forces(face, load.tension);
       for (std::size_t c = 0; c < face.columns.size(); ++c) {
         const std::int32_t j = geometry.index(m, face.columns[c]);
@@ -90,16 +79,12 @@ Vec3 MarangoniLayer::near_part(std::size_t m, FaceId f, std::int32_t i) const {
   const Vec3 x = geometry_.points.point(i);
   Vec3 sum = Vec3::Zero();
   const auto add = [&](const std::array<double, 3>& b, const Vec3& y, const Vec3& area) {
-    sum += layer_kernels(y - x, area.norm() * tension_gradient(face, load.tension, b)).single;
+    sum += single_layer_kernel(y - x, area.norm() * tension_gradient(face, load.tension, b));
   };
-  const std::size_t corner = corner_at(geometry_, m, f, i);
-  if (corner < 3)
-    visit_corner_points(face, corner, add);
-  else
-    visit_near_points(face, x, add);
+  visit_points(face, corner_at(geometry_, m, f, i), x, add);
   for (std::size_t c = 0; c < load.forces.size(); ++c) {
     const std::int32_t j = geometry_.index(m, face.columns[c]);
-    if (j != i) sum -= layer_kernels(geometry_.points.point(j) - x, load.forces[c]).single;
+    if (j != i) sum -= single_layer_kernel(geometry_.points.point(j) - x, load.forces[c]);
   }
   return sum;
 }

@@ -22,8 +22,8 @@ class MarangoniLayer {
 
  private:
   struct FaceLoad {
-    std::array<double, kQuadraticNodes> tension{};  ///< σ at the nodes
-    std::vector<Vec3> forces;                       ///< ∫∇_s σ dS, at the face's columns
+    NodeValues tension{};      ///< σ at the nodes
+    std::vector<Vec3> forces;  ///< ∫∇_s σ dS, at the face's columns
   };
   [[nodiscard]] Vec3 near_part(std::size_t m, FaceId f, std::int32_t i) const;
 

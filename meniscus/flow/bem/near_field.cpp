@@ -25,13 +25,29 @@ void add_identity(Symmetric& m, double factor) {
   for (std::size_t k = 0; k < 3; ++k) m[k] += factor;
 }
 
+/// The density of the single layer at the nodes of all faces, by surface.
+using NodeDensity = std::vector<FaceField<NodeValues>>;
+
+NodeDensity node_density(const BoundaryGeometry& geometry, const std::vector<double>& q) {
+  NodeDensity density;
+  for (const Surface& surface : geometry.surfaces) {
+    VertexField<double> at_vertices;
+    for (std::int32_t j = surface.range.begin; j < surface.range.end; ++j)
+      at_vertices.add(q[static_cast<std::size_t>(j)]);
+    FaceField<NodeValues>& at_nodes = density.emplace_back();
+    for (const Face& face : surface.elements.faces) at_nodes.add(node_values(face, at_vertices));
+  }
+  return density;
+}
+
 /// Builds one row after another; keeps an array over all points for the columns of the row at hand.
 class RowBuilder {
  public:
   RowBuilder(const BoundaryGeometry& geometry, const std::vector<double>& q,
-             const std::vector<bool>& has_double_layer)
+             const NodeDensity& node_density, const std::vector<bool>& has_double_layer)
       : geometry_(geometry),
         q_(q),
+        node_density_(node_density),
         has_double_layer_(has_double_layer),
         dense_(static_cast<std::size_t>(geometry.size())),
         share_(static_cast<std::size_t>(geometry.size()), 0.0),
@@ -59,7 +75,7 @@ class RowBuilder {
     if (near_.empty()) return;
     // The rule's integrals of constants. They differ from the exact ones by the error that the
     // subtraction removes.
-    constant_ = constant_layer_sums(geometry_.points, surface.range, x_);
+    constant_ = constant_layers(m);
     for (const FaceId f : near_) add_face(m, f, i);
     remove_vertex_rule(m, i);
     if (own == m) {
@@ -75,23 +91,33 @@ class RowBuilder {
       subtract(m, geometry_.index(m, face.columns[c]), weights[c], is_inside ? kInside : 0.0);
   }
 
+  [[nodiscard]] ConstantLayers constant_layers(std::size_t m) {
+    const SourceRange range = geometry_.surfaces[m].range;
+    if (has_double_layer_[m]) return constant_layer_sums(geometry_.points, range, x_);
+    ones_.resize(static_cast<std::size_t>(range.end - range.begin), 1.0);
+    return {.single = single_layer_sum(geometry_.points, range, ones_, x_), .double_layer = {}};
+  }
+
   void add_face(std::size_t m, FaceId f, std::int32_t i) {
-    const InterfaceElements& elements = geometry_.surfaces[m].elements;
-    const Face& face = elements.faces[f];
-    const std::size_t corner = corner_at(geometry_, m, f, i);
-    const FaceMoments moments = corner == 3 ? near_moments(face, x_) : corner_moments(face, corner);
+    const Face& face = geometry_.surfaces[m].elements.faces[f];
+    const FaceMoments moments = face_moments(face, corner_at(geometry_, m, f, i), x_,
+                                             node_density_[m][f], has_double_layer_[m]);
+    row_.single += moments.single;
+    constant_.single += moments.constant;
+    if (has_double_layer_[m]) add_double_layer(m, face, moments);
+    for (std::size_t c = 0; c < face.columns.size(); ++c)
+      add_share(geometry_.index(m, face.columns[c]), face.share[c]);
+  }
+
+  void add_double_layer(std::size_t m, const Face& face, const FaceMoments& moments) {
+    for (const Symmetric& moment : moments.double_layer) add(constant_.double_layer, 1.0, moment);
     for (std::size_t c = 0; c < face.columns.size(); ++c) {
-      LayerKernels entry{.single = Vec3::Zero(), .double_layer = {}};
+      Symmetric& entry = at(geometry_.index(m, face.columns[c]));
       for (std::size_t a = 0; a < kQuadraticNodes; ++a) {
         const double to_node =
             face.to_nodes(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(c));
-        if (to_node == 0.0) continue;
-        entry.single += to_node * moments.single[a];
-        if (has_double_layer_[m]) add(entry.double_layer, to_node, moments.double_layer[a]);
+        if (to_node != 0.0) add(entry, to_node, moments.double_layer[a]);
       }
-      const std::int32_t j = geometry_.index(m, face.columns[c]);
-      add_entry(m, j, entry);
-      add_share(j, face.share[c]);
     }
   }
 
@@ -108,17 +134,22 @@ class RowBuilder {
       const double share = std::exchange(share_[static_cast<std::size_t>(j)], 0.0);
       if (j == i) continue;
       const VertexId v{j - surface.range.begin};
-      add_entry(m, j, layer_kernels(surface.elements.x[v] - x_, -share * surface.elements.n[v]));
+      const Vec3 r = surface.elements.x[v] - x_, area = -share * surface.elements.n[v];
+      if (has_double_layer_[m]) {
+        const LayerKernels kernels = layer_kernels(r, area);
+        add_single(j, kernels.single);
+        add(constant_.double_layer, 1.0, kernels.double_layer);
+        add(at(j), 1.0, kernels.double_layer);
+      } else {
+        add_single(j, single_layer_kernel(r, area));
+      }
     }
     with_share_.clear();
   }
 
-  void add_entry(std::size_t m, std::int32_t j, const LayerKernels& entry) {
-    row_.single += q_[static_cast<std::size_t>(j)] * entry.single;
-    constant_.single += entry.single;
-    if (!has_double_layer_[m]) return;
-    add(constant_.double_layer, 1.0, entry.double_layer);
-    add(at(j), 1.0, entry.double_layer);
+  void add_single(std::int32_t j, const Vec3& kernel) {
+    row_.single += q_[static_cast<std::size_t>(j)] * kernel;
+    constant_.single += kernel;
   }
 
   /// Replaces the rule's integral of the constant weight × (value at point j) by the exact one.
@@ -138,6 +169,7 @@ class RowBuilder {
 
   const BoundaryGeometry& geometry_;
   const std::vector<double>& q_;
+  const NodeDensity& node_density_;
   const std::vector<bool>& has_double_layer_;
   std::vector<Symmetric> dense_;
   std::vector<double> share_;  // weights of the vertices in the rule on the near faces
@@ -147,6 +179,7 @@ class RowBuilder {
   NearRow row_;
   ConstantLayers constant_;
   std::vector<FaceId> near_;
+  std::vector<double> ones_;
 };
 
 }  // namespace
@@ -159,8 +192,9 @@ std::vector<NearRow> near_rows(const BoundaryGeometry& geometry, const std::vect
   MENISCUS_ASSERT(has_double_layer.size() == geometry.surfaces.size(), "{} marks of {} surfaces",
                   has_double_layer.size(), geometry.surfaces.size());
   std::vector<NearRow> rows(static_cast<std::size_t>(geometry.size()));
+  const NodeDensity at_nodes = node_density(geometry, q);
   shared.for_own([&](std::int32_t begin, std::int32_t end) {
-    RowBuilder builder(geometry, q, has_double_layer);
+    RowBuilder builder(geometry, q, at_nodes, has_double_layer);
     for (std::int32_t i = begin; i < end; ++i) rows[static_cast<std::size_t>(i)] = builder.row(i);
   });
   return rows;

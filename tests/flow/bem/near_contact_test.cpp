@@ -144,13 +144,15 @@ Layers layers_by_near_rule(const BoundaryGeometry& geometry, const std::vector<d
     const InterfaceElements::Face& face = elements.faces[f];
     const auto own = std::ranges::find(elements.corners[f], VertexId{i});
     const auto corner = static_cast<std::size_t>(own - elements.corners[f].begin());
-    const FaceMoments moments = corner == 3 ? near_moments(face, x) : corner_moments(face, corner);
+    VertexField<double> rest;
+    for (const double value : q) rest.add(value - q_here);
+    const FaceMoments moments = face_moments(face, corner, x, node_values(face, rest), true);
+    sum.single += moments.single;
     for (std::size_t c = 0; c < face.columns.size(); ++c) {
       const std::int32_t j = face.columns[c].value;
       for (std::size_t a = 0; a < kQuadraticNodes; ++a) {
         const double share =
             face.to_nodes(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(c));
-        sum.single += share * (q[static_cast<std::size_t>(j)] - q_here) * moments.single[a];
         sum.double_layer += share * (moments.double_layer[a] * (u.at(j) - u_here));
       }
     }
