@@ -4,8 +4,8 @@
 
 namespace meniscus {
 
-/// Exit status: 0 done; 1 the run could not go on to its end, but left a checkpoint; 2 the input
-/// was wrong, nothing is written.
+/// Exit status 0: done. Status 1: the run could not go on to its end, but left a checkpoint.
+/// Status 2: the input was wrong, nothing is written.
 ///
 /// A program that extends meniscus passes `set_up`, which prepares the state of each new run
 /// (`RunArguments::set_up`).

@@ -23,9 +23,9 @@ struct BenchmarkColumn {
   double tolerance = 0.0;  ///< largest difference that a program may have [unit]
 };
 
-/// A reference that any program can be held against. Its file is a table with `t` first, headed by
-/// lines "# key: value" (title, set-up, equations, provenance, licence) and one "# column NAME
-/// [UNIT], error E, tolerance T: meaning" for each column; a long line goes on after "#   ".
+/// A reference that any program can be held against. Its file is a table with `t` first. Its head
+/// has lines "# key: value" (title, set-up, equations, provenance, licence). For each column it has
+/// "# column NAME [UNIT], error E, tolerance T: meaning"; a long line goes on after "#   ".
 struct Benchmark {
   std::string name, title, licence;
   std::vector<BenchmarkColumn> columns;  ///< without t

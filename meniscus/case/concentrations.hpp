@@ -4,8 +4,8 @@
 
 namespace meniscus {
 
-/// Throws InvalidInput, naming line, key, value and place, where the linear part of a species'
-/// initial profile, or of the values on a patch, is a negative concentration in the case's scene.
+/// Throws InvalidInput where a concentration is negative in the case's scene; names line, key,
+/// value, place. It judges the linear parts of species' initial profiles and of values on patches.
 void require_concentrations(const Case& c, const Scene& scene);
 
 }  // namespace meniscus

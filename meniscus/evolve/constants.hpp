@@ -25,16 +25,16 @@ inline constexpr double kDampedShare = 1.0 - 0.5 * std::numbers::sqrt2;
 /// step. It is q²/q0 for q below q0: explicit steps bear such waves, and damping would make slow
 /// motions late. Above ½ waves that tension moves as fast as the exact flow could grow.
 inline constexpr double kUndampedShare = 0.5;
-/// [1/R²] What damping adds to −Δ_s, which has 6 in the slowest mode of a sphere of radius R. With
-/// 1 slow motions would be less late, but a sheared drop in steps as long as slip allows turns away
-/// from its angle (boundary integrals, Ca = 0.2, 110 vertices: by 1.3° in 21 steps).
+/// [1/R²] What damping adds to −Δ_s, which has 6 in the slowest mode of a sphere (radius R). With 1
+/// slow motions would be less late. But then a sheared drop in steps as long as slip allows turns
+/// away from its angle. Boundary integrals, Ca = 0.2, 110 vertices: by 1.3° in 21 steps.
 inline constexpr double kSphereStiffness = 6.0;
 /// How much more waves on flat faces are damped. Where the drop is viscous, linear elements let the
 /// shortest decay up to a fifth faster than the exact flow does. With 1.1 a deformed drop of a
 /// hundredfold viscosity became unstable (tests/evolve/semi_implicit_long_test.cpp).
 inline constexpr double kFacetedStiffness = 1.2;
-/// A shape whose turning moves it along its normals by less than the root of this, relative to the
-/// turning itself, is too round to have a spin. So are ellipsoids of D below 0.02.
+/// How far a turning moves a shape along its normals, relative to the turning itself, squared.
+/// Below this a shape is too round to have a spin. So are ellipsoids of D below 0.02.
 inline constexpr double kRoundness = 1e-3;
 /// [shortest edge] The tolerance of the error in a step where a case does not set one.
 inline constexpr double kDefaultTolerance = 0.03;

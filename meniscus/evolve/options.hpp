@@ -14,10 +14,10 @@ enum class TimeScheme {
   rkc,            ///< Runge–Kutta–Chebyshev of second order (sommeijer1998)
   implicit        ///< diagonally implicit, of second order: liquids with inertia
 };
-/// Normal with which an interface vertex moves, ẋ = n n·v (eq. 23): of the area vector A_i (keeps
-/// the faceted volume's rate of change at round-off), of the paraboloid fit (the paper's), or of
-/// the smooth surface. The last is O(h³), an area vector's O(h) on irregular meshes. `faces` takes
-/// the smooth normal, and lets curved faces follow the liquid in the mean (`follow_faces`).
+/// Normal with which an interface vertex moves, ẋ = n n·v (eq. 23). It is of the area vector A_i,
+/// of the paraboloid fit (the paper's), or of the smooth surface. A_i keeps the faceted volume's
+/// rate of change at round-off, but is O(h) on irregular meshes. The smooth normal is O(h³).
+/// `faces` takes it, and lets curved faces follow the liquid in the mean (`follow_faces`).
 enum class MotionNormal { area_vector, fit, smooth, faces };
 enum class StepEdges { interface, mesh };  ///< where the step rule takes l_min from
 

@@ -123,10 +123,10 @@ struct PatchContact {
   int drop = 0;
   std::string patch;
 };
-/// The first drop with a vertex that is nearer to an open patch than `gap` [R0], or than the mean
-/// edge there where no gap is given. So is one that would be after the step ahead. A step bounds
-/// the way of vertices in edges, but for the rigid motion of their drop. One step could carry a
-/// drop through the patch. None where nothing is that near.
+/// The first drop with a vertex nearer to an open patch than `gap` [R0]. Without `gap` the mean
+/// edge at the vertex is taken. A vertex that would be so near after the step ahead counts too. A
+/// step bounds the way of vertices in edges, but for the rigid motion of their drop. One step could
+/// carry a drop through the patch. None where nothing is that near.
 [[nodiscard]] std::optional<PatchContact> find_patch_contact(const Scene& scene,
                                                              const StepAhead& next,
                                                              std::optional<double> gap = {});

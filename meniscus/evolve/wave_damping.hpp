@@ -22,16 +22,16 @@ namespace meniscus {
 
 /// What is expected of normal speeds s in an implicit stage of liquids with inertia, s* with
 ///   s* − s0 = (s − s0)/(1 + q²),   q = στ²κ³/(ρ_in + ρ_out + 2(μ_in + μ_out)τκ²),
-/// τ = `duration` and κ² = −Δ_s + k/R², s0 and k as above: q is by how much a wave of wave number κ
-/// would change in the stage, if its tension met the liquids' mass and viscosity together.
+/// τ = `duration` and κ² = −Δ_s + k/R², s0 and k as for `damped_speeds`. q is what a stage would
+/// change in a wave of wave number κ if tension met the liquids' mass and viscosity together.
 /// 1/(1 + q²) is a rational function of κ², the sum of three shifted inverses.
 [[nodiscard]] NormalSpeeds expected_speeds(const Scene& scene, const NormalSpeeds& speeds,
                                            const NormalSpeeds& about, double duration);
 
 /// `damped_speeds` for rates ∂Γ/∂t of concentrations, less their means. The largest Gibbs
-/// elasticity −Γ dσ/dΓ is in the place of σ: an elastic surface evens out short waves of Γ at the
-/// rate E|q|/(2(μ_in + μ_out)). The masses are the areas S_v of the carriers, at whose vertices the
-/// interfaces are, so that Σ S_v ∂Γ_v/∂t stays what it is. How the surface stretches belongs to
+/// elasticity E = −Γ dσ/dΓ is in the place of σ. An elastic surface evens out short waves of Γ at
+/// the rate E|q|/(2(μ_in + μ_out)). The masses are the areas S_v of the carriers, at whose vertices
+/// the interfaces are, so that Σ S_v ∂Γ_v/∂t stays what it is. How the surface stretches belongs to
 /// these rates. Where a film all but resists it, stretching and flux cancel. Damping one of them
 /// would leave the other.
 [[nodiscard]] ConcentrationRates damped_concentration_rates(

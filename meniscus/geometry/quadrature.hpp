@@ -104,9 +104,9 @@ struct GaussPoint {
 /// Gauss-Legendre: `count` points, exact to degree 2 count − 1.
 [[nodiscard]] std::vector<GaussPoint> gauss_legendre(int count);
 
-/// For integrands like 1/r about a corner of a triangle. They are Gauss points in (s, t) of b = 1 −
-/// s at the corner, s(1 − t) and st at the next two, whose Jacobian s makes them smooth
-/// [duffy1982]. 28 points, exact for polynomials of degree 6.
+/// For integrands like 1/r about a corner of a triangle. Gauss points in (s, t). Barycentric
+/// coordinates are 1 − s at the corner, s(1 − t) and st at the next two. The Jacobian s makes the
+/// integrands smooth [duffy1982]. 28 points, exact for polynomials of degree 6.
 [[nodiscard]] std::span<const QuadraturePoint<3>> corner_rule(std::size_t corner);
 
 }  // namespace meniscus

@@ -41,9 +41,9 @@ class PressureLaplacian {
   Vector result_;
 };
 
-/// With a pressure Laplacian L, S⁻¹ = (M_p/μ)⁻¹ + L⁻¹, else S⁻¹ = (M_p/μ)⁻¹:
-/// z_p = s S⁻¹ r_p, z_v = M_A⁻¹ (r_v − Bᵀ z_p) (upper triangular, s = −1) or M_A⁻¹ r_v
-/// (diagonal, s = +1, positive definite as MINRES needs it).
+/// S⁻¹ = (M_p/μ)⁻¹ + L⁻¹ with a pressure Laplacian L, else (M_p/μ)⁻¹; z_p = s S⁻¹ r_p. Upper
+/// triangular, s = −1: z_v = M_A⁻¹ (r_v − Bᵀ z_p). Diagonal, s = +1, positive definite as MINRES
+/// needs it: z_v = M_A⁻¹ r_v.
 class BlockPreconditioner {
  public:
   enum class Shape { upper_triangular, diagonal };

@@ -23,12 +23,12 @@ struct SaddleOptions {
   int max_iterations = 2000;
   /// Whether systems have `interpolations` (quadratic velocities).
   bool multigrid_by_degree = false;
-  /// Options as on PETSc's command line, which override the defaults of the method. Prefixes: none
-  /// for the outer solver; v_ for the velocity block's multigrid; with multigrid by degree
-  /// v_mg_coarse_ for the algebraic part and, where the system has matrices, v_mg_levels_ for the
-  /// smoother; p_ for the consistent pressure mass matrix;
-  /// l_ for the pressure Laplacian; f_ for the factorisation of the direct
-  /// method.
+  /// Options as on PETSc's command line, which override the defaults of the method.
+  /// Prefixes: none for the outer solver; v_ for the velocity block's multigrid; p_ for
+  /// the consistent pressure mass matrix; l_ for the pressure Laplacian. The
+  /// factorisation of the direct method has f_. Multigrid by degree has v_mg_coarse_ for
+  /// the algebraic part and, where the system has matrices, v_mg_levels_ for the
+  /// smoother.
   std::string petsc_options;
 };
 

@@ -43,8 +43,8 @@ struct SaddleSystem {
   CsrView A;  ///< 3n × 3n, positive definite
   CsrView B;  ///< m × 3n
   CsrView C;  ///< m × m, positive semi-definite
-  /// Scalar n × n Laplacians ∫μ∇φ·∇φ that stand for the diagonal blocks of A. It says which of them
-  /// belongs to each component: they differ only in the nodes eliminated. Where there are products,
+  /// Scalar n × n Laplacians ∫μ∇φ·∇φ that stand for A's diagonal blocks. `laplacian_of` says which
+  /// belongs to each component; they differ only in the nodes eliminated. Where there are products,
   /// the Laplacians of linear functions, to which `interpolations` lead.
   std::vector<CsrView> laplacians;
   std::array<int, 3> laplacian_of = {0, 0, 0};

@@ -24,8 +24,8 @@ struct CarriedField {
   friend bool operator==(const CarriedField&, const CarriedField&) = default;
 };
 
-/// The fields of a surface. On vertices they are linear over the faces, so that their integral is
-/// Σ_v value · (a third of the area of the faces at v); on faces they are means over the face.
+/// The fields of a surface. On vertices they are linear over the faces, with the integral
+/// Σ_v value · (a third of the area of the faces at v). On faces they are means over the face.
 struct SurfaceFields {
   std::vector<CarriedField<VertexId>> on_vertices;
   std::vector<CarriedField<FaceId>> on_faces;
@@ -50,8 +50,8 @@ struct FieldExcess {
   double above = 0.0, below = 0.0;  ///< ≥ 0, over all fields, in the unit of the worst one
 };
 
-/// Throws InvalidInput naming the field that has a wrong length, a value that is not finite, the
-/// name of an earlier one, or no name; or that is conserved on the vertices of a volume mesh.
+/// Throws InvalidInput naming the field that has a wrong length, a value that is not finite, an
+/// earlier one's name, or none. On the vertices of a volume mesh no field may be conserved.
 void check_fields(const SurfaceFields& fields, const SurfaceMesh& mesh);
 void check_fields(const VolumeFields& fields, const TetMesh& mesh);
 

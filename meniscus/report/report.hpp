@@ -34,8 +34,8 @@ enum class StillFormat { svg, png };
 
 /// Writes pictures into the run's folder and returns their names: interface, history (all plots),
 /// deformation (D(t) with its reference) and mesh. The interface is that of the frames nearest to
-/// `times`, or of six; mesh the cut through the drops in the volume meshes there, or in the last.
-/// Pictures without data are left out. Throws InvalidInput when none is left.
+/// `times`, or of six. The mesh is the cut through the drops in the volume meshes there, or in the
+/// last. Pictures without data are left out. Throws InvalidInput when none is left.
 std::vector<std::string> write_stills(const std::filesystem::path& run_directory,
                                       StillFormat format, std::span<const double> times = {});
 

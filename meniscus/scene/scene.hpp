@@ -94,12 +94,12 @@ struct Scene {
 [[nodiscard]] bool has_open_patch(const Scene& scene);
 /// Whether a liquid has a density.
 [[nodiscard]] bool has_inertia(const Scene& scene);
-/// Numbers the regions afresh: that of interface i + 1 within interface i, and outside it that of
-/// the innermost interface around it, found by the place of its first vertex. Interfaces must not
-/// meet.
+/// Numbers the regions afresh. Region i + 1 lies within interface i. Outside it lies that of the
+/// innermost interface around it, found by the place of its first vertex; else region 0. Interfaces
+/// must not meet.
 void assign_regions(Scene& scene);
-/// Names the first place where interfaces touch each other or the boundary, or lie outside it, or
-/// where the nesting contradicts `inside`/`outside`; none when the scene is sound.
+/// Names the first place where interfaces touch each other or the boundary, lie outside it, or nest
+/// otherwise than `inside`/`outside` say. None when the scene is sound.
 [[nodiscard]] std::optional<Fault> find_conflict(const Scene& scene);
 
 }  // namespace meniscus

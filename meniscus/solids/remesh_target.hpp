@@ -33,9 +33,9 @@ struct [[nodiscard]] TargetReport : Report {
 };
 
 /// Remeshes every piece of a closed surface, of any unit and any number of pieces, each without
-/// defect. It does so until its vertices are within 2 % of the target, its mean edge within 1 %, or
-/// its largest distance from the smooth surface in [0.8, 1] of it. Each piece keeps its volume;
-/// with chordal_error, that of the smooth surface through its vertices.
+/// defect. It does so until the target is met. The vertices come within 2 % of it, the mean edge
+/// within 1 %, or the largest distance from the smooth surface in [0.8, 1] of it. Each piece keeps
+/// its volume; with chordal_error, that of the smooth surface through its vertices.
 ///
 /// Chordal error: an equilateral triangle of edge l lies off a surface of principal curvatures k1
 /// and k2 by (k1 + k2) l²/12 at its centre. It is at most max|k| l²/8 on its edges, hence at most
@@ -43,15 +43,15 @@ struct [[nodiscard]] TargetReport : Report {
 /// 1/max|k| (six edges around a circle). That is the first guess; the distance of the result is
 /// then measured, and the lengths are corrected, for real triangles are not equilateral.
 ///
-/// A surface with creases (normals turned by over 50° along an edge) or slivers (5 % of the angles
-/// below 15°) is first given even triangles on its flat faces (CGAL's isotropic remeshing, creases
-/// kept). They are half as long as the target's mean edge; with chordal_error, twice the error. The
-/// smooth surface of that mesh rounds creases and corners over about that length, and no edge
-/// shorter than it is asked for. Where the target is not met so, the mesh is smoothed as a whole
-/// over half to twice that length (`DiffusedSurface`). It takes the least that meets it. Where no
-/// smooth surface can be remeshed, as where parts are much thinner than the edges asked for, the
-/// faces as given are cut evenly, edges and corners kept. Angles then are what the shape allows,
-/// and there is no chordal error.
+/// A surface may have creases (normals turned by over 50° along an edge) or slivers (5 % of the
+/// angles below 15°). Such a surface is first given even triangles on its flat faces (CGAL's
+/// isotropic remeshing, creases kept). They are half as long as the target's mean edge; with
+/// chordal_error, twice the error. The smooth surface of that mesh rounds creases and corners over
+/// about that length, and no edge shorter than it is asked for. Where the target is not met so, the
+/// mesh is smoothed as a whole over half to twice that length (`DiffusedSurface`). It takes the
+/// least that meets it. Sometimes no smooth surface can be remeshed, as where parts are much
+/// thinner than the edges asked for. The faces as given are then cut evenly, edges and corners
+/// kept. Angles are what the shape allows, and there is no chordal error.
 ///
 /// Transactional, like `remesh`. Throws InvalidInput where the target would take more than
 /// `kMostVertices`, or is too coarse for so thin a surface.

@@ -25,8 +25,8 @@ struct VertexCurvature {
 [[nodiscard]] VertexField<VertexCurvature> fitted_curvature(const SurfaceMesh& mesh,
                                                             const SurfaceTopology& topology);
 
-/// An independent estimate. Normal curvatures k(e) = −2 n·(x_j − x)/|x_j − x|² of the circles
-/// through the vertex and its neighbours are fitted by a quadratic form of the direction e. The
+/// An independent estimate. k(e) = −2 n·(x_j − x)/|x_j − x|² is the normal curvature of the circle
+/// through the vertex and a neighbour. A quadratic form of the direction e is fitted to these. The
 /// normal is turned as above. Exact on spheres of any coarseness, where the paraboloid is too
 /// curved by O(h²).
 [[nodiscard]] VertexField<VertexCurvature> osculating_curvature(const SurfaceMesh& mesh,

@@ -7,11 +7,11 @@
 
 namespace meniscus {
 
-/// Surfaces of the same volume that are smoother and smoother. There the distance from a surface,
-/// negative inside, smoothed over a length s (by a Gaussian of that deviation), has the level that
-/// keeps the volume. As the Laplacian of the distance is 2H, that moves a place by s²(⟨H⟩ − H)
-/// along the normal to first order. But never does the result meet itself. Threads that are thinner
-/// than about s, and crevices that narrow, vanish, and films as thin are holed.
+/// Surfaces of the same volume that are smoother and smoother. The distance from a surface,
+/// negative inside, is smoothed over a length s (by a Gaussian of that deviation). Each is the
+/// level of it that keeps the volume. As the Laplacian of the distance is 2H, that moves a place by
+/// s²(⟨H⟩ − H) along the normal to first order. But never does the result meet itself. Threads that
+/// are thinner than about s, and crevices that narrow, vanish, and films as thin are holed.
 class DiffusedSurface {
  public:
   /// Lattice points are half an `edge` apart, or farther where there would be too many.

@@ -52,8 +52,8 @@ struct [[nodiscard]] RemeshReport : Report {
   FieldExcess field_excess = {};   ///< of conserved fields over the range they had
 };
 
-/// Rebuilds the triangulation of a closed surface so that its vertex density is ρ = C0⟨κ⟩², and
-/// restores its volume: by vertex addition and removal, Delaunay reconnection and springs
+/// Rebuilds the triangulation of a closed surface for a vertex density ρ = C0⟨κ⟩²; restores its
+/// volume. It adds and removes vertices, reconnects them (Delaunay) and moves them by springs
 /// (cristini2001). Transactional: on failure the mesh is unchanged and the report says why.
 RemeshReport remesh(SurfaceMesh& mesh, const RemeshOptions& options);
 /// Remeshes a surface with its fields; on failure both are unchanged.

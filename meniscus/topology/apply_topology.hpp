@@ -39,8 +39,8 @@ struct [[nodiscard]] TopologyReport {
 ///
 /// - a thread of a drop thinner than `breakup_radius` is cut (breakup);
 /// - a film thinner than `coalescence_gap`, between two interfaces or two parts of one, is opened
-///   (coalescence); so is the thread of outer liquid in the hole of a drop, when it is narrower
-///   than that gap.
+///   (coalescence). So is the thread of outer liquid in the hole of a drop, when narrower than that
+///   gap.
 ///
 /// Each event is all or nothing: what fails is left as it was, with a warning.
 TopologyReport apply_topology(Scene& scene, const TopologyOptions& options,

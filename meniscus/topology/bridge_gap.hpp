@@ -11,14 +11,14 @@ struct BridgeOptions {
 };
 
 /// Joins the two sides of a film by a tube at its closest place. Both surfaces are first refined
-/// there to half the limit. Then the discs of faces within two limits of the closest place are
-/// taken out, with all of the film around it thinner than the limit. The two holes are joined and
-/// smoothed. A thicker part of the film that this would enclose is taken out with it unless it is
-/// large enough to be resolved. A sphere of its volume is then wider than twice the limit and four
-/// times the edge floor. The disc of two limits alone is opened, where the film is closest. Where
-/// an opening would add area, make the surface meet itself once its volume is restored, or move
-/// more than a tenth of the liquid, smaller discs are tried, down to half a limit. A drop that lies
-/// within two limits of that place as a whole is left out rather, for its liquid to be given to the
+/// there to half the limit. The discs of faces within two limits of the closest place are taken
+/// out. All of the film around it thinner than the limit goes with them. The two holes are joined
+/// and smoothed. A thicker part of the film that this would enclose is taken out with it unless
+/// it is large enough to be resolved. A sphere of its volume is then wider than twice the limit
+/// and four times the edge floor. The disc of two limits alone is opened, where the film is
+/// closest. An opening may add area, make the surface meet itself once its volume is restored, or
+/// move more than a tenth of the liquid. Smaller discs are then tried, down to half a limit. A
+/// drop within two limits of that place as a whole is left out, and its liquid is given to the
 /// other.
 ///
 /// The surface of the liquid that the bridge belongs to. For a film inside of a, between a drop in

@@ -29,10 +29,10 @@ struct Gap {
 /// Distances of facing surfaces below `limit`, in rising order, whose surfaces approach each other:
 ///   v(from)·m(from) + v(to)·m(to) > 0,  m the normal into the film.
 /// Facing: the normals into the film are opposed to within 60°, and the line between the points is
-/// within 60° of both. Two parts of one surface count as facing only if no path on it shorter than
-/// the ball of 3 `limit` around the middle joins them. Neither the rim of a film nor a neck is a
-/// gap. Of the places of one film that the limit joins, only the closest is given. O(n log n) in
-/// the number of drops as long as few are near each one.
+/// within 60° of both. Two parts of one surface count as facing only if no faces within 3 `limit`
+/// of the middle join them. Neither the rim of a film nor a neck is a gap. Of the places of one
+/// film that the limit joins, only the closest is given. O(n log n) in the number of drops as long
+/// as few are near each one.
 [[nodiscard]] std::vector<Gap> find_gaps(const Scene& scene, double limit,
                                          const SurfaceMotion& motion);
 

@@ -24,9 +24,9 @@ struct SectionResult {
   Section section;
 };
 
-/// The curve around (or, where none goes around it, nearest to) `center` in the plane through it
-/// normal to `axis`, looked for within `reach` of it. It is `wide` when it leaves that cube, `none`
-/// when the plane meets no face there.
+/// The curve around `center` in the plane through it normal to `axis`; where none goes around it,
+/// the nearest. Only the cube within `reach` of `center` is searched. The curve is `wide` when it
+/// leaves that cube, `none` when the plane meets no face there.
 [[nodiscard]] SectionResult section_around(const SurfaceMesh& mesh, const SurfaceTree& tree,
                                            const Vec3& center, const Vec3& axis, double reach);
 

@@ -20,8 +20,8 @@ using Matrix = Eigen::SparseMatrix<double>;
 /// Where the inner stage of SDIRK2 stands in a step.
 constexpr double kInnerStage = 1.0 - std::numbers::sqrt2 / 2.0;
 
-/// Solves equations of a stage, in which masses mostly outweigh what is carried and spread: by
-/// iterations from a guess, and by factors where these do not come to an end.
+/// Solves equations of a stage, in which masses mostly outweigh what is carried and spread. It
+/// iterates from a guess; factors serve where iterations do not come to an end.
 Vector solved(const Matrix& matrix, const Vector& right, const Vector& guess) {
   constexpr double kTolerance = 1e-13;
   constexpr int kMostIterations = 40;

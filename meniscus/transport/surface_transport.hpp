@@ -32,7 +32,7 @@ class SurfaceTransport {
     const SurfaceMass& end;
     double dt = 0.0;
   };
-  /// The constant rates that take the amounts of a concentration through a step with this L. They
+  /// The constant rates that take the amounts of a concentration through a step (with this L). They
   /// are of the implicit Runge–Kutta scheme of second order and two stages that is stable and damps
   /// without limit (SDIRK2, alexander1977). With the L of the middle of the step it remains of
   /// second order.

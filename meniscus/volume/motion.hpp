@@ -16,7 +16,7 @@ enum class VolumeMotion { spines, lagrangian, harmonic };
 ///  * spines: along the ray from the drop's centre (one star-shaped drop; elsewhere harmonic),
 ///  * lagrangian: the fluid's velocity `fluid`,
 ///  * harmonic: the solution of ∇·(|K|⁻¹∇w) = 0. Its matrix and multigrid are kept as long as the
-///    mesh stands where it did, the matrix's pattern as long as the mesh is only moved.
+///    mesh stands where it did. The matrix's pattern is kept as long as the mesh is only moved.
 class VolumeMover {
  public:
   explicit VolumeMover(VolumeMotion motion) : motion_(motion) {}

@@ -23,7 +23,7 @@ struct IndebtedField {
 void settle_debts(IndebtedField& field, const CellField<double>& volume,
                   const GroupNeighbours& neighbours);
 
-/// Brings Σ value |c| over some cells to an amount: first by value += θ (high − value), or the same
+/// Brings Σ value |c| over some cells to an amount. First value += θ (high − value), or the same
 /// towards `low`, with one θ for all. What exceeds θ = 1 is of the same density everywhere.
 void settle_amount(CellField<double>& value, const CellField<double>& volume,
                    const std::vector<CellId>& cells, const ValueRange& range, double amount);

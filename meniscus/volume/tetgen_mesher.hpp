@@ -25,7 +25,7 @@ struct [[nodiscard]] MesherResult {
 };
 
 /// TetGen's switches in the order in which they are to be tried. p: keep the given facets; Y: add
-/// no vertex to them; M: keep facets in one plane apart; q: radius-edge bound / smallest dihedral
+/// no vertex to them; M: keep facets in one plane apart. q: radius-edge bound / smallest dihedral
 /// angle; o/: dihedral angle above which a cell is optimised; T: tolerance of coplanarity; Q: be
 /// quiet.
 [[nodiscard]] std::vector<std::string> tetgen_switches(double radius_edge);

@@ -6,10 +6,10 @@
 
 namespace meniscus::fem {
 
-/// Adds the force −σ∫κ n φ_i dS with which an interface pulls on the fluid at each of its nodes
-/// (inward on a sphere) [μ_out G R0²]. See eqs 15–17 of hooper2001. Balanced: κ by the paraboloid
-/// fit (P1), or by the osculating one (P2). The nodal form, a lumped rule, exists for P1 alone.
-/// Where a surfactant lets σ vary, the weak form alone holds its gradient.
+/// Adds the force −σ∫κ n φ_i dS of an interface on the fluid at each of its nodes (inward on a
+/// sphere) [μ_out G R0²]. See eqs 15–17 of hooper2001. Balanced: κ by the paraboloid fit (P1), or
+/// by the osculating one (P2). The nodal form, a lumped rule, exists for P1 alone. Where a
+/// surfactant lets σ vary, the weak form alone holds its gradient.
 void add_capillary_force(const Interface& interface, CapillaryForm form, const FaceNodeTable& faces,
                          const NodePositions& positions, Field<NodeId, Vec3>& force);
 /// −σ∫(I − nn):∇φ_i dS: the rate at which −σ times the area of the elements' surface grows.

@@ -44,9 +44,9 @@ struct StraightMasses {
   std::span<const Density> density;
   double rate = 0.0;
 
-  /// `kQuadraticMass` by sums: 420 of it is 5v_k + Σv + 2Σ_k v_e − 6Σv_e at a corner k, and
-  /// 16v_e − 8v_o + 16Σv_e − 6Σv + 2(v_i + v_j) at an edge e of the corners i and j, o = 5 − e
-  /// being the opposite edge, Σv and Σv_e sums over corners and edges, Σ_k one over the edges at k.
+  /// 420 times `kQuadraticMass`, by sums. It is 5v_k + Σv + 2Σ_k v_e − 6Σv_e at a corner k. At an
+  /// edge e of the corners i and j it is 16v_e − 8v_o + 16Σv_e − 6Σv + 2(v_i + v_j), o = 5 − e
+  /// opposite to e. Σv and Σv_e are sums over corners and edges, Σ_k one over the edges at k.
   MENISCUS_INLINE void add(const StraightCells& cells, std::size_t n, const Nodal& v,
                            Nodal& r) const {
     const Lanes scale = 20.0 / 420.0 * rate * cells.volume * density[n].of;
@@ -164,8 +164,8 @@ MENISCUS_INLINE void add_slopes(const AtPoints& along, std::size_t l, const Corn
   }
 }
 
-/// ρa times the weights of the points, and the derivatives that go with its components: by x in
-/// straight cells, by barycentric coordinates in curved ones.
+/// ρa times the weights of the points, and the derivatives that go with its components. They are by
+/// x in straight cells, by barycentric coordinates in curved ones.
 MENISCUS_INLINE void weigh(const StraightCells& cells, const Lanes& density, AtPoints& a,
                            Derivatives& d) {
   const Lanes scale = 20.0 * cells.volume * density;

@@ -7,8 +7,8 @@
 
 namespace meniscus::fem {
 
-/// What linear tetrahedra give to the matrices at an edge from a to b, but for what cancels between
-/// the cells around the edge (see `EdgeSums`). Each is a number, or one per cell of several.
+/// What linear tetrahedra give to the matrices at an edge from a to b. Left out is what cancels
+/// between the cells around it (see `EdgeSums`). Each is a number, or one per cell of several.
 template <class T>
 struct alignas(32) EdgeIntegrals {
   T xx, yy, zz, stabilisation;  ///< of Σ μV g_a g_bᵀ; Σ τV g_a·g_b

@@ -79,8 +79,8 @@ class EdgeSums {
   /// One for each edge in one liquid, between pressures a < b. Two more follow: one that stays
   /// zero, for diagonal entries, and one that is written to and never read.
   std::vector<EdgeIntegrals<double>> sums_;
-  /// 2·edge + whether seen from b, per edge of each cell as in `kCellEdges`, and per entry of C.
-  /// That one is longer, for what is fetched ahead.
+  /// 2·edge + whether seen from b: per edge of each cell as in `kCellEdges`, and per entry of C
+  /// (longer, for what is fetched ahead).
   std::vector<std::int32_t> cell_edges_, entry_edges_;
   std::vector<std::uint16_t> places_;  ///< per entry of C: the entry of A's row that it adds to
   std::vector<std::int32_t> column_nodes_;  ///< per entry of C

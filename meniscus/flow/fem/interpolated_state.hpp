@@ -12,10 +12,10 @@ struct MeshedSpace {
 };
 
 /// Velocity and pressure on another mesh of the same liquids. A node takes the value of the old
-/// shape functions where a walk to it ends in the old cells whose liquid is that of the node's
-/// cell. It ends there, or where that liquid ended. `sources` says where a region has its liquid
-/// from; where it says nothing of one, any cell will do. Mid-edge nodes count as the middles of
-/// straight edges, on both meshes: second order at curved surfaces, third elsewhere. Linear cost.
+/// shape functions where a walk to it ends. The walk stays in old cells of the node's liquid. It
+/// ends at the node, or where that liquid ended. `sources` says where a region has its liquid from;
+/// where it says nothing of one, any cell will do. Mid-edge nodes count as the middles of straight
+/// edges, on both meshes: second order at curved surfaces, third elsewhere. Linear cost.
 [[nodiscard]] StokesState interpolated_state(const StokesState& state, const MeshedSpace& from,
                                              const MeshedSpace& to, const RegionSources& sources);
 

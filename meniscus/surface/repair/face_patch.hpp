@@ -26,8 +26,8 @@ using FacePatch = FaceField<char>;
                              std::size_t num_boundaries);
 
 /// Makes a connected patch a disc. Faces are added around vertices where its boundary touches
-/// itself, then all parts of the rest of its piece of the surface but the largest (by area).
-/// False when that leaves no disc, as on a patch that goes around a handle.
+/// itself. Then all parts of the rest of its piece of the surface but the largest (by area) are
+/// added. False when that leaves no disc, as on a patch that goes around a handle.
 [[nodiscard]] bool make_disc(const SurfaceMesh& mesh, const SurfaceTopology& topology,
                              const FaceNeighbours& neighbours, FacePatch& patch);
 

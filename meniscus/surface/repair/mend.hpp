@@ -8,8 +8,8 @@ namespace meniscus {
 /// crease, or surgery left one, that no smooth surface fits. These remedies are tried, the mildest
 /// first, until one leaves a surface that can be remeshed (`apply_first`):
 ///
-/// 1. the faces beside sharp edges, and rings of faces around them, give way to the bi-Laplace
-///    surface that joins the rest with a common tangent plane;
+/// 1. the faces beside sharp edges, and rings of faces around, give way to the bi-Laplace surface
+///    that joins the rest with a common tangent plane;
 /// 2. the flat faces are cut into even triangles, where they were too few;
 /// 3. creases are cut out and the holes closed as the ends of a neck are;
 /// 4. creases are rounded as in 1 after the faces were cut as in 2;

@@ -37,9 +37,9 @@ struct [[nodiscard]] MendReport {
   double smoothed_over = 0.0;  ///< [R0] length that the whole surface was smoothed over
 };
 
-/// The policy of all repairs. Remedies are tried in their order, the mildest first, until one gives
-/// a sound surface with no more holes than there were that can be remeshed. `mesh` and `fields`
-/// become it. None, and they stay, where no remedy does.
+/// The policy of all repairs. Remedies are tried in their order, the mildest first. The first is
+/// taken whose surface is sound, can be remeshed and has no more holes than there were. `mesh` and
+/// `fields` become it. None, and they stay, where no remedy does.
 [[nodiscard]] std::optional<MendReport> apply_first(SurfaceMesh& mesh, SurfaceFields& fields,
                                                     std::span<const Remedy> remedies,
                                                     const RemeshOptions& options);

@@ -5,10 +5,10 @@
 
 namespace meniscus {
 
-/// Closes every hole of a surface with boundaries by a patch as fine as the faces around it, that
-/// joins them with a common tangent plane. It is the bi-Laplace surface (CGAL's hole filling). On a
-/// tube of radius r it is a dome r/2 high. False when a hole cannot be filled; the mesh is then as
-/// given.
+/// Closes every hole of a surface with boundaries by a patch as fine as the faces around it. They
+/// join with a common tangent plane. The patch is the bi-Laplace surface (CGAL's hole filling). On
+/// a tube of radius r it is a dome r/2 high. False when a hole cannot be filled; the mesh is then
+/// as given.
 [[nodiscard]] bool cap_holes(SurfaceMesh& mesh);
 
 /// Gives a part of a closed surface triangles as fine as those around it. It moves their vertices,

@@ -230,8 +230,8 @@ class ScalarStep {
             values};
   }
 
-  /// Makes M_s + S − kStage Δt L the system, M_s the mass matrix after a share s of the step;
-  /// returns (M_r + S) x at another share r.
+  /// Makes M_s + S − kStage Δt L the system, M_s the mass matrix after a share s of the step.
+  /// Returns (M_r + S) x at another share r.
   [[nodiscard]] std::vector<double> set_system(double share, double share_of_x,
                                                std::span<const double> x) {
     const fem::NodeGraph& graph = space_.graph;

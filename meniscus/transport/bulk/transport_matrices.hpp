@@ -51,8 +51,8 @@ struct RelativeFlow {
 
 /// The operators of one step, on positions half way. The discrete u has another divergence than the
 /// mesh's volumes say; a potential ψ in the scalars' space corrects that. Its part of the
-/// convection ∫γφ_j(u + ∇ψ)·∇φ_i is taken by differences, K_ij(ψ_j − ψ_i)/2 for i ≠ j with K =
-/// ∫γ∇φ_i·∇φ_j and the sum of these for i = j, so that columns add up to zero.
+/// convection ∫γφ_j(u + ∇ψ)·∇φ_i is K_ij(ψ_j − ψ_i)/2 for i ≠ j, K_ij = ∫γ∇φ_i·∇φ_j, and the sum of
+/// these for i = j. With these differences columns add up to zero.
 struct TransportMatrices {
   /// L: ∫γφ_j(u + ∇ψ)·∇φ_i − ∫(k/Pe)∇φ_j·∇φ_i − ∮γφ_iφ_j v·n dS, and the stabilisation's part,
   /// whose columns sum to zero. The rows of a constant sum to (m1_i − m0_i)/Δt + defect_i.
