@@ -82,10 +82,8 @@ InterfaceElements make_elements(const SurfaceMesh& mesh) {
       face.nodes[3 + k] = edges.middle[edges.of_face[f][k]];
       middles[k] = &edges.stencil[edges.of_face[f][k]];
     }
-    for (std::size_t k = 0; k < 3; ++k) {
-      face.center += face.nodes[k] / 3.0;
+    for (std::size_t k = 0; k < 3; ++k)
       face.size = std::max(face.size, (face.nodes[k] - face.nodes[(k + 1) % 3]).norm());
-    }
     set_stencil(face, mesh.faces[f], middles);
     set_points_and_shares(face);
     MENISCUS_ASSERT(face.size > 0.0 && face.share.size() == face.columns.size(), "face {}",

@@ -24,7 +24,6 @@ struct InterfaceElements {
     };
     std::array<Point, kTriangleRule5.size()> points;
     std::vector<double> share;  ///< ∫_face f dS ≈ Σ_c share[c] f(x of columns[c])
-    Vec3 center = Vec3::Zero();
     double size = 0.0;  ///< longest edge
   };
   FaceField<Face> faces;

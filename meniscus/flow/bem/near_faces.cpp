@@ -1,6 +1,7 @@
 #include "meniscus/flow/bem/near_faces.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "meniscus/core/error.hpp"
 
@@ -16,6 +17,14 @@ bool is_turned_away(const Triangle& face, const Vec3& normal) {
   return (face[1] - face[0]).cross(face[2] - face[0]).dot(normal) < 0.0;
 }
 
+/// How far the centre of a face is from x, in its longest edges.
+double edges_away(const Triangle& face, const Vec3& x) {
+  const double longest =
+      std::max({(face[1] - face[0]).squaredNorm(), (face[2] - face[1]).squaredNorm(),
+                (face[0] - face[2]).squaredNorm()});
+  return std::sqrt(((face[0] + face[1] + face[2]) / 3.0 - x).squaredNorm() / longest);
+}
+
 }  // namespace
 
 void find_near_faces(const BoundaryGeometry& geometry, std::size_t m, std::int32_t i,
@@ -25,13 +34,12 @@ void find_near_faces(const BoundaryGeometry& geometry, std::size_t m, std::int32
   const Vec3 x = geometry.points.point(i);
   const Vec3* normal = own == m ? &surface.elements.n[VertexId{i - surface.range.begin}] : nullptr;
   faces.clear();
-  // A face's centre lies within its longest edge of its box, whose diagonal is no shorter.
-  surface.tree.visit_near(x, kNearOnOther + 1.0, [&](FaceId f, const Triangle& triangle) {
-    const InterfaceElements::Face& face = surface.elements.faces[f];
-    const double distance = (face.center - x).norm();
-    if (distance >= kNearOnOther * face.size) return true;
-    const bool is_on_other_sheet = normal == nullptr || is_turned_away(triangle, *normal);
-    if (reach == NearReach::whole || is_on_other_sheet || distance < kNearOnOwn * face.size)
+  // A face's centre lies in its box, whose diagonal is no shorter than the longest edge.
+  surface.tree.visit_near(x, kNearOnOther, [&](FaceId f, const Triangle& face) {
+    const double edges = edges_away(face, x);
+    if (edges >= kNearOnOther) return true;
+    if (reach == NearReach::whole || edges < kNearOnOwn || normal == nullptr ||
+        is_turned_away(face, *normal))
       faces.push_back(f);
     return true;
   });
