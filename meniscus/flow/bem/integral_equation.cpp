@@ -132,7 +132,8 @@ double IntegralEquation::mean_normal_component(std::size_t m, const SourceVector
   return flux / area;
 }
 
-/// Σ_m d_m K_m of a velocity without rigid parts, `density` being d times it, at point i.
+/// Σ_m d_m K_m of a velocity without rigid parts, `density` being d times it at all nodes, at point
+/// i.
 Vec3 IntegralEquation::double_layer(const SourceVectors& density, std::int32_t i) const {
   Vec3 sum = double_layer_sum(geometry_.points, density, geometry_.points.point(i));
   const NearRow& near = rows_[static_cast<std::size_t>(i)];
@@ -149,6 +150,7 @@ void IntegralEquation::apply(std::span<const double> w, std::span<double> result
     mean_normal.push_back(mean_normal_component(m, density));
   for (std::int32_t j = 0; j < geometry_.size(); ++j)
     density.set(j, contrast_[surface_of(j)].difference * density.at(j));
+  density = geometry_.at_nodes(density);
   shared_.for_own([&](std::int32_t begin, std::int32_t end) {
     for (std::int32_t i = begin; i < end; ++i) {
       const std::size_t m = surface_of(i);

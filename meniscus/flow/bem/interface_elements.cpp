@@ -4,7 +4,6 @@
 #include <map>
 
 #include "meniscus/core/error.hpp"
-#include "meniscus/surface/edge_interpolation.hpp"
 #include "meniscus/surface/edge_middles.hpp"
 #include "meniscus/surface/quartic_curvature.hpp"
 
@@ -12,22 +11,6 @@ namespace meniscus::bem {
 namespace {
 
 using Face = InterfaceElements::Face;
-
-/// Geometry and interpolation of the edges, which the faces on both sides share.
-struct Edges {
-  std::vector<Vec3> middle;
-  std::vector<Stencil> stencil;
-  FaceField<std::array<std::size_t, 3>> of_face;
-};
-
-Edges make_edges(const SurfaceMesh& mesh, const SurfaceTopology& topology,
-                 const SmoothSurface& smooth, const VertexField<Vec3>& normals) {
-  Edges edges;
-  edges.middle = middles_on_patches(smooth, topology);
-  edges.stencil = edge_stencils(mesh, topology, normals, edges.middle);
-  edges.of_face = face_edges(mesh, topology);
-  return edges;
-}
 
 /// Columns in rising order of the vertices, so that sums do not depend on how they were found.
 void set_stencil(Face& face, const FaceVertices& corners,
@@ -72,19 +55,21 @@ InterfaceElements make_elements(const SurfaceMesh& mesh) {
     result.n.add(c.n);
     result.kappa.add(c.sum());
   }
-  const Edges edges = make_edges(mesh, topology, smooth, result.n);
+  const std::vector<Vec3> middles = middles_on_patches(smooth, topology);
+  result.middles = edge_stencils(mesh, topology, result.n, middles);
+  result.edges = face_edges(mesh, topology);
   result.weight = VertexField<double>(mesh.num_vertices(), 0.0);
   for (const FaceId f : mesh.faces.ids()) {
     Face face;
-    std::array<const Stencil*, 3> middles{};
+    std::array<const Stencil*, 3> stencils{};
     for (std::size_t k = 0; k < 3; ++k) {
       face.nodes[k] = mesh.x[mesh.faces[f][k]];
-      face.nodes[3 + k] = edges.middle[edges.of_face[f][k]];
-      middles[k] = &edges.stencil[edges.of_face[f][k]];
+      face.nodes[3 + k] = middles[result.edges[f][k]];
+      stencils[k] = &result.middles[result.edges[f][k]];
     }
     for (std::size_t k = 0; k < 3; ++k)
       face.size = std::max(face.size, (face.nodes[k] - face.nodes[(k + 1) % 3]).norm());
-    set_stencil(face, mesh.faces[f], middles);
+    set_stencil(face, mesh.faces[f], stencils);
     set_points_and_shares(face);
     MENISCUS_ASSERT(face.size > 0.0 && face.share.size() == face.columns.size(), "face {}",
                     f.value);

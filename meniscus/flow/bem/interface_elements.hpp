@@ -6,6 +6,7 @@
 #include "meniscus/geometry/quadratic_triangle.hpp"
 #include "meniscus/geometry/quadrature.hpp"
 #include "meniscus/mesh/surface_mesh.hpp"
+#include "meniscus/surface/edge_interpolation.hpp"
 
 namespace meniscus::bem {
 
@@ -24,10 +25,12 @@ struct InterfaceElements {
     };
     std::array<Point, kTriangleRule5.size()> points;
     std::vector<double> share;  ///< ∫_face f dS ≈ Σ_c share[c] f(x of columns[c])
-    double size = 0.0;  ///< longest edge
+    double size = 0.0;          ///< longest edge
   };
   FaceField<Face> faces;
   FaceField<FaceVertices> corners;
+  FaceField<std::array<std::size_t, 3>> edges;  ///< by face, as its nodes 3 to 5
+  std::vector<Stencil> middles;                 ///< by edge: a function's value there
   VertexField<Vec3> x, n;
   VertexField<double> kappa;   ///< k1 + k2
   VertexField<double> weight;  ///< Σ of the faces' shares: ∮ f dS ≈ Σ_j weight_j f_j

@@ -114,8 +114,8 @@ Vec3 single_layer_sum(const SourcePoints& points, SourceRange range, const std::
 }
 
 Vec3 double_layer_sum(const SourcePoints& points, const SourceVectors& u, const Vec3& p) {
-  const Sum3 sum = double_layer(arrays(points, 0), u.x.data(), u.y.data(), u.z.data(), u.x.size(),
-                                {p.x(), p.y(), p.z()});
+  const Sum3 sum = double_layer(arrays(points, 0), u.x.data(), u.y.data(), u.z.data(),
+                                points.x.size(), {p.x(), p.y(), p.z()});
   return {sum.x, sum.y, sum.z};
 }
 

@@ -27,8 +27,11 @@ struct SourcePoints {
 
 /// A vector per source point, by component.
 struct SourceVectors {
-  explicit SourceVectors(std::int32_t size)
-      : x(static_cast<std::size_t>(size)), y(x.size()), z(x.size()) {}
+  explicit SourceVectors(std::int32_t size) { resize(size); }
+  void resize(std::int32_t size) {
+    for (std::vector<double>* component : {&x, &y, &z})
+      component->resize(static_cast<std::size_t>(size));
+  }
   [[nodiscard]] Vec3 at(std::int32_t j) const {
     const auto k = static_cast<std::size_t>(j);
     return {x[k], y[k], z[k]};
@@ -61,7 +64,8 @@ using Symmetric = std::array<double, 6>;
 /// The same over a range of the points, with a q for each of the range.
 [[nodiscard]] Vec3 single_layer_sum(const SourcePoints& points, SourceRange range,
                                     const std::vector<double>& q, const Vec3& p);
-/// Σ_j r (r·u_j)(r·a_j)/r⁵: the double layer of u, times −4π/6 when the kernel is −6 rrr/r⁵.
+/// Σ_j r (r·u_j)(r·a_j)/r⁵: the double layer of u, times −4π/6 when the kernel is −6 rrr/r⁵. What
+/// u has beyond the points does not count.
 [[nodiscard]] Vec3 double_layer_sum(const SourcePoints& points, const SourceVectors& u,
                                     const Vec3& p);
 /// Both sums over a range of the points, for q = 1 and for u = the unit vectors.

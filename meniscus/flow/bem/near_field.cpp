@@ -40,7 +40,7 @@ NodeDensity node_density(const BoundaryGeometry& geometry, const std::vector<dou
   return density;
 }
 
-/// Builds one row after another; keeps an array over all points for the columns of the row at hand.
+/// Builds one row after another; keeps an array over all nodes for the columns of the row at hand.
 class RowBuilder {
  public:
   RowBuilder(const BoundaryGeometry& geometry, const std::vector<double>& q,
@@ -49,9 +49,9 @@ class RowBuilder {
         q_(q),
         node_density_(node_density),
         has_double_layer_(has_double_layer),
-        dense_(static_cast<std::size_t>(geometry.size())),
+        dense_(static_cast<std::size_t>(geometry.num_nodes())),
         share_(static_cast<std::size_t>(geometry.size()), 0.0),
-        is_touched_(static_cast<std::size_t>(geometry.size()), false) {}
+        is_touched_(dense_.size(), false) {}
 
   NearRow row(std::int32_t i) {
     row_ = {};
@@ -79,16 +79,17 @@ class RowBuilder {
     for (const FaceId f : near_) add_face(m, f, i);
     remove_vertex_rule(m, i);
     if (own == m) {
-      subtract(m, i, 1.0, kOnSurface);
+      subtract(m, i, q_[static_cast<std::size_t>(i)], 1.0, kOnSurface);
       return;
     }
     const SurfaceTree::Hit nearest = surface.tree.closest(x_);
-    const Face& face = surface.elements.faces[nearest.face];
-    const std::vector<double> weights = value_weights(face, nearest.weights);
-    MENISCUS_ASSERT(weights.size() == face.columns.size(), "point {}", i);
+    const Vec3& b = nearest.weights;
+    const NodeValues weights = quadratic_values({b[0], b[1], b[2]});
+    const auto nodes = geometry_.nodes(m, nearest.face);
     const bool is_inside = geometry_.surfaces[own].is_inside_of[m];
-    for (std::size_t c = 0; c < weights.size(); ++c)
-      subtract(m, geometry_.index(m, face.columns[c]), weights[c], is_inside ? kInside : 0.0);
+    for (std::size_t a = 0; a < weights.size(); ++a)
+      subtract(m, nodes[a], node_density_[m][nearest.face][a], weights[a],
+               is_inside ? kInside : 0.0);
   }
 
   [[nodiscard]] ConstantLayers constant_layers(std::size_t m) {
@@ -104,21 +105,12 @@ class RowBuilder {
                                              node_density_[m][f], has_double_layer_[m]);
     row_.single += moments.single;
     constant_.single += moments.constant;
-    if (has_double_layer_[m]) add_double_layer(m, face, moments);
+    if (has_double_layer_[m]) {
+      const auto nodes = geometry_.nodes(m, f);
+      for (std::size_t a = 0; a < nodes.size(); ++a) add_double(nodes[a], moments.double_layer[a]);
+    }
     for (std::size_t c = 0; c < face.columns.size(); ++c)
       add_share(geometry_.index(m, face.columns[c]), face.share[c]);
-  }
-
-  void add_double_layer(std::size_t m, const Face& face, const FaceMoments& moments) {
-    for (const Symmetric& moment : moments.double_layer) add(constant_.double_layer, 1.0, moment);
-    for (std::size_t c = 0; c < face.columns.size(); ++c) {
-      Symmetric& entry = at(geometry_.index(m, face.columns[c]));
-      for (std::size_t a = 0; a < kQuadraticNodes; ++a) {
-        const double to_node =
-            face.to_nodes(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(c));
-        if (to_node != 0.0) add(entry, to_node, moments.double_layer[a]);
-      }
-    }
   }
 
   void add_share(std::int32_t j, double share) {
@@ -138,8 +130,7 @@ class RowBuilder {
       if (has_double_layer_[m]) {
         const LayerKernels kernels = layer_kernels(r, area);
         add_single(j, kernels.single);
-        add(constant_.double_layer, 1.0, kernels.double_layer);
-        add(at(j), 1.0, kernels.double_layer);
+        add_double(j, kernels.double_layer);
       } else {
         add_single(j, single_layer_kernel(r, area));
       }
@@ -152,9 +143,15 @@ class RowBuilder {
     constant_.single += kernel;
   }
 
-  /// Replaces the rule's integral of the constant weight × (value at point j) by the exact one.
-  void subtract(std::size_t m, std::int32_t j, double weight, double exact) {
-    row_.single -= weight * q_[static_cast<std::size_t>(j)] * constant_.single;
+  void add_double(std::int32_t node, const Symmetric& kernel) {
+    add(at(node), 1.0, kernel);
+    add(constant_.double_layer, 1.0, kernel);
+  }
+
+  /// Replaces the rule's integral of the constant weight × (value at node j) by the exact one; q is
+  /// the single layer's density there.
+  void subtract(std::size_t m, std::int32_t j, double q, double weight, double exact) {
+    row_.single -= weight * q * constant_.single;
     if (!has_double_layer_[m]) return;
     add(at(j), -weight, constant_.double_layer);
     add_identity(at(j), weight * exact);

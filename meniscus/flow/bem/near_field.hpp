@@ -12,8 +12,8 @@ namespace meniscus::bem {
 /// point of another surface close by, is subtracted under the integral. Its known integral is
 /// added. Linear in the densities.
 struct NearRow {
-  std::vector<std::int32_t> columns;    ///< points
-  std::vector<Symmetric> double_layer;  ///< to be multiplied by the points' u, in double_layer_sum
+  std::vector<std::int32_t> columns;    ///< nodes of the geometry
+  std::vector<Symmetric> double_layer;  ///< to be multiplied by the nodes' u, in double_layer_sum
   Vec3 single = Vec3::Zero();           ///< to be added to single_layer_sum
 };
 

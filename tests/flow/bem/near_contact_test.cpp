@@ -70,8 +70,9 @@ Layers layers_by_rows(const BoundaryGeometry& geometry, const std::vector<double
   const NearRow& row = rows[static_cast<std::size_t>(i)];
   Layers sum{.single = single_layer_sum(geometry.points, q, x) + row.single,
              .double_layer = double_layer_sum(geometry.points, u, x)};
+  const SourceVectors at_nodes = geometry.at_nodes(u);
   for (std::size_t c = 0; c < row.columns.size(); ++c)
-    sum.double_layer += row.double_layer[c] * u.at(row.columns[c]);
+    sum.double_layer += row.double_layer[c] * at_nodes.at(row.columns[c]);
   return sum;
 }
 
