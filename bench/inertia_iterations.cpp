@@ -2,7 +2,9 @@
 // the stage and the ratios of densities and viscosities, and what products of cells take
 // (docs/inertia.md). Arguments: shape (sphere, prolate, dumbbell) [sphere], N0 [400], elements
 // (P1-P1, P2-P1) [P2-P1], viscosity ratios [1e-3,1,1e3], density ratios [1e-3,1,1e3],
-// s = μτ/(ρh²) of the matrix, h the mean edge of the interface [1e-3,1e-1,1e1,1e3,inf].
+// s = μτ/(ρh²) of the matrix, h the mean edge of the interface [1e-3,1e-1,1e1,1e3,inf], and what
+// drives the flow: a force on the drop across its axis, or walls in uniaxial extension at Ca = 0.17
+// (force, extension) [force].
 
 #include <cstdlib>
 #include <limits>
@@ -77,10 +79,9 @@ int main(int count, char** given) {
   check_linear_options({});  // starts PETSc
   const std::string shape = argument(1, "sphere");
   const Elements elements = argument(3, "P2-P1") == "P1-P1" ? Elements::p1_p1 : Elements::p2_p1;
-  StageFromRest stage({.num_vertices = std::stoi(argument(2, "400")),
-                       .Ca = 1e8,
-                       .outer_per_inner = 1.25,
-                       .drop_force = Vec3(0.0, 1e-8, 0.0)},
+  StageFromRest stage(argument(7, "force") == "extension"
+                          ? extended_drop(std::stoi(argument(2, "400")))
+                          : pushed_drop(std::stoi(argument(2, "400"))),
                       shape_of(shape), elements);
   fmt::print("{}, {} cells, {} nodes of velocities\n", shape, stage.mesh().num_cells(),
              stage.space().velocity.num_nodes);

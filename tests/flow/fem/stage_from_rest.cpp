@@ -7,6 +7,28 @@
 #include "meniscus/mesh/surface_measures.hpp"
 
 namespace meniscus::fem {
+namespace {
+
+constexpr double kSmall = 1e-8;
+
+}  // namespace
+
+SphereScene pushed_drop(int num_vertices) {
+  return {.num_vertices = num_vertices,
+          .Ca = 1.0 / kSmall,
+          .outer_per_inner = 1.25,
+          .drop_force = Vec3(0.0, kSmall, 0.0)};
+}
+
+SphereScene extended_drop(int num_vertices) {
+  return {.num_vertices = num_vertices,
+          .Ca = 0.17 / kSmall,
+          .outer_per_inner = 1.25,
+          .outer_velocity = [](const Vec3& x, double) -> Vec3 {
+            return kSmall * Vec3(x.x(), -0.5 * x.y(), -0.5 * x.z());
+          },
+          .is_linear_flow = true};
+}
 
 StageFromRest::StageFromRest(const SphereScene& options, DropShape shape, Elements elements)
     : scene_(sphere_in_sphere(options)) {

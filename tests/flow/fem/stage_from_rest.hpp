@@ -11,6 +11,11 @@ struct StageLiquids {
   double viscosity_ratio = 1.0, density = 1.0, density_ratio = 1.0;
 };
 
+/// Drops in a sphere of radius 10 that something drives so little that nothing convects: a force
+/// across their axis, or walls in uniaxial extension at Ca = 0.17.
+[[nodiscard]] SphereScene pushed_drop(int num_vertices);
+[[nodiscard]] SphereScene extended_drop(int num_vertices);
+
 /// Implicit stages of a drop in a sphere that begin at rest, by linear systems with fresh
 /// preconditioners. The mesh is made once.
 class StageFromRest {
