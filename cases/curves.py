@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws one column of tables against another as SVG.
 
-    curves.py OUTPUT.svg X Y [--log] [--low] [--window X0 X1 Y0 Y1] [--labels TEXT TEXT] [--line SLOPE]
+    curves.py OUTPUT.svg X Y [--log] [--log-x] [--low] [--window X0 X1 Y0 Y1] [--labels TEXT TEXT] [--line SLOPE]
               TABLE,LABEL[,END]...
 
 With END the curve is drawn against END - X, the time that is left. Rows of other drops than the first are left out.
@@ -78,6 +78,7 @@ def main():
     parser.add_argument("y")
     parser.add_argument("tables", nargs="+")
     parser.add_argument("--log", action="store_true")
+    parser.add_argument("--log-x", action="store_true")
     parser.add_argument("--low", action="store_true")
     parser.add_argument("--window", type=float, nargs=4)
     parser.add_argument("--labels", nargs=2)
@@ -87,7 +88,7 @@ def main():
     curves = [(label, curve(file, options.x, options.y, float(end[0]) if end else None))
               for file, label, *end in parts]
     window = options.window or [f(p[k] for _, c in curves for p in c) for k in (0, 1) for f in (min, max)]
-    axes = Axes(window, options.log)
+    axes = Axes(window, options.log, options.log_x)
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" width="{WIDTH}" height="{HEIGHT}">',
            '<style>text{font:12px system-ui,sans-serif;fill:#4a525c}</style>',
            f'<rect width="{WIDTH}" height="{HEIGHT}" fill="#ffffff"/>']
