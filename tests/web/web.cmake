@@ -37,8 +37,7 @@ set_tests_properties(web_runs PROPERTIES FIXTURES_SETUP web_pages TIMEOUT 300)
 
 add_test(NAME web_page COMMAND ${NODE} ${WEB_TESTS}/page_test.mjs ${PROJECT_BINARY_DIR}/web
   ${WEB_WORK}/long ${WEB_WORK}/comparison.html ${WEB_WORK}/scalars ${WEB_WORK}/pictures)
-set_tests_properties(web_page PROPERTIES FIXTURES_REQUIRED web_pages TIMEOUT 300 SKIP_RETURN_CODE 77
-  RUN_SERIAL ON)  # it holds the page to times
+set_tests_properties(web_page PROPERTIES FIXTURES_REQUIRED web_pages TIMEOUT 300 SKIP_RETURN_CODE 77)
 
 add_test(NAME web_live COMMAND ${NODE} ${WEB_TESTS}/live_test.mjs ${PROJECT_BINARY_DIR}/web
   $<TARGET_FILE:meniscus_program> ${PROJECT_SOURCE_DIR}/examples/shear-subcritical.toml ${WEB_WORK}/live)
