@@ -117,51 +117,62 @@ MENISCUS_INLINE void find_at_points(const Nodal& v, AtPoints& at) {
   }
 }
 
-/// The transpose of `find_at_points`, added.
-MENISCUS_INLINE void add_to_nodes(const AtPoints& at, Nodal& r) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    Lanes to_corners = {}, to_edges = {};
-    for (const auto& [first, near, other, corner, near_corner] : kCornerOrbits) {
-      const Lanes sum = at[first][k] + at[first + 1][k] + at[first + 2][k] + at[first + 3][k];
-      to_corners += corner * sum;
-      to_edges += (4.0 * other * other) * sum;
-      for (std::size_t i = 0; i < 4; ++i) r[i][k] += near_corner * at[first + i][k];
-      for (std::size_t e = 0; e < 6; ++e) {
-        const auto [i, j] = kCellEdges[e];
-        r[4 + e][k] += (4.0 * other * (near - other)) * (at[first + i][k] + at[first + j][k]);
-      }
-    }
-    const auto& [first, near, other, corner, near_corner] = kEdgeOrbit;
-    Lanes sum = {};
-    for (std::size_t e = 0; e < 6; ++e) sum += at[first + e][k];
+/// Values at the points of one component.
+using ComponentAtPoints = std::array<Lanes, kTetrahedronRule5.size()>;
+
+/// The transpose of `find_at_points` for component k, added.
+MENISCUS_INLINE void add_to_nodes(const ComponentAtPoints& at, std::size_t k, Nodal& r) {
+  Lanes to_corners = {}, to_edges = {};
+  for (const auto& [first, near, other, corner, near_corner] : kCornerOrbits) {
+    const Lanes sum = at[first] + at[first + 1] + at[first + 2] + at[first + 3];
     to_corners += corner * sum;
-    to_edges += (4.0 * near * other) * sum;
+    to_edges += (4.0 * other * other) * sum;
+    for (std::size_t i = 0; i < 4; ++i) r[i][k] += near_corner * at[first + i];
     for (std::size_t e = 0; e < 6; ++e) {
       const auto [i, j] = kCellEdges[e];
-      r[i][k] += near_corner * at[first + e][k];
-      r[j][k] += near_corner * at[first + e][k];
-      r[4 + e][k] += to_edges + (4.0 * (near - other)) *
-                                    (near * at[first + e][k] - other * at[first + 5 - e][k]);
+      r[4 + e][k] += (4.0 * other * (near - other)) * (at[first + i] + at[first + j]);
     }
-    for (std::size_t i = 0; i < 4; ++i) r[i][k] += to_corners;
   }
-}
-
-/// Adds to forces along one axis, at all points, a velocity times a linear function of the corners.
-MENISCUS_INLINE void add_slopes(const AtPoints& along, std::size_t l, const Corners& slope,
-                                std::size_t k, AtPoints& force) {
-  const Lanes sum = slope[0] + slope[1] + slope[2] + slope[3];
-  for (const Orbit& orbit : kCornerOrbits)
-    for (std::size_t i = 0; i < 4; ++i)
-      force[orbit.first + i][k] +=
-          along[orbit.first + i][l] * (orbit.other * sum + (orbit.near - orbit.other) * slope[i]);
-  constexpr Orbit orbit = kEdgeOrbit;
+  const auto& [first, near, other, corner, near_corner] = kEdgeOrbit;
+  Lanes sum = {};
+  for (std::size_t e = 0; e < 6; ++e) sum += at[first + e];
+  to_corners += corner * sum;
+  to_edges += (4.0 * near * other) * sum;
   for (std::size_t e = 0; e < 6; ++e) {
     const auto [i, j] = kCellEdges[e];
-    force[orbit.first + e][k] +=
-        along[orbit.first + e][l] *
-        (orbit.other * sum + (orbit.near - orbit.other) * (slope[i] + slope[j]));
+    r[i][k] += near_corner * at[first + e];
+    r[j][k] += near_corner * at[first + e];
+    r[4 + e][k] +=
+        to_edges + (4.0 * (near - other)) * (near * at[first + e] - other * at[first + 5 - e]);
   }
+  for (std::size_t i = 0; i < 4; ++i) r[i][k] += to_corners;
+}
+
+/// Σ_l a_l s_l at the points, s_l linear functions that are given at the corners.
+MENISCUS_INLINE ComponentAtPoints sums_of_slopes(const AtPoints& along,
+                                                 const std::array<Corners, 3>& slopes) {
+  ComponentAtPoints result;
+  Lanes3 sum;
+  for (std::size_t l = 0; l < 3; ++l)
+    sum[l] = slopes[l][0] + slopes[l][1] + slopes[l][2] + slopes[l][3];
+  for (const auto& [first, near, other, corner, near_corner] : kCornerOrbits)
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Lanes3& a = along[first + i];
+      const auto by = [&](std::size_t l) {
+        return a[l] * (other * sum[l] + (near - other) * slopes[l][i]);
+      };
+      result[first + i] = by(0) + by(1) + by(2);
+    }
+  const auto& [first, near, other, corner, near_corner] = kEdgeOrbit;
+  for (std::size_t e = 0; e < 6; ++e) {
+    const auto [i, j] = kCellEdges[e];
+    const Lanes3& a = along[first + e];
+    const auto by = [&](std::size_t l) {
+      return a[l] * (other * sum[l] + (near - other) * (slopes[l][i] + slopes[l][j]));
+    };
+    result[first + e] = by(0) + by(1) + by(2);
+  }
+  return result;
 }
 
 /// ρa times the weights of the points, and the derivatives that go with its components. They are by
@@ -193,15 +204,17 @@ MENISCUS_INLINE void weigh(const CurvedCells& cells, const Lanes& density, AtPoi
 template <class Batch>
 MENISCUS_INLINE void add_convection(const Batch& cells, const Lanes& density, const Nodal& a,
                                     const Nodal& v, Nodal& r) {
-  AtPoints along, force = {};
+  AtPoints along;
   find_at_points(a, along);
   Derivatives d;
   differentiate(v, d);
   weigh(cells, density, along, d);
-  for (std::size_t l = 0; l < 3; ++l)
-    for (std::size_t k = 0; k < 3; ++k)
-      add_slopes(along, l, {d[0][l][k], d[1][l][k], d[2][l][k], d[3][l][k]}, k, force);
-  add_to_nodes(force, r);
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::array<Corners, 3> slopes;
+    for (std::size_t l = 0; l < 3; ++l)
+      slopes[l] = {d[0][l][k], d[1][l][k], d[2][l][k], d[3][l][k]};
+    add_to_nodes(sums_of_slopes(along, slopes), k, r);
+  }
 }
 
 /// Masses and convection, by a velocity at the nodes.
