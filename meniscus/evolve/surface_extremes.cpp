@@ -58,18 +58,23 @@ struct SurfaceExtremes::Around {
   SplinePatch spline;
   double h;  ///< mean edge at the vertex [R0]
 
-  [[nodiscard]] double height(const Vec2& u) const {
-    const SplinePatch::Height at = spline.height(u.x(), u.y());
-    const double paraboloid = -0.5 * (fit.k1 * u.x() * u.x() + fit.k2 * u.y() * u.y());
-    return at.trust * at.z + (1.0 - at.trust) * paraboloid;
+  [[nodiscard]] double paraboloid(const Vec3& d) const {
+    return -0.5 * (fit.k1 * d.x() * d.x() + fit.k2 * d.y() * d.y());
   }
+  /// At coordinates u of the spline, which near the vertex are those of the tangent plane.
   [[nodiscard]] Vec3 point(const Vec2& u) const {
-    return axes.x + u.x() * axes.t1 + u.y() * axes.t2 + height(u) * axes.n;
+    const SplinePatch::Level at = spline.level(u.x(), u.y());
+    Vec3 d(u.x(), u.y(), 0.0);
+    d.z() = paraboloid(d);
+    d += at.trust * (spline.point(at.g, u.x(), u.y()) - d);
+    return axes.x + d.x() * axes.t1 + d.y() * axes.t2 + d.z() * axes.n;
   }
-  /// How far a point lies above the surface.
+  /// How far a point lies above the surface, to first order.
   [[nodiscard]] double above(const Vec3& x) const {
-    const Vec3 d = x - axes.x;
-    return d.dot(axes.n) - height({d.dot(axes.t1), d.dot(axes.t2)});
+    const Vec3 from = x - axes.x, d(from.dot(axes.t1), from.dot(axes.t2), from.dot(axes.n));
+    const Vec3 flat = spline.coordinates(d);
+    const SplinePatch::Level at = spline.level(flat.x(), flat.y());
+    return at.trust * (flat.z() - at.g) + (1.0 - at.trust) * (d.z() - paraboloid(d));
   }
 };
 
@@ -97,7 +102,8 @@ SurfaceExtremes::Around SurfaceExtremes::around(VertexId v) {
     h += (mesh_.x[w] - mesh_.x[v]).norm() / topology_.valence(v);
   }
   nearest_first(mesh_.x[v], points);
-  return {fit, axes, SplinePatch(axes, fit.half_sum(), points), h};
+  return {fit, axes, SplinePatch(axes, fit.half_sum(), points, SplinePatch::Coordinates::unrolled),
+          h};
 }
 
 double SurfaceExtremes::support(const Vec3& e) {

@@ -4,21 +4,17 @@
 #include <span>
 
 #include "meniscus/core/error.hpp"
-#include "meniscus/surface/constants.hpp"
 #include "meniscus/surface/rings.hpp"
 #include "meniscus/surface/spline_patch.hpp"
-#include "meniscus/surface/trust.hpp"
 
 namespace meniscus {
 namespace {
 
-/// The vertices in the two rings of both ends, each once, by distance from `center`.
-void gather(RingGatherer& rings, const SurfaceEdge& edge, const Vec3& center,
-            std::vector<Vec3>& points) {
+/// The vertices in the two rings of both ends.
+void gather(RingGatherer& rings, const SurfaceEdge& edge, std::vector<Vec3>& points) {
   points.clear();
   for (const VertexId end : {edge.a, edge.b})
     for (const Vec3& p : rings.gather(end, true)) points.push_back(p);
-  nearest_first(center, points);
 }
 
 std::vector<Vec3> straight_middles(const SurfaceMesh& mesh, const SurfaceTopology& topology) {
@@ -87,15 +83,12 @@ std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh, const SurfaceTopol
   middles.reserve(end - first);
   for (const SurfaceEdge& edge : std::span(topology.edges()).subspan(first, end - first)) {
     const VertexCurvature &at_a = curvature[edge.a], &at_b = curvature[edge.b];
-    const HeightPatch axes =
-        flat_patch(smooth.edge_point(edge.a, edge.b, 0.5), (at_a.n + at_b.n).normalized());
-    gather(rings, edge, axes.x, points);
-    const SplinePatch spline(axes, 0.5 * (at_a.half_sum() + at_b.half_sum()), points);
-    const SplinePatch::Height at = spline.height(0.0, 0.0);
-    const Vec3 shift = spline.z(at.trust * at.level, 0.0, 0.0) * axes.n;
-    const Vec3 lift = axes.x + shift - 0.5 * (mesh.x[edge.a] + mesh.x[edge.b]);
-    const double limit = kHighestMiddle * (mesh.x[edge.b] - mesh.x[edge.a]).norm();
-    middles.emplace_back(axes.x + trust(lift.norm(), limit) * shift);
+    const Vec3 a = mesh.x[edge.a], b = mesh.x[edge.b];
+    gather(rings, edge, points);
+    middles.push_back(
+        point_on_spline(smooth.edge_point(edge.a, edge.b, 0.5), (at_a.n + at_b.n).normalized(),
+                        0.5 * (at_a.half_sum() + at_b.half_sum()), points,
+                        SplinePatch::Coordinates::flat, 0.5 * (a + b), (b - a).norm()));
   }
   return middles;
 }

@@ -153,6 +153,7 @@ std::optional<Fault> rebuild(SurfaceMesh& mesh, const RemeshOptions& options, Su
   RemeshState state = start_state(reference, mesh, topology);
   equilibrate(state, options, report);
   lift_to_surface(state);
+  if (options.on_splines) lift_to_splines(state, mesh, topology);
   report.expected_vertices = expected_vertices(state);
   if (auto fault = find_fold(state)) return fault;
 

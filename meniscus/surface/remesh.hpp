@@ -22,6 +22,9 @@ struct RemeshOptions {
   int min_vertices =
       kFewestVertices;  ///< however small or round the drop, its C0 is raised to give this many
   int max_sweeps = 20;
+  /// Whether vertices end on splines (`SplinePatch`), O(h⁶), instead of the patches of
+  /// `SmoothSurface`, O(h⁴): for smooth surfaces that are remeshed again and again.
+  bool on_splines = false;
   /// Springs are at rest when every vertex is within this fraction of its l0 of its own rest. 0:
   /// what makes the result independent of the history, 0.006 (1000/N)^½ for N > 1000 vertices. A
   /// strain that varies over the whole surface moves no vertex by more than strain × l0/R.

@@ -4,12 +4,19 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/surface/rings.hpp"
+#include "meniscus/surface/spline_patch.hpp"
+#include "meniscus/surface/trust.hpp"
+
 namespace meniscus {
 namespace {
 
 /// Cosine between a face and the surface normal at its corners below which it counts as folded:
 /// 60°. A face whose corners span an arc of 60° of a circle, as coarse as remeshing goes, has 30°.
 constexpr double kUprightCosine = 0.5;
+/// How far apart a patch and a spline may be, in edges, for the spline to be known better: patches
+/// of a drop of 60 vertices are off by 0.01.
+constexpr double kMostShift = 0.05;
 
 }  // namespace
 
@@ -33,6 +40,30 @@ void lift_to_surface(RemeshState& state) {
   for (const VertexId v : state.vertices.ids())
     if (state.mesh.is_alive(v))
       state.vertices[v].x = state.reference.surface.point(state.vertices[v].point);
+}
+
+void lift_to_splines(RemeshState& state, const SurfaceMesh& mesh, const SurfaceTopology& topology) {
+  const SmoothSurface& surface = state.reference.surface;
+  const VertexField<VertexCurvature>& curvature = surface.vertex_curvature();
+  RingGatherer rings(mesh, topology);
+  std::vector<Vec3> points;
+  for (const VertexId v : state.vertices.ids()) {
+    if (!state.mesh.is_alive(v)) continue;
+    const SurfacePoint& at = state.vertices[v].point;
+    const FaceVertices& corners = mesh.faces[at.face];
+    const auto [x, n] = surface.at(at);
+    points.clear();
+    double half_sum = 0.0, longest = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (const Vec3& p : rings.gather(corners[k], true)) points.push_back(p);
+      half_sum += at.weights[static_cast<int>(k)] * curvature[corners[k]].half_sum();
+      longest = std::max(longest, (mesh.x[corners[k]] - mesh.x[corners[(k + 1) % 3]]).norm());
+    }
+    const Vec3 shift = point_on_spline(x, n, half_sum, points, SplinePatch::Coordinates::unrolled,
+                                       state.reference.walk.flat_point(at), longest) -
+                       x;
+    state.vertices[v].x = x + trust(shift.norm(), kMostShift * longest) * shift;
+  }
 }
 
 RemeshVertex halfway(const RemeshReference& reference, const RemeshVertex& a,

@@ -59,6 +59,8 @@ struct RemeshState {
 [[nodiscard]] RemeshVertex vertex_at(const RemeshReference& reference, const SurfacePoint& point);
 /// Puts all vertices on the smooth surface.
 void lift_to_surface(RemeshState& state);
+/// Puts all vertices on splines (`SplinePatch`) through the vertices of the surface as it came.
+void lift_to_splines(RemeshState& state, const SurfaceMesh& mesh, const SurfaceTopology& topology);
 /// The vertex half-way between two on the reference surface.
 [[nodiscard]] RemeshVertex halfway(const RemeshReference& reference, const RemeshVertex& a,
                                    const RemeshVertex& b);

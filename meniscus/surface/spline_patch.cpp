@@ -18,8 +18,9 @@ double spline(const Eigen::Vector2d& d) {
 }  // namespace
 
 /// Sets up [Φ P; Pᵀ 0], whose solutions are the weights of the vertices' levels at a point.
-SplinePatch::SplinePatch(const HeightPatch& axes, double half_sum, std::span<const Vec3> points)
-    : half_sum_(half_sum) {
+SplinePatch::SplinePatch(const HeightPatch& axes, double half_sum, std::span<const Vec3> points,
+                         Coordinates coordinates)
+    : half_sum_(half_sum), coordinates_(coordinates) {
   points = points.first(std::min(points.size(), kMostPoints));
   const auto count = static_cast<Eigen::Index>(points.size());
   if (count < kTerms) return;
@@ -28,8 +29,9 @@ SplinePatch::SplinePatch(const HeightPatch& axes, double half_sum, std::span<con
   levels_.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Vec3 d = points[static_cast<std::size_t>(i)] - axes.x;
-    at_.emplace_back(d.dot(axes.t1) / unit_, d.dot(axes.t2) / unit_);
-    levels_[i] = d.dot(axes.n) + 0.5 * half_sum * d.squaredNorm();
+    const Vec3 here = this->coordinates({d.dot(axes.t1), d.dot(axes.t2), d.dot(axes.n)});
+    at_.emplace_back(here.head<2>() / unit_);
+    levels_[i] = here.z();
   }
   Matrix matrix = Matrix::Zero(count + kTerms, count + kTerms);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -42,8 +44,8 @@ SplinePatch::SplinePatch(const HeightPatch& axes, double half_sum, std::span<con
   equations_.compute(matrix);
 }
 
-SplinePatch::Height SplinePatch::height(double u, double v) const {
-  if (!(unit_ > 0.0)) return {0.0, z(0.0, u, v), 0.0};
+SplinePatch::Level SplinePatch::level(double u, double v) const {
+  if (!(unit_ > 0.0)) return {};
   const Vec2 here(u / unit_, v / unit_);
   const Eigen::Index count = levels_.size();
   Vector side(count + kTerms);
@@ -53,15 +55,44 @@ SplinePatch::Height SplinePatch::height(double u, double v) const {
   const Vector weights = equations_.solve(side).head(count);
   const double amplification = weights.lpNorm<1>();
   // A singular matrix leaves weights that are large or not numbers.
-  if (!(amplification < 2.0 * kMostAmplification)) return {0.0, z(0.0, u, v), 0.0};
-  const double level = weights.dot(levels_);
-  return {level, z(level, u, v), trust(amplification, kMostAmplification)};
+  if (!(amplification < 2.0 * kMostAmplification)) return {};
+  return {weights.dot(levels_), trust(amplification, kMostAmplification)};
 }
 
-/// z of z + ½H (u² + v² + z²) = g.
-double SplinePatch::z(double level, double u, double v) const {
-  const double rest = level - 0.5 * half_sum_ * (u * u + v * v);
-  return 2.0 * rest / (1.0 + std::sqrt(std::max(0.0, 1.0 + 2.0 * half_sum_ * rest)));
+double SplinePatch::scale(double z) const {
+  if (coordinates_ == Coordinates::flat) return 1.0;
+  const double turned = half_sum_ * z;
+  return std::sqrt(std::hypot(1.0, turned) - turned);
+}
+
+Vec3 SplinePatch::coordinates(const Vec3& point) const {
+  const double s = scale(point.z());
+  return {s * point.x(), s * point.y(), point.z() + 0.5 * half_sum_ * point.squaredNorm()};
+}
+
+Vec3 SplinePatch::point(double g, double u, double v) const {
+  constexpr int kMostSteps = 30;
+  const double squared = u * u + v * v;
+  double z = 0.0, s = 1.0;
+  for (int step = 0; step < kMostSteps; ++step) {
+    // z + ½H ((u² + v²)/s² + z²) = g with the s of the z before.
+    const double rest = g - 0.5 * half_sum_ * squared / (s * s);
+    const double next = 2.0 * rest / (1.0 + std::sqrt(std::max(0.0, 1.0 + 2.0 * half_sum_ * rest)));
+    const bool is_found = std::abs(next - z) <= 1e-15 * unit_;
+    z = next;
+    s = scale(z);
+    if (is_found) break;
+  }
+  return {u / s, v / s, z};
+}
+
+Vec3 point_on_spline(const Vec3& x, const Vec3& n, double half_sum, std::vector<Vec3>& around,
+                     SplinePatch::Coordinates coordinates, const Vec3& flat, double edge) {
+  nearest_first(x, around);
+  const SplinePatch spline(flat_patch(x, n), half_sum, around, coordinates);
+  const SplinePatch::Level at = spline.level(0.0, 0.0);
+  const Vec3 shift = spline.point(at.trust * at.g, 0.0, 0.0).z() * n;
+  return x + trust((x + shift - flat).norm(), kHighestMiddle * edge) * shift;
 }
 
 void nearest_first(const Vec3& center, std::vector<Vec3>& points) {
