@@ -21,17 +21,21 @@ double spline(const Eigen::Vector2d& d) {
 SplinePatch::SplinePatch(const HeightPatch& axes, double half_sum, std::span<const Vec3> points,
                          Coordinates coordinates)
     : half_sum_(half_sum), coordinates_(coordinates) {
-  points = points.first(std::min(points.size(), kMostPoints));
-  const auto count = static_cast<Eigen::Index>(points.size());
+  std::vector<Vec3> local;
+  for (const Vec3& point : points) {
+    const Vec3 d = point - axes.x;
+    const Vec3 here(d.dot(axes.t1), d.dot(axes.t2), d.dot(axes.n));
+    if (local.size() < kMostPoints && can_see(here)) local.push_back(here);
+  }
+  const auto count = static_cast<Eigen::Index>(local.size());
   if (count < kTerms) return;
-  unit_ = (points.back() - axes.x).norm();
+  unit_ = local.back().norm();
   if (!(unit_ > 0.0)) return;  // all points in one place
   levels_.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Vec3 d = points[static_cast<std::size_t>(i)] - axes.x;
-    const Vec3 here = this->coordinates({d.dot(axes.t1), d.dot(axes.t2), d.dot(axes.n)});
-    at_.emplace_back(here.head<2>() / unit_);
-    levels_[i] = here.z();
+    const Vec3 flat = this->coordinates(local[static_cast<std::size_t>(i)]);
+    at_.emplace_back(flat.head<2>() / unit_);
+    levels_[i] = flat.z();
   }
   Matrix matrix = Matrix::Zero(count + kTerms, count + kTerms);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -57,6 +61,13 @@ SplinePatch::Level SplinePatch::level(double u, double v) const {
   // A singular matrix leaves weights that are large or not numbers.
   if (!(amplification < 2.0 * kMostAmplification)) return {};
   return {weights.dot(levels_), trust(amplification, kMostAmplification)};
+}
+
+/// Unrolled coordinates are one-to-one as far as this below the tangent plane: some 84° of a
+/// sphere.
+bool SplinePatch::can_see(const Vec3& point) const {
+  constexpr double kDeepest = 0.9;  // in osculating radii 1/H
+  return coordinates_ == Coordinates::flat || half_sum_ * point.z() > -kDeepest;
 }
 
 double SplinePatch::scale(double z) const {

@@ -57,6 +57,7 @@ class SplinePatch {
   using Vec2 = Eigen::Vector2d;
 
   [[nodiscard]] double scale(double z) const;
+  [[nodiscard]] bool can_see(const Vec3& point) const;
 
   double half_sum_;
   Coordinates coordinates_;

@@ -81,9 +81,8 @@ double spheroid_error(int N0) {
 }
 
 TEST(DropShape, TipsBetweenVerticesAreFound) {
-  const double coarse = spheroid_error(110);
-  EXPECT_LT(coarse, 7e-4);
-  EXPECT_LT(spheroid_error(440), coarse / 16.0);
+  EXPECT_LT(spheroid_error(110), 1.5e-4);
+  EXPECT_LT(spheroid_error(440), 1.5e-5);
 }
 
 TEST(DropShape, SphereHasNoDeformationInAnyFlow) {
