@@ -14,8 +14,8 @@ namespace {
 /// Cosine between a face and the surface normal at its corners below which it counts as folded:
 /// 60°. A face whose corners span an arc of 60° of a circle, as coarse as remeshing goes, has 30°.
 constexpr double kUprightCosine = 0.5;
-/// How far apart a patch and a spline may be, in edges, for the spline to be known better: patches
-/// of a drop of 60 vertices are off by 0.01.
+/// A patch and a spline farther apart than this, in edges: then the spline is no better known.
+/// Patches of a drop of 60 vertices are off by 0.01.
 constexpr double kMostShift = 0.05;
 
 }  // namespace

@@ -11,22 +11,22 @@
 namespace meniscus {
 
 /// A spline through the vertices around one place of a surface. In the frame of a point near the
-/// surface, x and y in the tangent plane, z along the normal and H the half-sum of curvatures
+/// surface x and y lie in the tangent plane, z along the normal. With H, the half-sum of curvatures
 /// there,
 ///
 ///   g = z + ½H (x² + y² + z²),    (u, v) = s (x, y).
 ///
 /// The level g is zero on the osculating sphere. With s² = (1 + (Hz)²)^½ − Hz the coordinates
 /// unroll the surface, as the stereographic projection, s = 1/(1 + Hz/2), does to second order.
-/// Then a patch may reach around half of a drop. g(u, v) is interpolated from the vertices by
-/// polyharmonic splines
-/// Σ c_i |(u, v) − (u_i, v_i)|⁷ plus a polynomial of degree four. Exact on spheres, else of an
-/// error of about O(h⁶). It needs 15 vertices or more, and takes the 32 nearest.
+/// Then a patch may reach around half of a drop. The function g(u, v) is interpolated from the
+/// vertices by polyharmonic splines Σ c_i |(u, v) − (u_i, v_i)|⁷ plus a polynomial of degree four.
+/// Exact on spheres, else of an error of about O(h⁶). It needs 15 vertices or more, and takes the
+/// 32 nearest.
 class SplinePatch {
  public:
   /// Which coordinates a level is a function of: those of the tangent plane, s = 1, or unrolled
-  /// ones. These reach farther around a drop. Yet where the set of vertices changes
-  /// on a rough surface, the first have given the spline up already, and the second jump.
+  /// ones. These reach farther around a drop. Yet they jump where the set of vertices changes on a
+  /// rough surface; there the others have given the spline up already.
   enum class Coordinates { flat, unrolled };
   /// `axes`: the frame; `points`: the vertices around its origin, in the order of `nearest_first`.
   SplinePatch(const HeightPatch& axes, double half_sum, std::span<const Vec3> points,
