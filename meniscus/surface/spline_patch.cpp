@@ -21,20 +21,23 @@ double spline(const Eigen::Vector2d& d) {
 SplinePatch::SplinePatch(const HeightPatch& axes, double half_sum, std::span<const Vec3> points,
                          Coordinates coordinates)
     : half_sum_(half_sum), coordinates_(coordinates) {
-  std::vector<Vec3> local;
+  std::array<Vec3, kMostPoints> local;
+  std::size_t seen = 0;
   for (const Vec3& point : points) {
+    if (seen == kMostPoints) break;
     const Vec3 d = point - axes.x;
     const Vec3 here(d.dot(axes.t1), d.dot(axes.t2), d.dot(axes.n));
-    if (local.size() < kMostPoints && can_see(here)) local.push_back(here);
+    if (can_see(here)) local[seen++] = here;
   }
-  const auto count = static_cast<Eigen::Index>(local.size());
+  const auto count = static_cast<Eigen::Index>(seen);
   if (count < kTerms) return;
-  unit_ = local.back().norm();
+  unit_ = local[seen - 1].norm();
   if (!(unit_ > 0.0)) return;  // all points in one place
   levels_.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Vec3 flat = this->coordinates(local[static_cast<std::size_t>(i)]);
-    at_.emplace_back(flat.head<2>() / unit_);
+    const auto k = static_cast<std::size_t>(i);
+    const Vec3 flat = this->coordinates(local[k]);
+    at_[k] = flat.head<2>() / unit_;
     levels_[i] = flat.z();
   }
   Matrix matrix = Matrix::Zero(count + kTerms, count + kTerms);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -61,8 +62,8 @@ class SplinePatch {
 
   double half_sum_;
   Coordinates coordinates_;
-  double unit_ = 0.0;  // of length: the distance of the farthest vertex
-  std::vector<Vec2> at_;
+  double unit_ = 0.0;                 // of length: the distance of the farthest vertex
+  std::array<Vec2, kMostPoints> at_;  // of the first levels_.size() vertices
   Vector levels_;
   Eigen::PartialPivLU<Matrix> equations_;
 };

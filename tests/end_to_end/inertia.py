@@ -57,7 +57,7 @@ def main():
         check_momentum(folder, elements)
 
         thread = work / f"break-{elements}.toml"
-        thread.write_text(with_inertia(BREAK.format(radius=0.2, end=0.12), 0.5) + COMMON + solver.format(radius=5),
+        thread.write_text(with_inertia(BREAK.format(radius=0.2, end=0.08), 0.5) + COMMON + solver.format(radius=5),
                           encoding="utf-8")
         folder = thread.with_suffix("")
         run(program, "run", str(thread), "-o", str(folder), "-q")

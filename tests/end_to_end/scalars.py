@@ -70,7 +70,7 @@ def main():
                     str(work / "thread.off"), "--aspect", "6", "--amplitude", "0.6", "--edges", "8"],
                    check=True)
     thread = work / "thread.toml"
-    thread.write_text(with_surfactant(BREAK.format(radius=0.2, end=0.12)) + SPECIES + OF_DROP + COMMON +
+    thread.write_text(with_surfactant(BREAK.format(radius=0.2, end=0.03)) + SPECIES + OF_DROP + COMMON +
                       solver.format(radius=5), encoding="utf-8")
     run(program, "run", str(thread), "-o", str(work / "break"), "-q")
     check_resuming(program, work / "break", check_breaking(work / "break"))
