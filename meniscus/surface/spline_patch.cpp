@@ -29,41 +29,48 @@ SplinePatch::SplinePatch(const HeightPatch& axes, double half_sum, std::span<con
     const Vec3 here(d.dot(axes.t1), d.dot(axes.t2), d.dot(axes.n));
     if (can_see(here)) local[seen++] = here;
   }
-  const auto count = static_cast<Eigen::Index>(seen);
-  if (count < kTerms) return;
+  if (seen < kTerms) return;
   unit_ = local[seen - 1].norm();
   if (!(unit_ > 0.0)) return;  // all points in one place
-  levels_.resize(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const Vec3 flat = this->coordinates(local[k]);
-    at_[k] = flat.head<2>() / unit_;
+  count_ = seen;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Vec3 flat = this->coordinates(local[i]);
+    at_[i] = flat.head<2>() / unit_;
     levels_[i] = flat.z();
   }
-  Matrix matrix = Matrix::Zero(count + kTerms, count + kTerms);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Vec2& here = at_[static_cast<std::size_t>(i)];
-    for (Eigen::Index j = 0; j < i; ++j)
-      matrix(i, j) = matrix(j, i) = spline(here - at_[static_cast<std::size_t>(j)]);
-    matrix.row(i).tail<kTerms>() << 1.0, monomials<4>(here.x(), here.y()).transpose();
-    matrix.col(i).tail<kTerms>() = matrix.row(i).tail<kTerms>();
+  equations_.reset(count_ + kTerms);
+  for (std::size_t i = 0; i < count_; ++i) {
+    for (std::size_t j = 0; j < i; ++j)
+      equations_(i, j) = equations_(j, i) = spline(at_[i] - at_[j]);
+    const std::array<double, kTerms> terms = terms_at(at_[i]);
+    for (std::size_t k = 0; k < kTerms; ++k)
+      equations_(i, count_ + k) = equations_(count_ + k, i) = terms[k];
   }
-  equations_.compute(matrix);
+  equations_.factorize();
+}
+
+std::array<double, SplinePatch::kTerms> SplinePatch::terms_at(const Vec2& place) {
+  std::array<double, kTerms> terms{1.0};
+  const auto others = monomials<4>(place.x(), place.y());
+  std::ranges::copy(others, terms.begin() + 1);
+  return terms;
 }
 
 SplinePatch::Level SplinePatch::level(double u, double v) const {
-  if (!(unit_ > 0.0)) return {};
+  if (count_ == 0) return {};
   const Vec2 here(u / unit_, v / unit_);
-  const Eigen::Index count = levels_.size();
-  Vector side(count + kTerms);
-  for (Eigen::Index i = 0; i < count; ++i)
-    side[i] = spline(here - at_[static_cast<std::size_t>(i)]);
-  side.tail<kTerms>() << 1.0, monomials<4>(here.x(), here.y());
-  const Vector weights = equations_.solve(side).head(count);
-  const double amplification = weights.lpNorm<1>();
+  std::array<double, kMostPoints + kTerms> weights;
+  for (std::size_t i = 0; i < count_; ++i) weights[i] = spline(here - at_[i]);
+  std::ranges::copy(terms_at(here), weights.begin() + static_cast<std::ptrdiff_t>(count_));
+  equations_.solve(std::span(weights).first(count_ + kTerms));
+  double amplification = 0.0, g = 0.0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    amplification += std::abs(weights[i]);
+    g += weights[i] * levels_[i];
+  }
   // A singular matrix leaves weights that are large or not numbers.
   if (!(amplification < 2.0 * kMostAmplification)) return {};
-  return {weights.dot(levels_), trust(amplification, kMostAmplification)};
+  return {g, trust(amplification, kMostAmplification)};
 }
 
 /// Unrolled coordinates are one-to-one as far as this below the tangent plane: some 84° of a

@@ -4,8 +4,7 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/LU>
-
+#include "meniscus/surface/dense_equations.hpp"
 #include "meniscus/surface/height_patch.hpp"
 #include "meniscus/surface/polynomial_fit.hpp"
 
@@ -49,23 +48,22 @@ class SplinePatch {
  private:
   // Vertices are taken in the order of their distance; more cost time and add nothing.
   static constexpr std::size_t kMostPoints = 32;
-  static constexpr Eigen::Index kTerms = 1 + num_monomials(4);
-  // Of a spline's equations: of bounded size, so that no memory is allocated for each place.
-  static constexpr int kMostUnknowns = static_cast<int>(kMostPoints + kTerms);
-  using Matrix =
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostUnknowns, kMostUnknowns>;
-  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostUnknowns, 1>;
+  static constexpr std::size_t kTerms = 1 + num_monomials(4);
+  static_assert(kMostPoints + kTerms <= DenseEquations::kMost);
   using Vec2 = Eigen::Vector2d;
 
+  /// 1 and the monomials up to degree four.
+  [[nodiscard]] static std::array<double, kTerms> terms_at(const Vec2& place);
   [[nodiscard]] double scale(double z) const;
   [[nodiscard]] bool can_see(const Vec3& point) const;
 
   double half_sum_;
   Coordinates coordinates_;
-  double unit_ = 0.0;                 // of length: the distance of the farthest vertex
-  std::array<Vec2, kMostPoints> at_;  // of the first levels_.size() vertices
-  Vector levels_;
-  Eigen::PartialPivLU<Matrix> equations_;
+  double unit_ = 0.0;      // of length: the distance of the farthest vertex
+  std::size_t count_ = 0;  // of the vertices
+  std::array<Vec2, kMostPoints> at_;
+  std::array<double, kMostPoints> levels_;
+  DenseEquations equations_;
 };
 
 /// The point above or below x, along the unit normal n there, of the spline through the vertices
