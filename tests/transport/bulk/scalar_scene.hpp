@@ -19,6 +19,9 @@ class ScalarScene {
     fem::SphereScene spheres;
     fem::Elements elements = fem::Elements::p2_p1;
     double cell_volume = 0.0;  ///< of the volume mesh; 0: what suits the elements
+    /// Whether cells grow from interfaces inwards, to a size in the middle that does not depend on
+    /// N0; else they stay as long as the interface's edges.
+    bool grows_inwards = true;
     Scalar scalar = {.name = "T"};
     ScalarLiquid matrix = {}, drop = {};
     ScalarCondition wall = {};
@@ -33,6 +36,7 @@ class ScalarScene {
     scene.boundary.patches[PatchId{0}].scalars = {options.wall};
     VolumeMeshOptions volume = fem::suited_volume_mesh(options.elements);
     if (options.cell_volume > 0.0) volume.cell_volume = options.cell_volume;
+    if (!options.grows_inwards) volume.interior_growth = 0.0;
     const VolumeMeshReport report = tetrahedralize(scene, volume, mesh);
     EXPECT_TRUE(report.ok()) << report.text();
   }
