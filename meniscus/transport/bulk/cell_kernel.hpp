@@ -99,18 +99,29 @@ void with_kernel(const ScalarSpace& space, const NodePositions& positions, Actio
   return action(kernel);
 }
 
-/// Adds a multiple of an element matrix to the values of a matrix on the space's graph.
+/// A multiple of an element matrix, and the values of a matrix on the space's graph that get it.
 template <std::size_t Size>
-void add_to(const ScalarSpace& space, CellId c, const std::array<double, Size>& element,
-            double factor, std::vector<double>& values) {
+struct Addition {
+  const std::array<double, Size>& element;
+  double factor;
+  std::vector<double>& values;
+};
+
+/// Adds element matrices of one cell.
+template <std::size_t Size, class... Others>
+void add_to(const ScalarSpace& space, CellId c, const Addition<Size>& first,
+            const Others&... others) {
   const auto nodes = space.elements.velocity.of(c);
   const std::size_t count = nodes.size();
-  std::size_t pair = static_cast<std::size_t>(c.value) * count * count;
-  const double* entry = element.data();
+  std::size_t position = static_cast<std::size_t>(c.value) * Size, pair = 0;
   for (std::size_t a = 0; a < count; ++a) {
-    double* row = values.data() + space.graph.row_start[static_cast<std::size_t>(nodes[a])];
-    for (std::size_t b = 0; b < count; ++b, ++pair)
-      row[space.graph.position[pair]] += factor * *entry++;
+    const auto row =
+        static_cast<std::size_t>(space.graph.row_start[static_cast<std::size_t>(nodes[a])]);
+    for (std::size_t b = 0; b < count; ++b, ++pair, ++position) {
+      const std::size_t entry = row + space.graph.position[position];
+      first.values[entry] += first.factor * first.element[pair];
+      ((others.values[entry] += others.factor * others.element[pair]), ...);
+    }
   }
 }
 

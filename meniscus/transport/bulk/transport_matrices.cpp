@@ -141,20 +141,24 @@ CellSums cell_sums(const TetMesh& mesh, const ScalarSpace& space, const NodePosi
       const auto upstream = cell.integral(along);
       const double tau = upstream_time(std::sqrt(squared / cell.volume()), cell.size(),
                                        conductivity / capacity, duration);
-      auto stiffness = cell.stiffness();
-      auto rates = cell.product(along, cell.values());
-      if (tau > 0.0) add_to(space, c, rates, tau * capacity, sums.matrices.streamline);
+      const auto stiffness = cell.stiffness();
+      const auto convected = cell.product(along, cell.values());
+      auto rates = convected;
       for (std::size_t e = 0; e < rates.size(); ++e)
-        rates[e] = capacity * rates[e] - conductivity * stiffness[e];
+        rates[e] = capacity * convected[e] - conductivity * stiffness[e];
       if (tau > 0.0) {
         const auto laplacians = cell.laplacians();
         add(rates, -tau * capacity, cell.product(along, along));
         for (std::size_t a = 0; a < upstream.size(); ++a)
           for (std::size_t b = 0; b < upstream.size(); ++b)
             rates[a * upstream.size() + b] += tau * conductivity * upstream[a] * laplacians[b];
+        add_to(space, c, Addition{rates, 1.0, sums.matrices.rates},
+               Addition{stiffness, capacity, sums.stiffness},
+               Addition{convected, tau * capacity, sums.matrices.streamline});
+      } else {
+        add_to(space, c, Addition{rates, 1.0, sums.matrices.rates},
+               Addition{stiffness, capacity, sums.stiffness});
       }
-      add_to(space, c, rates, 1.0, sums.matrices.rates);
-      add_to(space, c, stiffness, capacity, sums.stiffness);
       for (std::size_t a = 0; a < upstream.size(); ++a)
         sums.matrices.defect[at(cell.nodes()[a])] += capacity * upstream[a];
       if (source == 0.0) continue;
@@ -199,7 +203,7 @@ MassMatrix mass_matrix(const Scene& scene, const TetMesh& mesh, const ScalarSpac
       cell.go_to(c, false);
       const std::size_t region = region_of(mesh, c);
       const auto element = cell.mass();
-      add_to(space, c, element, density[region], mass.values);
+      add_to(space, c, Addition{element, density[region], mass.values});
       const std::size_t count = cell.nodes().size();
       for (std::size_t i = 0; i < count; ++i) {
         const std::int32_t node = cell.nodes()[i];
@@ -228,7 +232,8 @@ MatrixValues stiffness_matrix(const TetMesh& mesh, const ScalarSpace& space,
   with_kernel(space, positions, [&](auto& cell) {
     for (const CellId c : mesh.cells.ids()) {
       cell.go_to(c);
-      add_to(space, c, cell.stiffness(), conductivity[region_of(mesh, c)], values);
+      const auto stiffness = cell.stiffness();
+      add_to(space, c, Addition{stiffness, conductivity[region_of(mesh, c)], values});
     }
   });
   return values;
