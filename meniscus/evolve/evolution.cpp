@@ -492,7 +492,7 @@ void Evolution::give_notice(Notice notice) {
 Evolution::Rows Evolution::rows() const {
   const std::vector<ScalarMeasures> scalars = scalar_measures();
   const PhaseTimer timer(times_, "diagnostics");
-  const auto faces = reconstructed_interfaces(state_.scene, options_.surface, &first_.flow);
+  const auto faces = reconstructed_interfaces(state_.scene, options_.surface);
   Rows rows{history_row(state_, first_.flow, first_.motion, faces), drop_rows(faces, scalars)};
   rows.history.scalars = scalar_totals(scalars, state_.scalars);
   for (std::size_t i = 0; i < rows.drops.size(); ++i)

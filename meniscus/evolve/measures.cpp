@@ -60,18 +60,10 @@ SurfactantSpread surfactant_spread(const Interface& interface,
 
 }  // namespace
 
-std::vector<ReconstructedSurface> reconstructed_interfaces(const Scene& scene, SurfaceShape shape,
-                                                           const FlowSolution* flow) {
-  const bool are_known = flow != nullptr && flow->middles.size() == scene.interfaces.size();
+std::vector<ReconstructedSurface> reconstructed_interfaces(const Scene& scene, SurfaceShape shape) {
   std::vector<ReconstructedSurface> faces;
   faces.reserve(scene.interfaces.size());
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
-    const SurfaceMesh& mesh = scene.interfaces[i].mesh;
-    if (are_known)
-      faces.emplace_back(mesh, flow->middles[i].x);
-    else
-      faces.emplace_back(mesh, shape);
-  }
+  for (const Interface& interface : scene.interfaces) faces.emplace_back(interface.mesh, shape);
   return faces;
 }
 

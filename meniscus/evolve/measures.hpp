@@ -11,10 +11,9 @@
 
 namespace meniscus {
 
-/// The surfaces that the interfaces of a scene stand for, which all measures are made on. A flow
-/// that was solved there has the middles of curved edges; without one they are found.
-[[nodiscard]] std::vector<ReconstructedSurface> reconstructed_interfaces(
-    const Scene& scene, SurfaceShape shape, const FlowSolution* flow = nullptr);
+/// The surfaces that the interfaces of a scene stand for, which all measures are made on.
+[[nodiscard]] std::vector<ReconstructedSurface> reconstructed_interfaces(const Scene& scene,
+                                                                         SurfaceShape shape);
 
 /// The row of history.csv of a state whose flow was solved. `motion` is the velocity of the
 /// interfaces' vertices; `faces` are the state's interfaces.

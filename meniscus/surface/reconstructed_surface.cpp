@@ -1,7 +1,6 @@
 #include "meniscus/surface/reconstructed_surface.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/geometry/quadrature.hpp"
@@ -116,27 +115,9 @@ ReconstructedSurface::ReconstructedSurface(const SurfaceMesh& mesh, SurfaceShape
   if (is_flat()) return;
   topology_.emplace(mesh);
   smooth_.emplace(mesh, *topology_);
-  use_middles(edge_middles(mesh, *topology_, *smooth_, shape));
-}
-
-ReconstructedSurface::ReconstructedSurface(const SurfaceMesh& mesh,
-                                           const FaceField<std::array<Vec3, 3>>& middles)
-    : mesh_(mesh), shape_(SurfaceShape::splined) {
-  MENISCUS_ASSERT(middles.size() == mesh.num_faces(), "middles of {} of {} faces", middles.size(),
-                  mesh.num_faces());
-  topology_.emplace(mesh);
-  smooth_.emplace(mesh, *topology_);
-  std::vector<Vec3> of_edges(topology_->edges().size());
-  const FaceField<std::array<std::size_t, 3>> edges = face_edges(mesh, *topology_);
-  for (const FaceId f : mesh.faces.ids())
-    for (std::size_t k = 0; k < 3; ++k) of_edges[edges[f][k]] = middles[f][k];
-  use_middles(std::move(of_edges));
-}
-
-void ReconstructedSurface::use_middles(std::vector<Vec3> middles) {
-  middles_ = std::move(middles);
-  faces_ = faces_with_values(mesh_, *topology_, mesh_.x, middles_);
-  const Vec3 origin = mean_vertex(mesh_);
+  middles_ = edge_middles(mesh, *topology_, *smooth_, shape);
+  faces_ = faces_with_values(mesh, *topology_, mesh.x, middles_);
+  const Vec3 origin = mean_vertex(mesh);
   for (QuadraticFace& face : faces_)
     for (Vec3& x : face) x -= origin;
 }

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
 #include <optional>
-#include <vector>
 
 #include "meniscus/geometry/quadratic_triangle.hpp"
 #include "meniscus/surface/edge_middles.hpp"
@@ -17,9 +15,6 @@ namespace meniscus {
 class ReconstructedSurface {
  public:
   ReconstructedSurface(const SurfaceMesh& mesh, SurfaceShape shape);
-  /// With quadratic faces through middles that are known: of each face's edges, edge k leaving its
-  /// corner k.
-  ReconstructedSurface(const SurfaceMesh& mesh, const FaceField<std::array<Vec3, 3>>& middles);
 
   [[nodiscard]] double volume() const;  ///< enclosed [R0³]
   [[nodiscard]] double area() const;    ///< [R0²]
@@ -58,7 +53,6 @@ class ReconstructedSurface {
 
  private:
   [[nodiscard]] bool is_flat() const { return shape_ == SurfaceShape::faceted; }
-  void use_middles(std::vector<Vec3> middles);
   [[nodiscard]] Vec3 first_moment() const;
   /// Values at the nodes of every face, from those at the vertices.
   template <class Value>
