@@ -17,7 +17,7 @@ std::unique_ptr<FlowSolver> make_flow_solver(const Case& c) {
 
 std::unique_ptr<ScalarSolver> make_scalar_solver(const Case& c) {
   if (c.scalars.empty()) return nullptr;
-  return bulk::make_finite_element_scalars(c.flow_solver.elements, c.flow_solver.processes);
+  return bulk::make_finite_element_scalars(c.flow_solver.elements);
 }
 
 std::optional<MovingMesh> make_moving_mesh(const Case& c) {

@@ -21,7 +21,7 @@ Mat3 capillary_stress(const Interface& interface, const ReconstructedSurface& fa
 }  // namespace
 
 Mat3 drop_stress(const Scene& scene, std::span<const VertexField<Vec3>> velocity,
-                 std::span<const ReconstructedSurface> faces, std::span<const Mat3> excess) {
+                 const InterfaceSurfaces& faces, std::span<const Mat3> excess) {
   MENISCUS_ASSERT(velocity.size() == scene.interfaces.size(), "{} velocities of {} interfaces",
                   velocity.size(), scene.interfaces.size());
   Mat3 total = Mat3::Zero();
@@ -30,9 +30,9 @@ Mat3 drop_stress(const Scene& scene, std::span<const VertexField<Vec3>> velocity
     const Interface& interface = scene.interfaces[i];
     const double contrast =
         scene.liquids[interface.inside].viscosity - scene.liquids[interface.outside].viscosity;
-    const Mat3 rates = faces[i].velocity_moment(velocity[i]);
-    total += capillary_stress(interface, faces[i]) + contrast * (rates + rates.transpose());
-    if (interface.outside == RegionId{0}) volume += faces[i].volume();
+    const Mat3 rates = faces[i]->velocity_moment(velocity[i]);
+    total += capillary_stress(interface, *faces[i]) + contrast * (rates + rates.transpose());
+    if (interface.outside == RegionId{0}) volume += faces[i]->volume();
   }
   for (std::size_t region = 1; region < excess.size(); ++region) total += excess[region];
   return volume > 0.0 ? Mat3(total / volume) : total;

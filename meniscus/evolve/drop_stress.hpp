@@ -4,7 +4,7 @@
 
 #include "meniscus/evolve/options.hpp"
 #include "meniscus/scene/scene.hpp"
-#include "meniscus/surface/reconstructed_surface.hpp"
+#include "meniscus/surface/known_surfaces.hpp"
 
 namespace meniscus {
 
@@ -18,7 +18,6 @@ namespace meniscus {
 /// with quadratic velocities. Deviatoric up to the trace of the second integral, which
 /// incompressible flow makes zero.
 [[nodiscard]] Mat3 drop_stress(const Scene& scene, std::span<const VertexField<Vec3>> velocity,
-                               std::span<const ReconstructedSurface> faces,
-                               std::span<const Mat3> excess = {});
+                               const InterfaceSurfaces& faces, std::span<const Mat3> excess = {});
 
 }  // namespace meniscus

@@ -10,6 +10,7 @@
 #include "meniscus/evolve/energy_check.hpp"
 #include "meniscus/evolve/kinematic_condition.hpp"
 #include "meniscus/evolve/remesh_interfaces.hpp"
+#include "meniscus/evolve/shared_middles.hpp"
 #include "meniscus/evolve/stability.hpp"
 #include "meniscus/evolve/step_start.hpp"
 #include "meniscus/evolve/time_schemes.hpp"
@@ -74,6 +75,8 @@ Evolution::Evolution(Scene scene, const EvolutionOptions& options, std::unique_p
   state_.mesh = std::move(mesh);
   state_.start_centroid = centroid_of_drops(state_.scene);
   state_.volume_shift.assign(state_.scene.interfaces.size(), 0.0);
+  if (options.processes == linear::Processes::all)
+    state_.surfaces = std::make_shared<KnownSurfaces>(shared_middles_on_splines);
 }
 
 Report Evolution::prepare() {
@@ -96,6 +99,7 @@ Report Evolution::solve() {
 
 Report Evolution::advance() {
   const StepStart start(state_);
+  state_.surfaces->forget_unasked();
   start_scalars_ = state_.scalars;
   start_species_.clear();
   if (has_soluble_surfactant(state_.scene))
@@ -236,7 +240,7 @@ ScalarAdvance Evolution::move_scalars(const Scene& start, const FlowSolution& fl
                                       double duration) {
   if (start_scalars_.empty()) return {};
   state_.scalars = start_scalars_;
-  const FlowDomain from{start, &state_.mesh->start(), state_.connectivity};
+  const FlowDomain from = domain_of(start, state_.mesh->start());
   const ConcentrationRates expected = expected_adsorption(start, start_species_, duration);
   ScalarAdvance moved =
       scalar_solver_->advance({from, state_.domain(), duration, flow, expected}, state_.scalars);
@@ -245,6 +249,14 @@ ScalarAdvance Evolution::move_scalars(const Scene& start, const FlowSolution& fl
             expected_uptake(start, carriers_.of(start), start_species_, duration), duration,
             carriers_);
   return moved;
+}
+
+/// A scene on a mesh of the present connectivity.
+FlowDomain Evolution::domain_of(const Scene& scene, const TetMesh& mesh) const {
+  return {.scene = scene,
+          .mesh = &mesh,
+          .connectivity = state_.connectivity,
+          .surfaces = state_.surfaces.get()};
 }
 
 StageFlow Evolution::flow_at(const Instant& instant, const ImplicitStage* implicit) {
@@ -260,7 +272,7 @@ StageFlow Evolution::flow_at(const Instant& instant, const ImplicitStage* implic
                   "{} velocities of {} interfaces", stage.flow.velocity.size(),
                   state_.scene.interfaces.size());
   const PhaseTimer timer(times_, "move interfaces");
-  stage.normals = interface_normals(state_.scene, options_.motion_normal);
+  stage.normals = normals();
   if (options_.motion_normal == MotionNormal::faces)
     for (std::size_t i = 0; i < stage.flow.middles.size(); ++i)
       follow_faces(state_.scene.interfaces[i].mesh, stage.normals[i], stage.flow.middles[i],
@@ -278,6 +290,16 @@ StageFlow Evolution::flow_at(const Instant& instant, const ImplicitStage* implic
                                           stage.flow.velocity, stage.motion);
   stage.amount_rates = amount_rates(stage.surfactant, state_.scene);
   return stage;
+}
+
+InterfaceNormals Evolution::normals() {
+  if (options_.motion_normal != MotionNormal::faces)
+    return interface_normals(state_.scene, options_.motion_normal);
+  InterfaceNormals normals;  // the flow has asked for these surfaces already
+  for (const auto& faces :
+       reconstructed_interfaces(state_.scene, SurfaceShape::splined, *state_.surfaces))
+    normals.push_back(faces->smooth()->vertex_normals());
+  return normals;
 }
 
 /// Moves the interfaces of `start` the whole step, then makes them and the mesh fit for the next.
@@ -311,8 +333,7 @@ Report Evolution::finish_step(const Scene& start, const StageFlow& whole, double
     Report kept = keep_mesh(start, whole.flow, dt);
     attempt_.is_mesh_kept = kept.ok();
     if (kept.ok() && exchanged_at)
-      scalar_solver_->ride({moved, &*exchanged_at, state_.connectivity}, state_.domain(),
-                           state_.scalars);
+      scalar_solver_->ride(domain_of(moved, *exchanged_at), state_.domain(), state_.scalars);
     if (kept.ok()) return exchanged_at ? kept : judge_scalars(move_scalars(start, whole.flow, dt));
     if (!is_remeshed_as_needed()) return kept;
     log::debug("step {} makes its mesh anew: {}", state_.step + 1, kept.text());
@@ -383,8 +404,8 @@ Report Evolution::carry_fields_of_mesh(const Scene& start, const Scene& moved,
   const Report followed = move_mesh(start, mean_motion(start, moved, dt), flow, dt);
   if (!state_.scalars.empty()) {
     if (!followed.ok() || has_soluble_surfactant(moved)) return followed;
-    const FlowDomain from{start, &state_.mesh->start(), state_.connectivity},
-        to{moved, &state_.mesh->tetrahedra(), state_.connectivity};
+    const FlowDomain from = domain_of(start, state_.mesh->start()),
+                     to = domain_of(moved, state_.mesh->tetrahedra());
     state_.scalars = start_scalars_;
     return judge_scalars(scalar_solver_->advance({from, to, dt, flow}, state_.scalars));
   }
@@ -455,7 +476,8 @@ Report Evolution::change_topology(const Scene& moved, const InterfaceMotion& mot
 void Evolution::restore_volumes() {
   const PhaseTimer timer(times_, "move interfaces");
   for (std::size_t i = 0; i < state_.scene.interfaces.size(); ++i)
-    record(state_, i, restore_volume(state_.scene.interfaces[i], options_.surface));
+    record(state_, i,
+           restore_volume(state_.scene.interfaces[i], options_.surface, *state_.surfaces));
 }
 
 /// A fault if restoring volumes shifted vertices too far, as long as a shorter step needs less.
@@ -492,7 +514,7 @@ void Evolution::give_notice(Notice notice) {
 Evolution::Rows Evolution::rows() const {
   const std::vector<ScalarMeasures> scalars = scalar_measures();
   const PhaseTimer timer(times_, "diagnostics");
-  const auto faces = reconstructed_interfaces(state_.scene, options_.surface);
+  const auto faces = reconstructed_interfaces(state_.scene, options_.surface, *state_.surfaces);
   Rows rows{history_row(state_, first_.flow, first_.motion, faces), drop_rows(faces, scalars)};
   rows.history.scalars = scalar_totals(scalars, state_.scalars);
   for (std::size_t i = 0; i < rows.drops.size(); ++i)
@@ -503,10 +525,11 @@ Evolution::Rows Evolution::rows() const {
 std::vector<DropRow> Evolution::drop_rows() const {
   const std::vector<ScalarMeasures> scalars = scalar_measures();
   const PhaseTimer timer(times_, "diagnostics");
-  return drop_rows(reconstructed_interfaces(state_.scene, options_.surface), scalars);
+  return drop_rows(reconstructed_interfaces(state_.scene, options_.surface, *state_.surfaces),
+                   scalars);
 }
 
-std::vector<DropRow> Evolution::drop_rows(std::span<const ReconstructedSurface> faces,
+std::vector<DropRow> Evolution::drop_rows(const InterfaceSurfaces& faces,
                                           std::span<const ScalarMeasures> scalars) const {
   std::vector<DropRow> rows =
       meniscus::drop_rows(state_, faces, options_.topology.breakup_radius, carriers_);

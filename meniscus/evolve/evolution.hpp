@@ -87,6 +87,8 @@ class Evolution {
   StageFlow time_scheme_step(const Scene& start, double dt);
   StageFlow solve_stage(const Scene& start, const StageFlow& stage, double duration,
                         const Instant& instant, const ImplicitStage* implicit = nullptr);
+  [[nodiscard]] FlowDomain domain_of(const Scene& scene, const TetMesh& mesh) const;
+  InterfaceNormals normals();
   StageFlow flow_at(const Instant& instant, const ImplicitStage* implicit = nullptr);
   Report finish_step(const Scene& start, const StageFlow& whole, double dt);
   Report move_whole_step(const Scene& start, const StageFlow& whole, double dt);
@@ -113,7 +115,7 @@ class Evolution {
   Report judge_volume_shift(double dt);
   FlowSolution solve_flow(const Instant& instant, const ImplicitStage* implicit = nullptr);
   [[nodiscard]] std::vector<ScalarMeasures> scalar_measures() const;
-  [[nodiscard]] std::vector<DropRow> drop_rows(std::span<const ReconstructedSurface> faces,
+  [[nodiscard]] std::vector<DropRow> drop_rows(const InterfaceSurfaces& faces,
                                                std::span<const ScalarMeasures> scalars) const;
   void give_notice(Notice notice);
   template <class What>

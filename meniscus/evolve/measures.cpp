@@ -60,15 +60,17 @@ SurfactantSpread surfactant_spread(const Interface& interface,
 
 }  // namespace
 
-std::vector<ReconstructedSurface> reconstructed_interfaces(const Scene& scene, SurfaceShape shape) {
-  std::vector<ReconstructedSurface> faces;
+InterfaceSurfaces reconstructed_interfaces(const Scene& scene, SurfaceShape shape,
+                                           KnownSurfaces& known) {
+  InterfaceSurfaces faces;
   faces.reserve(scene.interfaces.size());
-  for (const Interface& interface : scene.interfaces) faces.emplace_back(interface.mesh, shape);
+  for (const Interface& interface : scene.interfaces)
+    faces.push_back(known.of(interface.mesh, shape));
   return faces;
 }
 
 HistoryRow history_row(const State& state, const FlowSolution& flow, const InterfaceMotion& motion,
-                       std::span<const ReconstructedSurface> faces) {
+                       const InterfaceSurfaces& faces) {
   const Scene& scene = state.scene;
   HistoryRow row;
   MENISCUS_ASSERT(motion.size() == scene.interfaces.size(), "{} motions of {} interfaces",
@@ -97,7 +99,7 @@ HistoryRow history_row(const State& state, const FlowSolution& flow, const Inter
     row.dissipation = flow.power->dissipation;
   }
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
-    row.surface_rate += tension_power(scene.interfaces[i], faces[i], motion[i], flow.velocity[i]);
+    row.surface_rate += tension_power(scene.interfaces[i], *faces[i], motion[i], flow.velocity[i]);
   const bool varies = std::ranges::any_of(
       scene.scalars, [](const Scalar& each) { return each.viscosity_exponent != 0.0; });
   if (is_newtonian(scene.liquids[RegionId{0}].law) && !varies)
@@ -111,7 +113,7 @@ HistoryRow history_row(const State& state, const FlowSolution& flow, const Inter
   return row;
 }
 
-std::vector<DropRow> drop_rows(const State& state, std::span<const ReconstructedSurface> faces,
+std::vector<DropRow> drop_rows(const State& state, const InterfaceSurfaces& faces,
                                double breakup_radius, Carriers& carriers) {
   std::vector<DropRow> rows;
   MENISCUS_ASSERT(state.volume_shift.size() == state.scene.interfaces.size(),
@@ -122,12 +124,12 @@ std::vector<DropRow> drop_rows(const State& state, std::span<const Reconstructed
     DropRow& row = rows.emplace_back();
     row.drop = interface.drop;
     row.parent = interface.parent;
-    row.shape = drop_shape(interface.mesh, state.scene.flow.family(), faces[i]);
+    row.shape = drop_shape(interface.mesh, state.scene.flow.family(), *faces[i]);
     row.volume_drift = row.shape.volume / interface.initial_volume - 1.0;
     row.volume_correction = state.volume_shift[i];
     if (const VertexField<double>* concentration = surfactant_concentration(interface))
-      row.surfactant = surfactant_spread(interface, *concentration, faces[i], carriers);
-    if (breakup_radius > 0.0) row.neck_radius = thinnest_neck(interface, faces[i]);
+      row.surfactant = surfactant_spread(interface, *concentration, *faces[i], carriers);
+    if (breakup_radius > 0.0) row.neck_radius = thinnest_neck(interface, *faces[i]);
   }
   return rows;
 }

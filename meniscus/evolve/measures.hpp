@@ -7,23 +7,21 @@
 #include "meniscus/evolve/record.hpp"
 #include "meniscus/evolve/state.hpp"
 #include "meniscus/evolve/surfactant_motion.hpp"
-#include "meniscus/surface/reconstructed_surface.hpp"
+#include "meniscus/surface/known_surfaces.hpp"
 
 namespace meniscus {
 
 /// The surfaces that the interfaces of a scene stand for, which all measures are made on.
-[[nodiscard]] std::vector<ReconstructedSurface> reconstructed_interfaces(const Scene& scene,
-                                                                         SurfaceShape shape);
+[[nodiscard]] InterfaceSurfaces reconstructed_interfaces(const Scene& scene, SurfaceShape shape,
+                                                         KnownSurfaces& known);
 
 /// The row of history.csv of a state whose flow was solved. `motion` is the velocity of the
 /// interfaces' vertices; `faces` are the state's interfaces.
 [[nodiscard]] HistoryRow history_row(const State& state, const FlowSolution& flow,
-                                     const InterfaceMotion& motion,
-                                     std::span<const ReconstructedSurface> faces);
+                                     const InterfaceMotion& motion, const InterfaceSurfaces& faces);
 
 /// The rows of drops.csv, one per interface. Necks are searched if `breakup_radius` is positive.
-[[nodiscard]] std::vector<DropRow> drop_rows(const State& state,
-                                             std::span<const ReconstructedSurface> faces,
+[[nodiscard]] std::vector<DropRow> drop_rows(const State& state, const InterfaceSurfaces& faces,
                                              double breakup_radius, Carriers& carriers);
 
 /// How drop i moves at time t; none where the flow of the regions is not known.

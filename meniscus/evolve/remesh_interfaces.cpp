@@ -76,8 +76,8 @@ RemeshedInterface remeshed(Interface interface, const EvolutionOptions& options,
           : remesh_or_mend(interface.mesh, how, interface.fields);
   const RemeshReport& report = mended.remesh;
   VolumeShift shift{report.volume_shift, report.volume_shift_over_edge, report.field_excess};
-  if (!report.ok() || options.surface != SurfaceShape::faceted)
-    shift = joined(shift, restore_volume(interface, options.surface));
+  if (!report.ok() && options.surface == SurfaceShape::faceted)
+    shift = joined(shift, restore_flat_volume(interface));
   return {std::move(interface.mesh), std::move(interface.fields), shift,
           InterfaceRemesh{Report{report.fault}, interface.drop, mended.is_mended,
                           mended.smoothed_over, mended.closed_holes}};
@@ -94,7 +94,10 @@ std::vector<InterfaceRemesh> remesh_interfaces(State& state, const EvolutionOpti
     Interface& interface = state.scene.interfaces[interfaces[k]];
     interface.mesh = all[k].mesh;
     interface.fields = all[k].fields;
-    record(state, interfaces[k], all[k].shift);
+    VolumeShift shift = all[k].shift;
+    if (options.surface != SurfaceShape::faceted)
+      shift = joined(shift, restore_volume(interface, options.surface, *state.surfaces));
+    record(state, interfaces[k], shift);
     outcomes.push_back(all[k].outcome);
   }
   return outcomes;

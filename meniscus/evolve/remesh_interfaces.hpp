@@ -22,14 +22,14 @@ class CloseSurfaces {
   std::vector<SurfaceTree> trees_;  // trees of the interfaces, then of the outer boundary
 };
 
-/// Remeshes an interface that has these neighbours, and restores its volume, even if remeshing
-/// fails. Fields are transferred.
+/// Remeshes an interface that has these neighbours, and restores the volume of flat faces, even if
+/// remeshing fails. Fields are transferred.
 [[nodiscard]] RemeshedInterface remeshed(Interface interface, const EvolutionOptions& options,
                                          std::vector<const SurfaceTree*> neighbours);
 
-/// Remeshes interfaces, each beside the others as they were before, so that the result depends on
-/// no order. The ranks of `options.processes` remesh a share each and exchange what they made.
-/// Collective.
+/// Remeshes interfaces and restores their volumes, each beside the others as they were before, so
+/// that the result depends on no order. The ranks of `options.processes` remesh a share each and
+/// exchange what they made. Collective.
 std::vector<InterfaceRemesh> remesh_interfaces(State& state, const EvolutionOptions& options,
                                                std::span<const std::size_t> interfaces);
 /// Whether all interfaces may stay as they are (`is_fit`).

@@ -14,7 +14,7 @@ struct [[nodiscard]] InterfaceRemesh : Report {
   int closed_holes = 0;        ///< holes that closed with a crevice
 };
 
-/// An interface after remeshing, its volume restored.
+/// An interface after remeshing.
 struct RemeshedInterface {
   SurfaceMesh mesh;
   SurfaceFields fields;

@@ -37,9 +37,16 @@ struct State {
   double momentum_lost = 0.0, energy_lost = 0.0;
   int iterations = 0;  ///< linear iterations since the last solve at the start of a step
 
+  /// Of the interfaces. They follow from these, so that they are not saved.
+  std::shared_ptr<KnownSurfaces> surfaces = std::make_shared<KnownSurfaces>();
+
   [[nodiscard]] FlowDomain domain() const {
-    return {scene, mesh ? &mesh->tetrahedra() : nullptr, connectivity,
-            scalars.empty() ? nullptr : &scalars, flow ? &*flow : nullptr};
+    return {.scene = scene,
+            .mesh = mesh ? &mesh->tetrahedra() : nullptr,
+            .connectivity = connectivity,
+            .scalars = scalars.empty() ? nullptr : &scalars,
+            .known = flow ? &*flow : nullptr,
+            .surfaces = surfaces.get()};
   }
 };
 

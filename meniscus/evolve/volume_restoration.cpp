@@ -10,6 +10,24 @@
 #include "meniscus/surface/restore_volume.hpp"
 
 namespace meniscus {
+namespace {
+
+/// `restore` shifts the vertices and returns how far.
+template <class Restore>
+VolumeShift restored(Interface& interface, const Restore& restore) {
+  MENISCUS_ASSERT(interface.volume > 0.0, "drop {} is to have a volume of {:g}", interface.drop,
+                  interface.volume);
+  const SurfaceMesh before = interface.fields.empty() ? SurfaceMesh() : interface.mesh;
+  VolumeShift shift;
+  shift.length = std::abs(restore());
+  const VertexField<double> edges = mean_edges(interface.mesh);
+  shift.over_edge = shift.length / *std::ranges::min_element(edges);
+  if (!interface.fields.empty())
+    shift.field_excess = move_fields(interface.fields, before, interface.mesh);
+  return shift;
+}
+
+}  // namespace
 
 void carry_fields(State& state, std::size_t i, const SurfaceMesh& before) {
   Interface& interface = state.scene.interfaces[i];
@@ -17,17 +35,17 @@ void carry_fields(State& state, std::size_t i, const SurfaceMesh& before) {
   widen(state.field_excess, move_fields(interface.fields, before, interface.mesh));
 }
 
-VolumeShift restore_volume(Interface& interface, SurfaceShape surface) {
-  MENISCUS_ASSERT(interface.volume > 0.0, "drop {} is to have a volume of {:g}", interface.drop,
-                  interface.volume);
-  const SurfaceMesh before = interface.fields.empty() ? SurfaceMesh() : interface.mesh;
-  VolumeShift shift;
-  shift.length = std::abs(restore_volume(interface.mesh, interface.volume, surface));
-  const VertexField<double> edges = mean_edges(interface.mesh);
-  shift.over_edge = shift.length / *std::ranges::min_element(edges);
-  if (!interface.fields.empty())
-    shift.field_excess = move_fields(interface.fields, before, interface.mesh);
-  return shift;
+VolumeShift restore_volume(Interface& interface, SurfaceShape surface, KnownSurfaces& surfaces) {
+  if (surface == SurfaceShape::faceted) return restore_flat_volume(interface);
+  return restored(interface, [&] {
+    return restore_volume(interface.mesh, interface.volume, [&](const SurfaceMesh& mesh) {
+      return surfaces.of(mesh, surface)->volume();
+    });
+  });
+}
+
+VolumeShift restore_flat_volume(Interface& interface) {
+  return restored(interface, [&] { return restore_volume(interface.mesh, interface.volume); });
 }
 
 void record(State& state, std::size_t i, const VolumeShift& shift) {

@@ -19,7 +19,9 @@ struct VolumeShift {
 };
 /// Restores the volume of an interface by shifting all vertices by one length. Fields are
 /// transferred.
-VolumeShift restore_volume(Interface& interface, SurfaceShape surface);
+VolumeShift restore_volume(Interface& interface, SurfaceShape surface, KnownSurfaces& surfaces);
+/// The volume of its flat faces.
+VolumeShift restore_flat_volume(Interface& interface);
 /// Records the restoration of the volume of interface i in the step under way.
 void record(State& state, std::size_t i, const VolumeShift& shift);
 

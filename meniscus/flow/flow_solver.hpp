@@ -8,6 +8,7 @@
 #include "meniscus/core/timer.hpp"
 #include "meniscus/flow/flow_solution.hpp"
 #include "meniscus/mesh/rigid_motion.hpp"
+#include "meniscus/surface/known_surfaces.hpp"
 #include "meniscus/volume/moving_mesh.hpp"
 
 namespace meniscus {
@@ -60,6 +61,7 @@ struct FlowDomain {
   /// find it.
   const NodalFlow* known = nullptr;
   const ImplicitStage* stage = nullptr;
+  KnownSurfaces* surfaces = nullptr;  ///< of the interfaces; null where none are known
 };
 
 /// A flow that was taken to a new mesh, or why it did not arrive.

@@ -116,8 +116,24 @@ ReconstructedSurface::ReconstructedSurface(const SurfaceMesh& mesh, SurfaceShape
   topology_.emplace(mesh);
   smooth_.emplace(mesh, *topology_);
   middles_ = edge_middles(mesh, *topology_, *smooth_, shape);
-  faces_ = faces_with_values(mesh, *topology_, mesh.x, middles_);
-  const Vec3 origin = mean_vertex(mesh);
+  make_faces();
+}
+
+ReconstructedSurface::ReconstructedSurface(const SurfaceMesh& mesh, SurfaceTopology topology,
+                                           SmoothSurface smooth, std::vector<Vec3> middles,
+                                           SurfaceShape shape)
+    : mesh_(mesh),
+      shape_(shape),
+      topology_(std::move(topology)),
+      smooth_(std::move(smooth)),
+      middles_(std::move(middles)) {
+  MENISCUS_ASSERT(shape != SurfaceShape::faceted, "middles of flat faces");
+  make_faces();
+}
+
+void ReconstructedSurface::make_faces() {
+  faces_ = faces_with_values(mesh_, *topology_, mesh_.x, middles_);
+  const Vec3 origin = mean_vertex(mesh_);
   for (QuadraticFace& face : faces_)
     for (Vec3& x : face) x -= origin;
 }

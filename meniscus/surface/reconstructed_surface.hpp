@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "meniscus/geometry/quadratic_triangle.hpp"
 #include "meniscus/surface/edge_middles.hpp"
@@ -11,10 +13,12 @@ namespace meniscus {
 /// The closed surface that an interface's vertices stand for, as made once for a mesh. It has flat
 /// faces, or quadratic ones through the vertices and the `edge_middles`. Whoever asks it need not
 /// know which. Flat faces enclose too little of a smooth surface by O(h²), quadratic ones by O(h⁴).
-/// The mesh has to outlive it and to stay as it is.
 class ReconstructedSurface {
  public:
   ReconstructedSurface(const SurfaceMesh& mesh, SurfaceShape shape);
+  /// With quadratic faces through the middles given, in the order of the topology.
+  ReconstructedSurface(const SurfaceMesh& mesh, SurfaceTopology topology, SmoothSurface smooth,
+                       std::vector<Vec3> middles, SurfaceShape shape);
 
   [[nodiscard]] double volume() const;  ///< enclosed [R0³]
   [[nodiscard]] double area() const;    ///< [R0²]
@@ -50,6 +54,12 @@ class ReconstructedSurface {
   }
   /// The smooth surface through the vertices; none with flat faces.
   [[nodiscard]] const std::optional<SmoothSurface>& smooth() const { return smooth_; }
+  /// The edges and the points over their middles; none with flat faces.
+  [[nodiscard]] const std::optional<SurfaceTopology>& topology() const { return topology_; }
+  [[nodiscard]] std::span<const Vec3> middles() const { return middles_; }
+
+  [[nodiscard]] const SurfaceMesh& mesh() const { return mesh_; }
+  [[nodiscard]] SurfaceShape shape() const { return shape_; }
 
  private:
   [[nodiscard]] bool is_flat() const { return shape_ == SurfaceShape::faceted; }
@@ -59,7 +69,9 @@ class ReconstructedSurface {
   [[nodiscard]] FaceField<std::array<Value, kQuadraticNodes>> node_values(
       const VertexField<Value>& values) const;
 
-  const SurfaceMesh& mesh_;
+  void make_faces();
+
+  SurfaceMesh mesh_;
   SurfaceShape shape_;
   // Only with quadratic faces:
   std::optional<SurfaceTopology> topology_;

@@ -20,10 +20,6 @@ constexpr int kMostShifts = 30;
 // exact and costs no more middles.
 constexpr double kLeftToScale = 0.1;
 
-double volume_of(const SurfaceMesh& mesh, SurfaceShape shape) {
-  return ReconstructedSurface(mesh, shape).volume();
-}
-
 double restore_flat_volume(SurfaceMesh& mesh, double volume) {
   return restore_volume(mesh, volume, VertexField<double>(mesh.num_vertices(), 1.0));
 }
@@ -40,8 +36,11 @@ double scale_to_volume(SurfaceMesh& mesh, double from, double to) {
   return (scale - 1.0) * 3.0 * from / surface_area(mesh);
 }
 
-double restore_curved_volume(SurfaceMesh& mesh, double volume, SurfaceShape shape) {
-  double enclosed = volume_of(mesh, shape);
+}  // namespace
+
+double restore_volume(SurfaceMesh& mesh, double volume, const MeshVolume& volume_of) {
+  MENISCUS_ASSERT(volume > 0.0, "volume = {}", volume);
+  double enclosed = volume_of(mesh);
   const double first = std::abs(volume - enclosed);
   double shift = 0.0;
   double gain = 1.0;  // what flat faces must gain for the curved ones to gain one
@@ -53,7 +52,7 @@ double restore_curved_volume(SurfaceMesh& mesh, double volume, SurfaceShape shap
     const double wanted = enclosed_volume(mesh) + gain * missing;
     if (!(wanted > 0.0)) break;  // crumpled faces
     const double moved = restore_flat_volume(mesh, wanted);
-    const double shifted = volume_of(mesh, shape), left = volume - shifted;
+    const double shifted = volume_of(mesh), left = volume - shifted;
     if (!(std::abs(left) < std::abs(missing))) {
       mesh.x = before;
       break;
@@ -65,12 +64,12 @@ double restore_curved_volume(SurfaceMesh& mesh, double volume, SurfaceShape shap
   return shift + scale_to_volume(mesh, enclosed, volume);
 }
 
-}  // namespace
-
 double restore_volume(SurfaceMesh& mesh, double volume, SurfaceShape shape) {
   MENISCUS_ASSERT(volume > 0.0, "volume = {}", volume);
-  return shape == SurfaceShape::faceted ? restore_flat_volume(mesh, volume)
-                                        : restore_curved_volume(mesh, volume, shape);
+  if (shape == SurfaceShape::faceted) return restore_flat_volume(mesh, volume);
+  return restore_volume(mesh, volume, [shape](const SurfaceMesh& at) {
+    return ReconstructedSurface(at, shape).volume();
+  });
 }
 
 double restore_volume(SurfaceMesh& mesh, double volume, const VertexField<double>& weights) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "meniscus/surface/edge_middles.hpp"
 
 namespace meniscus {
@@ -13,6 +15,11 @@ namespace meniscus {
 /// nearer, as coarse surfaces' volumes jump while vertices shift. Where the quadratic faces' volume
 /// is off by more than a factor of two, as on crumpled surfaces, it stays off.
 double restore_volume(SurfaceMesh& mesh, double volume, SurfaceShape shape = SurfaceShape::faceted);
+
+/// The volume of the surface that a mesh's vertices stand for [R0³].
+using MeshVolume = std::function<double(const SurfaceMesh&)>;
+/// Quadratic faces, whose volume is found by `volume_of`.
+double restore_volume(SurfaceMesh& mesh, double volume, const MeshVolume& volume_of);
 
 /// Restores the flat faces' volume: vertices move by a length times their weights. Returns the
 /// length.

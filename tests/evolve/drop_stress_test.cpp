@@ -14,7 +14,8 @@ namespace {
 
 Mat3 stress_of(const Scene& scene, std::span<const VertexField<Vec3>> velocity, SurfaceShape shape,
                std::span<const Mat3> excess = {}) {
-  return drop_stress(scene, velocity, reconstructed_interfaces(scene, shape), excess);
+  KnownSurfaces known;
+  return drop_stress(scene, velocity, reconstructed_interfaces(scene, shape, known), excess);
 }
 
 Scene one_drop(const SurfaceMesh& mesh, double viscosity_ratio, double Ca) {

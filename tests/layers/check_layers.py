@@ -21,7 +21,7 @@ USES = {
     "solids": ["core", "geometry", "mesh", "scene", "surface", "surface/repair"],
     "topology": ["core", "geometry", "mesh", "scene", "surface", "surface/repair"],
     "volume": ["core", "geometry", "mesh", "linear", "scene", "surface"],
-    "flow": ["core", "geometry", "mesh", "scene", "volume"],
+    "flow": ["core", "geometry", "mesh", "scene", "surface", "volume"],
     "flow/fem": ["core", "geometry", "mesh", "linear", "scene", "surface", "volume", "flow"],
     "flow/bem": ["core", "geometry", "mesh", "linear", "scene", "surface", "flow"],
     "transport": ["core", "geometry", "mesh", "scene", "surface"],

@@ -170,7 +170,7 @@ void FiniteElementFlow::keep_solution(const StokesProblem& problem, StokesState 
 /// boundary's velocity, and the pressure that goes with it.
 FlowSolution FiniteElementFlow::first_flow(const FlowDomain& domain, double t) {
   const NodePositions positions =
-      node_positions(domain.scene, *domain.mesh, space_, options_.processes);
+      node_positions(domain.scene, *domain.mesh, space_, domain.surfaces);
   StokesState state = stokes_->state_at_rest();
   const Scene& scene = domain.scene;
   for (const NodeId i : state.v.ids())
@@ -197,7 +197,7 @@ FlowSolution FiniteElementFlow::first_flow(const FlowDomain& domain, double t) {
 StokesReport FiniteElementFlow::settle(const FlowDomain& domain, double t, StokesState& state) {
   constexpr double kShare = 1e-4;  // of the time in which viscosity crosses a cell
   const NodePositions positions =
-      node_positions(domain.scene, *domain.mesh, space_, options_.processes);
+      node_positions(domain.scene, *domain.mesh, space_, domain.surfaces);
   double fastest = 0.0;
   for (const Liquid& liquid : domain.scene.liquids)
     fastest = std::max(fastest, liquid.viscosity / liquid.density);
@@ -229,7 +229,7 @@ StokesReport FiniteElementFlow::settle(const FlowDomain& domain, double t, Stoke
 /// The projection by the matrix of a stage as long as the last.
 StageProjection FiniteElementFlow::projection(const FlowDomain& domain, double t) {
   MENISCUS_ASSERT(last_duration_ > 0.0, "no stage before");
-  NodePositions positions = node_positions(domain.scene, *domain.mesh, space_, options_.processes);
+  NodePositions positions = node_positions(domain.scene, *domain.mesh, space_, domain.surfaces);
   const ImplicitStage stage = stage_at_rest(domain.scene, last_duration_, positions.x);
   InstantProblem problem = instant_problem(with_stage(domain, stage), space_, std::move(positions),
                                            options_.capillary, t);
@@ -248,7 +248,7 @@ TransferredFlow FiniteElementFlow::transferred(const MeshChange& change, const S
   }
   StageProjection projection = this->projection(domain, t);
   const NodePositions old_positions =
-      node_positions(before, change.before, old_space, options_.processes);
+      node_positions(before, change.before, old_space, domain.surfaces);
   const std::vector<NodeSource> sources =
       node_sources({change.before, old_space, old_positions},
                    {*domain.mesh, space_, projection.positions()}, change.sources);
@@ -277,18 +277,18 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
   if (!has_connectivity_of(domain)) use_connectivity(domain);
   if (domain.stage == nullptr && has_inertia(domain.scene)) {
     if (domain.known == nullptr) return first_flow(domain, instant.t);
-    const InstantProblem problem = instant_problem(
-        domain, space_, node_positions(domain.scene, mesh, space_, options_.processes),
-        options_.capillary, instant.t);
+    const InstantProblem problem =
+        instant_problem(domain, space_, node_positions(domain.scene, mesh, space_, domain.surfaces),
+                        options_.capillary, instant.t);
     return solution(domain, problem, {Field<NodeId, Vec3>(domain.known->v), domain.known->p}, {});
   }
   for (const CellId c : mesh.cells.ids())
     if (!(signed_volume(mesh, c) > 0.0))
       return failed_flow({FaultKind::inverted_cell, "a cell of the volume mesh is inverted",
                           mesh.x[mesh.cells[c][0]]});
-  const InstantProblem problem = instant_problem(
-      domain, space_, node_positions(domain.scene, mesh, space_, options_.processes),
-      options_.capillary, instant.t);
+  const InstantProblem problem =
+      instant_problem(domain, space_, node_positions(domain.scene, mesh, space_, domain.surfaces),
+                      options_.capillary, instant.t);
   if (problem.fault) return failed_flow(*problem.fault);
   StokesState state = first_guess(domain, problem.stokes);
   if (domain.stage != nullptr) {

@@ -6,8 +6,6 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/constants.hpp"
 #include "meniscus/flow/fem/elements.hpp"
-#include "meniscus/linear/collective.hpp"
-#include "meniscus/surface/edge_middles.hpp"
 
 namespace meniscus::fem {
 namespace {
@@ -62,27 +60,6 @@ std::vector<Vec3> wall_middles(const OuterBoundary& boundary, const SurfaceTopol
   return middles;
 }
 
-/// The middles of an interface's edges, of which each rank computes a share.
-std::vector<Vec3> shared_middles(const SurfaceMesh& surface, const SurfaceTopology& topology,
-                                 linear::Communicator communicator) {
-  const SmoothSurface smooth(surface, topology);
-  const std::size_t count = topology.edges().size();
-  const auto ranks = static_cast<std::size_t>(communicator.size());
-  const auto first = [&](std::size_t rank) { return count * rank / ranks; };
-  std::vector<std::int32_t> num_values;
-  for (std::size_t rank = 0; rank < ranks; ++rank)
-    num_values.push_back(static_cast<std::int32_t>(3 * (first(rank + 1) - first(rank))));
-  const auto own = static_cast<std::size_t>(communicator.rank());
-  std::vector<double> values(3 * count), part;
-  for (const Vec3& x : middles_on_splines(surface, topology, smooth, first(own), first(own + 1)))
-    part.insert(part.end(), x.begin(), x.end());
-  linear::gather(communicator, part, num_values, values);
-  std::vector<Vec3> middles;
-  middles.reserve(count);
-  for (std::size_t e = 0; e < count; ++e) middles.emplace_back(&values[3 * e]);
-  return middles;
-}
-
 }  // namespace
 
 NodePositions straight_positions(const TetMesh& mesh, const FlowSpace& space) {
@@ -130,14 +107,17 @@ void settle_curved_cells(const TetMesh& mesh, const FlowSpace& space, NodePositi
 }
 
 NodePositions node_positions(const Scene& scene, const TetMesh& mesh, const FlowSpace& space,
-                             linear::Processes processes) {
+                             KnownSurfaces* surfaces) {
   NodePositions positions = straight_positions(mesh, space);
   if (space.elements != Elements::p2_p1) return positions;
+  KnownSurfaces none_known;
+  if (surfaces == nullptr) surfaces = &none_known;
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
-    const SurfaceMesh& surface = scene.interfaces[i].mesh;
-    const SurfaceTopology topology(surface);
-    curve_edges(surface, topology, face_nodes(space, mesh, surface, mesh.interfaces[i]),
-                shared_middles(surface, topology, linear::Communicator::of(processes)), positions);
+    const SurfaceMesh& mesh_of_interface = scene.interfaces[i].mesh;
+    const auto surface = surfaces->of(mesh_of_interface, SurfaceShape::splined);
+    curve_edges(mesh_of_interface, *surface->topology(),
+                face_nodes(space, mesh, mesh_of_interface, mesh.interfaces[i]), surface->middles(),
+                positions);
   }
   const SurfaceMesh& wall = scene.boundary.mesh;
   const SurfaceTopology topology(wall);

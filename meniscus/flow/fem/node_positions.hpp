@@ -3,8 +3,8 @@
 #include <span>
 
 #include "meniscus/flow/fem/spaces.hpp"
-#include "meniscus/linear/communicator.hpp"
 #include "meniscus/scene/scene.hpp"
+#include "meniscus/surface/known_surfaces.hpp"
 
 namespace meniscus::fem {
 
@@ -31,9 +31,9 @@ void settle_curved_cells(const TetMesh& mesh, const FlowSpace& space, NodePositi
 
 /// The positions of all nodes for a scene. Edges of interfaces are curved through the middles that
 /// belong to the interface, edges of the outer boundary as its patches say; others are straight.
-/// The processes share out the interfaces' edges; all get the same positions. Collective.
+/// The interfaces' surfaces are taken from those known, if such are given.
 [[nodiscard]] NodePositions node_positions(const Scene& scene, const TetMesh& mesh,
                                            const FlowSpace& space,
-                                           linear::Processes processes = linear::Processes::alone);
+                                           KnownSurfaces* surfaces = nullptr);
 
 }  // namespace meniscus::fem

@@ -65,8 +65,7 @@ void take_up(const std::vector<VertexField<double>>& part,
 
 class FiniteElementScalars final : public ScalarSolver {
  public:
-  FiniteElementScalars(fem::Elements elements, linear::Processes processes)
-      : elements_(elements), processes_(processes) {}
+  explicit FiniteElementScalars(fem::Elements elements) : elements_(elements) {}
 
   Report initial(const FlowDomain& domain, BulkScalars& scalars) override;
   std::size_t num_values(const FlowDomain& domain) override;
@@ -95,7 +94,6 @@ class FiniteElementScalars final : public ScalarSolver {
                                 std::size_t k);
 
   fem::Elements elements_;
-  linear::Processes processes_;
   std::deque<Placed> last_;  // a step asks again for its start
   PhaseTimes times_;
 };
@@ -111,7 +109,7 @@ const FiniteElementScalars::Placed& FiniteElementScalars::placed(const FlowDomai
   }
   if (!space) space = std::make_shared<const ScalarSpace>(scalar_space(domain, elements_));
   auto positions = std::make_shared<const NodePositions>(
-      fem::node_positions(domain.scene, *domain.mesh, space->elements, processes_));
+      fem::node_positions(domain.scene, *domain.mesh, space->elements, domain.surfaces));
   last_.push_front({domain.connectivity, std::move(space), domain.mesh->x, std::move(positions),
                     std::make_shared<std::vector<std::unique_ptr<const MassMatrix>>>(
                         domain.scene.scalars.size())});
@@ -288,9 +286,8 @@ std::vector<ScalarMeasures> FiniteElementScalars::measures(const FlowDomain& dom
 
 }  // namespace
 
-std::unique_ptr<ScalarSolver> make_finite_element_scalars(fem::Elements elements,
-                                                          linear::Processes processes) {
-  return std::make_unique<FiniteElementScalars>(elements, processes);
+std::unique_ptr<ScalarSolver> make_finite_element_scalars(fem::Elements elements) {
+  return std::make_unique<FiniteElementScalars>(elements);
 }
 
 }  // namespace meniscus::bulk

@@ -9,7 +9,6 @@ namespace meniscus::bulk {
 
 /// Bulk scalars by finite elements of the kind that the flow's velocity has. Every process does all
 /// the work, and gets the same bits.
-[[nodiscard]] std::unique_ptr<ScalarSolver> make_finite_element_scalars(
-    fem::Elements elements, linear::Processes processes = linear::Processes::alone);
+[[nodiscard]] std::unique_ptr<ScalarSolver> make_finite_element_scalars(fem::Elements elements);
 
 }  // namespace meniscus::bulk
