@@ -32,7 +32,7 @@ enum class SurfaceShape { faceted, patched, splined };
 /// of the cubic patches of SmoothSurface at 200 vertices. The patches' O(h⁴) repeats from edge to
 /// edge, and a flow takes it for a corrugation. It pulls the vertices in and the middles out, 1.6 %
 /// too slow a relaxation at 110 vertices. The smooth surface's point stands where the spline is not
-/// to be trusted, or swings far from the edge. About 16 µs per edge, where the patches take 2.
+/// to be trusted, or swings far from the edge. About 15 µs per edge, where the patches take 2.
 [[nodiscard]] std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh,
                                                    const SurfaceTopology& topology);
 [[nodiscard]] std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh,
