@@ -31,7 +31,7 @@ enum class FaultKind {
   no_flow,            ///< the flow problem has no solution
   wrong_energy,       ///< a step changed the interfaces' energy as the flow does not
   inaccurate,         ///< a step's estimated error, or its motion, is too large
-  surfactant,         ///< a concentration for which there is no surface tension
+  concentration,      ///< one below zero, or of a surfactant beyond what has a tension
   no_step,            ///< no time step in its bounds can be taken
   not_converged,      ///< an iteration did not reach its tolerance
   unwanted            ///< refused by the caller's own test

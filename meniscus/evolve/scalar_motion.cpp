@@ -26,7 +26,7 @@ std::optional<Fault> set_tension_factors(Scene& scene, const TetMesh& mesh,
         interface.tension_factor[v] +=
             scene.scalars[k].tension_slope * (scalars[k].values[node] - scene.scalars[k].reference);
       if (interface.tension_factor[v] > 0.0) continue;
-      return Fault{FaultKind::surfactant,
+      return Fault{FaultKind::concentration,
                    fmt::format("the scalars leave no tension on drop {} at {}", interface.drop,
                                text_of(interface.mesh.x[v])),
                    interface.mesh.x[v]};

@@ -107,7 +107,7 @@ std::optional<Fault> find_surfactant_fault(const Scene& scene) {
       if (const std::string why = complaint(*interface.surfactant, (*concentration)[v]);
           !why.empty())
         return Fault{
-            FaultKind::surfactant,
+            FaultKind::concentration,
             fmt::format("the surfactant on drop {} at {} has the concentration {:.4g}, "
                         "which {}",
                         interface.drop, text_of(interface.mesh.x[v]), (*concentration)[v], why),

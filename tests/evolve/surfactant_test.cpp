@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meniscus/evolve/surfactant_motion.hpp"
 #include "meniscus/mesh/shapes.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/scene/interface_tension.hpp"
@@ -62,6 +63,30 @@ TEST(Surfactant, KeepsItsAmount) {
   ASSERT_TRUE(report.ok()) << report.text();
   EXPECT_GT(amounts.size(), 4U);
   for (const double each : amounts) EXPECT_NEAR(each / amounts.front(), 1.0, 1e-12);
+}
+
+// Δc = 0.2 where the mean is 1.3.
+TEST(Surfactant, HasAnErrorByWhatRatesTakeApart) {
+  const Case c = unbounded_case({.flow = "simple-shear",
+                                 .Ca = 0.2,
+                                 .shape = std::string("radius = 0.8\n") + kLinear,
+                                 .nodes = 110});
+  Scene scene = build_scene(c);
+  Interface& interface = scene.interfaces[0];
+  VertexField<double>& concentration = *surfactant_concentration(interface);
+  std::ranges::fill(concentration, 1.3);
+  Carriers carriers(SurfaceShape::splined);
+  const SurfactantPath path{scene, carriers.of(scene), carriers.of(scene), 0.5};
+  const Carrier& carrier = *path.at_start[0];
+  SurfactantTransport transport;
+  transport.emplace_back(SurfaceTransport(
+      carrier.surface, VertexField<Vec3>(interface.mesh.num_vertices(), Vec3::Zero()), 0.1));
+  const VertexField<double> rate(interface.mesh.num_vertices(), 0.4);
+  const AmountRates second{carrier.mass.amounts(rate)},
+      first{VertexField<double>(interface.mesh.num_vertices(), 0.0)};
+  EXPECT_NEAR(surfactant_error(path, transport, second, first),
+              0.2 / 1.3 * 0.8 / mean_edge(interface.mesh), 1e-9);
+  EXPECT_EQ(surfactant_error(path, transport, second, second), 0.0);
 }
 
 /// An ellipsoid with surfactant in shear, damped.

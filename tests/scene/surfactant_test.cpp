@@ -85,7 +85,7 @@ TEST(InterfaceTension, NamesTheConcentrationThatHasNone) {
     (*surfactant_concentration(scene.interfaces[0]))[VertexId{5}] = wrong;
     const auto fault = find_surfactant_fault(scene);
     ASSERT_TRUE(fault) << wrong;
-    EXPECT_EQ(fault->kind, FaultKind::surfactant);
+    EXPECT_EQ(fault->kind, FaultKind::concentration);
     EXPECT_EQ(fault->position, scene.interfaces[0].mesh.x[VertexId{5}]);
     EXPECT_NE(fault->text.find("surfactant on drop 0"), std::string::npos) << fault->text;
   }

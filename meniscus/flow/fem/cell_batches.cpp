@@ -33,7 +33,7 @@ void set(CurvedCells& cells, std::size_t m, const StokesProblem& problem, CellId
   }
 }
 
-/// The cells by eights.
+/// The cells by fours.
 template <class Batch>
 std::vector<Batch> batches_of(const StokesProblem& problem, std::span<const CellId> cells) {
   std::vector<Batch> batches((cells.size() + kLanes - 1) / kLanes);

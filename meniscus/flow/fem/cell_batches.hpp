@@ -8,7 +8,7 @@
 
 namespace meniscus::fem {
 
-/// The cells of a problem by eights, and which they are, in the order of the lanes.
+/// The cells of a problem by fours, and which they are, in the order of the lanes.
 struct CellBatches {
   std::vector<lanes::StraightCells> straight;
   std::vector<lanes::CurvedCells> curved;

@@ -8,7 +8,7 @@
 
 namespace meniscus::fem::lanes {
 
-/// The matrices of eight cells. Aligned for the widest vectors, as what it is made of is not.
+/// The matrices of four cells. Aligned for the widest vectors, as what it is made of is not.
 struct alignas(64) Square {
   std::array<std::array<Lanes, 10>, 10> entry;
 };

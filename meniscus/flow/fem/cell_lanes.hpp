@@ -12,8 +12,9 @@
 
 namespace meniscus::fem::lanes {
 
-inline constexpr std::size_t kLanes = 8;
-/// One number for each of eight cells, so that an instruction works on several.
+/// As many as AVX2 has room for. Vectors of eight would go through memory there, at half the speed.
+inline constexpr std::size_t kLanes = 4;
+/// One number for each of four cells, so that an instruction works on several.
 using Lanes [[gnu::vector_size(8 * kLanes)]] = double;
 using Lanes3 = std::array<Lanes, 3>;
 using Tensor = std::array<Lanes3, 3>;
@@ -24,7 +25,7 @@ using Derivatives = std::array<Tensor, 4>;
 template <std::size_t Count>
 using Numbers = std::array<std::array<std::int32_t, kLanes>, Count>;
 
-/// Which cells eight lanes are. The last lanes repeat a cell, of no volume. All that follows is
+/// Which cells four lanes are. The last lanes repeat a cell, of no volume. All that follows is
 /// aligned for the widest vectors, whichever the clone.
 struct alignas(64) CellNumbers {
   Numbers<10> nodes;
@@ -105,8 +106,7 @@ MENISCUS_INLINE void add_to(Tensor& to, const Tensor& t) {
 /// The numbers that stand so many places apart from the first of each lane.
 MENISCUS_INLINE void take(const std::array<const double*, kLanes>& first, std::size_t a,
                           Lanes& to) {
-  to = Lanes{first[0][a], first[1][a], first[2][a], first[3][a],
-             first[4][a], first[5][a], first[6][a], first[7][a]};
+  to = Lanes{first[0][a], first[1][a], first[2][a], first[3][a]};
 }
 template <std::size_t Components, std::size_t Count>
 MENISCUS_INLINE std::array<const double*, kLanes> places(const Numbers<Count>& numbers,

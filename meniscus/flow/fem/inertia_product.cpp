@@ -67,7 +67,7 @@ void add_masses(const Batches& cells, const CellInertia& inertia, const double* 
   add_products(cells.curved, inertia.curved, v, momentum);
 }
 
-/// The densities of the cells by eights; the last lanes repeat one.
+/// The densities of the cells by fours; the last lanes repeat one.
 std::vector<Density> densities(const InertiaTerms& terms, std::span<const CellId> cells,
                                std::size_t num_batches) {
   std::vector<Density> result(num_batches);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <span>
+#include <utility>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/linear/index.hpp"
@@ -14,6 +17,9 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 /// For each node the places in `cell_nodes` that name it.
 struct Incidence {
   std::vector<std::int32_t> first, place;
+  [[nodiscard]] std::span<const std::int32_t> of(std::int32_t node) const {
+    return {place.data() + first[at(node)], place.data() + first[at(node) + 1]};
+  }
 };
 
 Incidence incidence(const NodeTable& table) {
@@ -29,23 +35,39 @@ Incidence incidence(const NodeTable& table) {
   return result;
 }
 
-/// Appends the columns of one row, in rising order: the nodes of the cells of `places`. `index_of`
-/// holds the latest place of each node in `row_columns`, -1 where it has none.
-void append_row(const NodeTable& rows, const NodeTable& columns,
-                std::span<const std::int32_t> places, std::vector<std::int32_t>& index_of,
-                std::vector<std::int32_t>& row_columns) {
-  const auto start = static_cast<std::int32_t>(row_columns.size());
-  for (const std::int32_t place : places)
-    for (const std::int32_t j : columns.of(CellId{place / rows.nodes_per_cell})) {
-      if (index_of[at(j)] >= start) continue;  // already in this row
-      index_of[at(j)] = start;
-      row_columns.push_back(j);
-    }
-  std::sort(row_columns.begin() + start, row_columns.end());
-  const std::int32_t end =
-      linear::checked_index(std::ssize(row_columns), "pairs of neighbouring nodes");
-  MENISCUS_ASSERT(end - start <= std::numeric_limits<std::uint16_t>::max(), "{}", end - start);
-  for (std::int32_t k = start; k < end; ++k) index_of[at(row_columns[at(k)])] = k;
+/// Lists of numbers, one after the other: list i ends where list i + 1 starts.
+struct Lists {
+  std::vector<std::int32_t> start, number;
+};
+
+/// The nodes `among` that share a cell with each node `of`, in no order.
+Lists neighbours(const NodeTable& of, const Incidence& around, const NodeTable& among) {
+  Lists result;
+  result.start.reserve(at(of.num_nodes) + 1);
+  result.start.push_back(0);
+  result.number.reserve(at(of.num_nodes) * 16);  // about 15 neighbours and itself
+  std::vector<std::int32_t> seen_from(at(among.num_nodes), -1);
+  for (std::int32_t i = 0; i < of.num_nodes; ++i) {
+    for (const std::int32_t place : around.of(i))
+      for (const std::int32_t j : among.of(CellId{place / of.nodes_per_cell}))
+        if (std::exchange(seen_from[at(j)], i) != i) result.number.push_back(j);
+    result.start.push_back(
+        linear::checked_index(std::ssize(result.number), "pairs of neighbouring nodes"));
+  }
+  return result;
+}
+
+/// The lists of i by j, of `num_lists` j, from those of j by i. They are in rising order.
+Lists transposed(const Lists& lists, std::int32_t num_lists) {
+  Lists result{std::vector<std::int32_t>(at(num_lists) + 1, 0),
+               std::vector<std::int32_t>(lists.number.size())};
+  for (const std::int32_t j : lists.number) ++result.start[at(j) + 1];
+  std::partial_sum(result.start.begin(), result.start.end(), result.start.begin());
+  std::vector<std::int32_t> next(result.start.begin(), result.start.end() - 1);
+  for (std::int32_t i = 0; i + 1 < std::ssize(lists.start); ++i)
+    for (std::int32_t k = lists.start[at(i)]; k < lists.start[at(i) + 1]; ++k)
+      result.number[at(next[at(lists.number[at(k)])]++)] = i;
+  return result;
 }
 
 }  // namespace
@@ -54,27 +76,23 @@ NodeGraph node_graph(const NodeTable& rows, const NodeTable& columns) {
   MENISCUS_ASSERT(rows.num_cells() == columns.num_cells(), "{} {}", rows.num_cells(),
                   columns.num_cells());
   const Incidence around = incidence(rows);
+  Lists sorted = transposed(&rows == &columns ? neighbours(rows, around, rows)
+                                              : neighbours(columns, incidence(columns), rows),
+                            rows.num_nodes);
+  NodeGraph graph{columns.num_nodes, std::move(sorted.start), std::move(sorted.number), {}};
   const std::int32_t width = columns.nodes_per_cell;
-  NodeGraph graph;
-  graph.num_columns = columns.num_nodes;
-  graph.row_start.reserve(at(rows.num_nodes) + 1);
-  graph.row_start.push_back(0);
-  graph.columns.reserve(at(rows.num_nodes) * 16);  // about 15 neighbours and itself
   graph.position.resize(rows.cell_nodes.size() * at(width));
-  std::vector<std::int32_t> index_of(at(columns.num_nodes), -1);
+  std::vector<std::uint16_t> index_of(at(columns.num_nodes));
   for (std::int32_t i = 0; i < rows.num_nodes; ++i) {
-    const std::int32_t start = graph.row_start.back();
-    const std::span<const std::int32_t> places =
-        std::span(around.place)
-            .subspan(at(around.first[at(i)]), at(around.first[at(i) + 1] - around.first[at(i)]));
-    append_row(rows, columns, places, index_of, graph.columns);
-    const auto end = static_cast<std::int32_t>(graph.columns.size());
-    for (const std::int32_t place : places) {
+    const std::int32_t start = graph.row_start[at(i)], end = graph.row_start[at(i) + 1];
+    MENISCUS_ASSERT(end - start <= std::numeric_limits<std::uint16_t>::max(), "{}", end - start);
+    for (std::int32_t k = start; k < end; ++k)
+      index_of[at(graph.columns[at(k)])] = static_cast<std::uint16_t>(k - start);
+    for (const std::int32_t place : around.of(i)) {
       std::size_t b = at(place) * at(width);
       for (const std::int32_t j : columns.of(CellId{place / rows.nodes_per_cell}))
-        graph.position[b++] = static_cast<std::uint16_t>(index_of[at(j)] - start);
+        graph.position[b++] = index_of[at(j)];
     }
-    graph.row_start.push_back(end);
   }
   return graph;
 }

@@ -50,18 +50,24 @@ MENISCUS_VECTOR_CLONES void weighted_product(const double* A, const double* W, c
   }
 }
 
-/// Σ_k u_k(q) table_k at the points, `count` tables one after the other.
-MENISCUS_VECTOR_CLONES void combine(const double* tables, const double* u, std::size_t count,
-                                    double* result) {
+/// Σ_k u_k(q) table_k at the points, `Count` tables one after the other.
+template <std::size_t Count>
+[[gnu::always_inline]] inline void combine(const double* tables, const double* u, double* result) {
   constexpr std::size_t size = kRows * kWide;
-  for (std::size_t q = 0; q < kRows; ++q) {
-    Wide sum{}, row;
-    for (std::size_t k = 0; k < count; ++k) {
-      load(tables + k * size + q * kWide, row);
-      sum += u[count * q + k] * row;
+  for (std::size_t q = 0; q < kRows; ++q)
+    for (std::size_t j = q * kWide; j < (q + 1) * kWide; ++j) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < Count; ++k) sum += u[Count * q + k] * tables[k * size + j];
+      result[j] = sum;
     }
-    store(sum, result + q * kWide);
-  }
+}
+MENISCUS_VECTOR_CLONES void combine_three(const double* tables, const double* u,
+                                          double* __restrict result) {
+  combine<3>(tables, u, result);
+}
+MENISCUS_VECTOR_CLONES void combine_four(const double* tables, const double* u,
+                                         double* __restrict result) {
+  combine<4>(tables, u, result);
 }
 
 /// Σ_i values_i(q) field_i, `values` by node, the points side by side in rows of 16. It is for
@@ -90,7 +96,8 @@ struct Reference {
   alignas(64) std::array<double, n * kWide> value_by_node{};
   alignas(64) std::array<std::array<double, n * kWide>, 4> derivative_by_node{};
   typename Kernel::ByPoint share{};
-  typename Kernel::Square mass{};  ///< of volume 1
+  typename Kernel::Square mass{};    ///< of volume 1
+  typename Kernel::ByNode shares{};  ///< of it
 
   Reference() {
     if constexpr (Nodes == 4)
@@ -98,9 +105,11 @@ struct Reference {
     else
       fill(kTetrahedronRule5);
     for (std::size_t q = 0; q < share.size(); ++q)
-      for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t i = 0; i < n; ++i) {
+        shares[i] += share[q] * value[q * width + i];
         for (std::size_t j = 0; j < n; ++j)
           mass[i * n + j] += share[q] * value[q * width + i] * value[q * width + j];
+      }
   }
   template <class Rule>
   void fill(const Rule& rule) {
@@ -158,7 +167,7 @@ void CellKernel<Nodes>::go_to(CellId c, bool has_gradients) {
             slope[k][3 * q + a] = maps[q].gradient[a][static_cast<Eigen::Index>(k)];
       }
       for (std::size_t k = 0; has_gradients && k < 3; ++k)
-        combine(at.relative_derivative[0].data(), slope[k].data(), 3, gradient_[k].data());
+        combine_three(at.relative_derivative[0].data(), slope[k].data(), gradient_[k].data());
       return;
     }
   volume_ = tet.volume;
@@ -259,13 +268,13 @@ typename CellKernel<Nodes>::Table CellKernel<Nodes>::along(const Vectors& u) con
   Table result;
   if constexpr (Nodes == 10) {
     if (is_curved_) {
-      combine(gradient_[0].data(), u[0].data(), 3, result.data());
+      combine_three(gradient_[0].data(), u[0].data(), result.data());
       return result;
     }
     std::array<double, 4 * kPoints> by;  // u·∇b_a
     for (std::size_t q = 0; q < kPoints; ++q)
       for (std::size_t a = 0; a < 4; ++a) by[4 * q + a] = u[q].dot(corner_gradient_[a]);
-    combine(reference<Nodes>().derivative[0].data(), by.data(), 4, result.data());
+    combine_four(reference<Nodes>().derivative[0].data(), by.data(), result.data());
   } else {
     for (std::size_t q = 0; q < kPoints; ++q)
       for (std::size_t i = 0; i < kNodes; ++i) {
@@ -284,6 +293,14 @@ typename CellKernel<Nodes>::ByNode CellKernel<Nodes>::integral(const Table& f) c
     for (std::size_t i = 0; i < kWidth; ++i) sum[i] += weight_[q] * f[q * kWidth + i];
   ByNode result;
   std::copy_n(sum.begin(), kNodes, result.begin());
+  return result;
+}
+
+template <int Nodes>
+typename CellKernel<Nodes>::ByNode CellKernel<Nodes>::shares() const {
+  if (is_curved_) return integral(values());
+  ByNode result = reference<Nodes>().shares;
+  for (double& each : result) each *= volume_;
   return result;
 }
 

@@ -49,6 +49,8 @@ class CellKernel {
   [[nodiscard]] Square product(const Table& f, const Table& g) const;
   /// ∫f_i.
   [[nodiscard]] ByNode integral(const Table& f) const;
+  /// ∫φ_i.
+  [[nodiscard]] ByNode shares() const;
 
   /// A nodal field at the points, and its gradients.
   [[nodiscard]] Vectors at_points(const Field<NodeId, Vec3>& field) const;

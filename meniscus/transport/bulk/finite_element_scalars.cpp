@@ -46,7 +46,7 @@ std::optional<Fault> find_negative(const Scalar& kind, const BulkScalar& scalar,
   for (const NodeId i : positions.x.ids()) {
     const double value = scalar.values[at(i.value)];
     if (value >= least) continue;
-    return Fault{FaultKind::surfactant,
+    return Fault{FaultKind::concentration,
                  fmt::format("the concentration of {} falls to {:.4g} (in the matrix) at {}; it "
                              "must be at least 0",
                              kind.name, value, text_of(positions.x[i])),
@@ -138,7 +138,7 @@ std::vector<double> FiniteElementScalars::initial_values(const Scene& scene, con
       cell.go_to(c, false);
       const ScalarLiquid& liquid = scene.liquids[mesh.region[c]].scalars[k];
       const double unit = scene.scalars[k].is_species ? liquid.capacity : 1.0;
-      const auto shares = cell.integral(cell.values());
+      const auto shares = cell.shares();
       for (std::size_t i = 0; i < shares.size(); ++i) {
         const std::int32_t node = cell.nodes()[i];
         const double weight = filling[at(mesh.region[c].value)] * liquid.capacity * shares[i];

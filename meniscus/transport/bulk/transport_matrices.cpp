@@ -162,7 +162,7 @@ CellSums cell_sums(const TetMesh& mesh, const ScalarSpace& space, const NodePosi
       for (std::size_t a = 0; a < upstream.size(); ++a)
         sums.matrices.defect[at(cell.nodes()[a])] += capacity * upstream[a];
       if (source == 0.0) continue;
-      auto given = cell.integral(cell.values());
+      auto given = cell.shares();
       add(given, tau, upstream);
       for (std::size_t a = 0; a < given.size(); ++a)
         sums.matrices.sources[at(cell.nodes()[a])] += source * given[a];
@@ -204,10 +204,10 @@ MassMatrix mass_matrix(const Scene& scene, const TetMesh& mesh, const ScalarSpac
       const std::size_t region = region_of(mesh, c);
       const auto element = cell.mass();
       add_to(space, c, Addition{element, density[region], mass.values});
-      const std::size_t count = cell.nodes().size();
-      for (std::size_t i = 0; i < count; ++i) {
+      const auto shares = cell.shares();
+      for (std::size_t i = 0; i < shares.size(); ++i) {
         const std::int32_t node = cell.nodes()[i];
-        const double part = density[region] * sum(std::span(element).subspan(i * count, count));
+        const double part = density[region] * shares[i];
         mass.rows[at(node)] += part;
         if (region > 0) mass.of_drops.push_back({static_cast<std::int32_t>(region), node, part});
       }
