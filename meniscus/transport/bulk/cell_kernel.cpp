@@ -33,9 +33,6 @@ using Wide [[gnu::vector_size(8 * kWide)]] = double;
 [[gnu::always_inline]] inline void load(const double* from, Wide& to) {
   std::memcpy(&to, from, sizeof to);
 }
-[[gnu::always_inline]] inline void store(const Wide& from, double* to) {
-  std::memcpy(to, &from, sizeof from);
-}
 
 /// C = Aᵀ W B.
 MENISCUS_VECTOR_CLONES void weighted_product(const double* A, const double* W, const double* B,
