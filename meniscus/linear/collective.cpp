@@ -41,6 +41,12 @@ double sum(Communicator communicator, double local) {
   return all;
 }
 
+void sum(Communicator communicator, std::span<double> numbers) {
+  if (communicator.size() == 1) return;
+  MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, MPI_SUM,
+                handle_of(communicator));
+}
+
 std::int64_t sum(Communicator communicator, std::int64_t local) {
   if (communicator.size() == 1) return local;
   std::int64_t all = 0;

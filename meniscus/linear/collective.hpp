@@ -10,9 +10,11 @@
 namespace meniscus::linear {
 
 // Collective operations: every rank of a communicator must call them, in the same order. On one
-// rank each returns its argument. Results are the same on every rank, bit for bit.
+// rank each returns or keeps its argument. Results are the same on every rank, bit for bit.
 
 [[nodiscard]] double sum(Communicator communicator, double local);
+/// Sums number by number, in place.
+void sum(Communicator communicator, std::span<double> numbers);
 [[nodiscard]] std::int64_t sum(Communicator communicator, std::int64_t local);
 /// Euclidean norm of the whole vector from the norm of each rank's part.
 [[nodiscard]] double norm(Communicator communicator, double local);

@@ -56,7 +56,6 @@ void PressureMass::apply(std::span<const double> r, double s, Vec z) const {
     for (std::size_t i = 0; !constant.empty() && i < r.size(); ++i)
       p[i] += constant[static_cast<std::size_t>(system_.group_of_pressure[i])];
   });
-  if (system_.constant_pressure_is_null) remove_mean(communicator_, z);
 }
 
 PressureLaplacian::PressureLaplacian(Communicator communicator, const SaddleSystem& system)
@@ -99,13 +98,15 @@ void PressureLaplacian::add(std::span<const double> r, double s, Vec z) const {
 BlockPreconditioner::BlockPreconditioner(Communicator communicator, Shape shape,
                                          const SaddleSystem& system,
                                          const VelocityPreconditioner& multigrid, Mat B,
-                                         const PressureLaplacian* pressure_laplacian)
+                                         const PressureLaplacian* pressure_laplacian,
+                                         const CoarseSpace* slow_pressures)
     : communicator_(communicator),
       shape_(shape),
       system_(system),
       multigrid_(multigrid),
       B_(B),
       pressure_laplacian_(pressure_laplacian),
+      slow_pressures_(slow_pressures),
       mass_(communicator, system),
       velocity_(zero_vector(mpi_communicator(communicator), system.num_velocities())),
       pressure_(zero_vector(mpi_communicator(communicator), system.num_pressures())) {}
@@ -129,10 +130,12 @@ void BlockPreconditioner::apply(Vec r, Vec z) const {
   const std::span<const double> continuity(residual + num_velocities, num_pressures);
   const double sign = shape_ == Shape::diagonal ? 1.0 : -1.0;
   mass_.apply(continuity, sign, pressure_.get());
-  if (pressure_laplacian_ != nullptr) {
-    pressure_laplacian_->add(continuity, sign, pressure_.get());
-    if (system_.constant_pressure_is_null) remove_mean(communicator_, pressure_.get());
-  }
+  if (pressure_laplacian_ != nullptr) pressure_laplacian_->add(continuity, sign, pressure_.get());
+  if (slow_pressures_ != nullptr)
+    with_array(pressure_.get(), [&](double* p) {
+      slow_pressures_->add(continuity, sign, {p, num_pressures});
+    });
+  if (system_.constant_pressure_is_null) remove_mean(communicator_, pressure_.get());
   petsc_check(VecRestoreArrayRead(r, &residual), "VecRestoreArrayRead");
   if (shape_ == Shape::upper_triangular) multiply_gradient();
   with_arrays(r, velocity_.get(), [&](const double* from, double* v) {

@@ -15,7 +15,7 @@ class PressureMass {
  public:
   /// The system must outlive this.
   PressureMass(Communicator communicator, const SaddleSystem& system);
-  /// z = s M⁻¹ r, whose mean is zero where the constant pressure is a null vector.
+  /// z = s M⁻¹ r.
   void apply(std::span<const double> r, double s, Vec z) const;
 
  private:
@@ -41,17 +41,18 @@ class PressureLaplacian {
   Vector result_;
 };
 
-/// S⁻¹ = (M_p/μ)⁻¹ + L⁻¹ with a pressure Laplacian L, else (M_p/μ)⁻¹; z_p = s S⁻¹ r_p. Upper
-/// triangular, s = −1: z_v = M_A⁻¹ (r_v − Bᵀ z_p). Diagonal, s = +1, positive definite as MINRES
-/// needs it: z_v = M_A⁻¹ r_v.
+/// S⁻¹ = (M_p/μ)⁻¹ + L⁻¹ with a pressure Laplacian L, else (M_p/μ)⁻¹. The coarse space of the slow
+/// pressures is added, if there are such; z_p = s S⁻¹ r_p. Upper triangular, s = −1: z_v = M_A⁻¹
+/// (r_v − Bᵀ z_p). Diagonal, s = +1, positive definite as MINRES needs it: z_v = M_A⁻¹ r_v.
 class BlockPreconditioner {
  public:
   enum class Shape { upper_triangular, diagonal };
-  /// All that is given must outlive this; B is null where there are products, the pressure
-  /// Laplacian where there are no masses.
+  /// All that is given must outlive this. B is null where there are products, the pressure
+  /// Laplacian where there are no masses, the slow pressures where there are none.
   BlockPreconditioner(Communicator communicator, Shape shape, const SaddleSystem& system,
                       const VelocityPreconditioner& multigrid, Mat B,
-                      const PressureLaplacian* pressure_laplacian);
+                      const PressureLaplacian* pressure_laplacian,
+                      const CoarseSpace* slow_pressures);
   void apply(Vec r, Vec z) const;
 
  private:
@@ -64,6 +65,7 @@ class BlockPreconditioner {
   const VelocityPreconditioner& multigrid_;
   Mat B_;
   const PressureLaplacian* pressure_laplacian_;
+  const CoarseSpace* slow_pressures_;
   PressureMass mass_;
   Vector velocity_, pressure_;
 };

@@ -87,6 +87,17 @@ void warn_of_unused(PetscOptions table, const std::string& given) {
   }
 }
 
+/// Velocities and pressures of one rank, as a system has them.
+struct WholeVector {
+  explicit WholeVector(const SaddleSystem& system)
+      : values(static_cast<std::size_t>(system.size()), 0.0),
+        num_velocities(static_cast<std::size_t>(system.num_velocities())) {}
+  [[nodiscard]] std::span<double> velocities() { return std::span(values).first(num_velocities); }
+  [[nodiscard]] std::span<double> pressures() { return std::span(values).subspan(num_velocities); }
+  std::vector<double> values;
+  std::size_t num_velocities;
+};
+
 void remove_mean(Communicator communicator, std::span<double> values) {
   const double mean = mean_of(communicator, values);
   for (double& value : values) value -= mean;
@@ -162,6 +173,7 @@ class SaddleSolver::Implementation {
 
   void drop_preconditioner() {
     multigrid_.reset();
+    slow_pressures_.reset();
     pressure_laplacian_.reset();
     factorization_.reset();
     nested_ = {};
@@ -194,8 +206,10 @@ class SaddleSolver::Implementation {
         factorization_ = std::make_unique<Factorization>(communicator_, system);
       apply_ = [this](Vec r, Vec z) { factorization_->apply(r, z); };
     } else if (!is_paper) {
-      if (!multigrid_ || 3 * multigrid_->num_nodes() != system.num_velocities())
+      if (!multigrid_ || 3 * multigrid_->num_nodes() != system.num_velocities()) {
         multigrid_ = make_multigrid(system);
+        slow_pressures_ = make_slow_pressures(system);
+      }
       if (system.mass_diagonal.empty())
         pressure_laplacian_.reset();
       else if (!pressure_laplacian_ || pressure_laplacian_->size() != system.num_pressures())
@@ -204,15 +218,53 @@ class SaddleSolver::Implementation {
       block_.emplace(
           communicator_,
           options_.method == SaddleMethod::minres ? Shape::diagonal : Shape::upper_triangular,
-          system, *multigrid_, nested_.B.get(), pressure_laplacian_.get());
+          system, *multigrid_, nested_.B.get(), pressure_laplacian_.get(),
+          slow_pressures_ ? &*slow_pressures_ : nullptr);
       apply_ = [this](Vec r, Vec z) { block_->apply(r, z); };
     }
   }
 
   [[nodiscard]] std::unique_ptr<VelocityPreconditioner> make_multigrid(
       const SaddleSystem& system) const {
-    if (system.has_products()) return std::make_unique<MultigridByDegree>(communicator_, system);
-    return std::make_unique<VelocityMultigrid>(communicator_, system);
+    std::unique_ptr<VelocityPreconditioner> cycle;
+    if (system.has_products())
+      cycle = std::make_unique<MultigridByDegree>(communicator_, system);
+    else
+      cycle = std::make_unique<VelocityMultigrid>(communicator_, system);
+    if (system.slow_velocities.num_rows == 0) return cycle;
+    WholeVector x(system), result(system);
+    return std::make_unique<WithSlowVelocities>(
+        std::move(cycle), CoarseSpace(communicator_, system.slow_velocities,
+                                      [&](std::span<const double> v, std::span<double> Av) {
+                                        std::ranges::copy(v, x.velocities().begin());
+                                        multiply(x, result);
+                                        std::ranges::copy(result.velocities(), Av.begin());
+                                      }));
+  }
+
+  /// On the slow pressures the Schur complement is B A⁻¹ Bᵀ + C, A⁻¹ by the preconditioner of the
+  /// velocities.
+  [[nodiscard]] std::optional<CoarseSpace> make_slow_pressures(const SaddleSystem& system) const {
+    if (system.slow_pressures.num_rows == 0) return {};
+    WholeVector x(system), result(system);
+    return CoarseSpace(
+        communicator_, system.slow_pressures, [&](std::span<const double> p, std::span<double> Sp) {
+          std::ranges::fill(x.velocities(), 0.0);
+          std::ranges::copy(p, x.pressures().begin());
+          multiply(x, result);
+          multigrid_->apply(system, borrowed_vector(comm(), result.velocities()).get(),
+                            borrowed_vector(comm(), x.velocities()).get());
+          for (double& value : x.pressures()) value = -value;
+          multiply(x, result);
+          std::ranges::copy(result.pressures(), Sp.begin());
+        });
+  }
+
+  /// The operator's product.
+  void multiply(const WholeVector& x, WholeVector& result) const {
+    petsc_check(MatMult(operator_, borrowed_vector(comm(), x.values).get(),
+                        borrowed_vector(comm(), result.values).get()),
+                "MatMult");
   }
 
   KrylovSolver make_outer_solver(double rtol) {
@@ -302,6 +354,7 @@ class SaddleSolver::Implementation {
   std::optional<BlockPreconditioner> block_;
   std::optional<DiagonalScaling> scaling_;
   std::unique_ptr<VelocityPreconditioner> multigrid_;
+  std::optional<CoarseSpace> slow_pressures_;  ///< made with the multigrid
   std::unique_ptr<PressureLaplacian> pressure_laplacian_;
   std::unique_ptr<Factorization> factorization_;
 };

@@ -66,6 +66,10 @@ struct SaddleSystem {
   /// group r and 0 elsewhere. Empty: no groups.
   std::span<const std::int32_t> group_of_pressure = {};
   std::span<const double> group_weights = {};  ///< w_r ≥ 0
+  /// Functions, as rows with this rank's 3n or m entries, on which the matrices above do not stand
+  /// for A and for the Schur complement. The block solver and MINRES make these two on their span.
+  /// With no rows: there are none.
+  CsrView slow_velocities = {}, slow_pressures = {};
   /// Where given, A, B and C have no entries. For the block solver and MINRES.
   SaddleProducts products = {};
   std::span<const double> laplacian_diagonals = {};  ///< 3n, of `products.laplacians`

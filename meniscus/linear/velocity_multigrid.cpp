@@ -221,4 +221,12 @@ void MultigridByDegree::correct(std::span<double> z) const {
   }
 }
 
+void WithSlowVelocities::apply(const SaddleSystem& system, Vec r, Vec z) const {
+  cycle_->apply(system, r, z);
+  const auto size = static_cast<std::size_t>(system.num_velocities());
+  with_arrays(r, z, [&](const double* from, double* to) {
+    slow_.add({from, size}, 1.0, {to, size});
+  });
+}
+
 }  // namespace meniscus::linear

@@ -2,9 +2,11 @@
 // Private header of this room.
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "meniscus/linear/coarse_space.hpp"
 #include "meniscus/linear/petsc_matrix.hpp"
 #include "meniscus/linear/saddle_system.hpp"
 
@@ -64,6 +66,19 @@ class MultigridByDegree final : public VelocityPreconditioner {
   std::vector<KrylovSolver> cycles_;
   mutable std::vector<double> residual_;
   Vector component_, coarse_r_, coarse_z_;
+};
+
+/// Another preconditioner with the coarse space of the slow velocities added.
+class WithSlowVelocities final : public VelocityPreconditioner {
+ public:
+  WithSlowVelocities(std::unique_ptr<VelocityPreconditioner> cycle, CoarseSpace slow)
+      : cycle_(std::move(cycle)), slow_(std::move(slow)) {}
+  void apply(const SaddleSystem& system, Vec r, Vec z) const override;
+  [[nodiscard]] std::int32_t num_nodes() const override { return cycle_->num_nodes(); }
+
+ private:
+  std::unique_ptr<VelocityPreconditioner> cycle_;
+  CoarseSpace slow_;
 };
 
 }  // namespace meniscus::linear

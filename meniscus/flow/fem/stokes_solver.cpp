@@ -85,7 +85,7 @@ linear::SaddleSolver& StokesSolver::linear_solver(LinearSolver which) {
 }
 
 void StokesSolver::prepare(const StokesProblem& problem) {
-  shares_ = constant_pressure_shares(problem);
+  examine(problem, linear::Preconditioner::fresh);
   const auto prepare_local = [&](const StokesProblem& local) {
     use_product(local);
     linear_solver(options_.linear)
@@ -95,6 +95,13 @@ void StokesSolver::prepare(const StokesProblem& problem) {
     prepare_local(local_part(problem, *partition_));
   else
     prepare_local(problem);
+}
+
+void StokesSolver::examine(const StokesProblem& global, linear::Preconditioner preconditioner) {
+  shares_ = constant_pressure_shares(global);
+  if (slow_modes_ && preconditioner == linear::Preconditioner::kept) return;
+  slow_modes_ = slow_modes(global);
+  if (partition_) slow_modes_ = local_part(*slow_modes_, *partition_);
 }
 
 void StokesSolver::use_product(const StokesProblem& problem) {
@@ -111,7 +118,10 @@ linear::SaddleSystem StokesSolver::assembled_system(const StokesProblem& problem
     if (!jacobian) jacobian.emplace(partition_ ? partition_->space : space_, partition_.get());
     jacobian->weigh_constant_pressures(shares_);
     jacobian->assemble(problem, of...);
-    return jacobian->system();
+    linear::SaddleSystem system = jacobian->system();
+    system.slow_velocities = slow_modes_->velocities.view();
+    system.slow_pressures = slow_modes_->pressures.view();
+    return system;
   };
   if (product_ && (which == LinearSolver::block || which == LinearSolver::minres))
     return assembled(product_jacobian_, *product_, preconditioner);
@@ -121,7 +131,7 @@ linear::SaddleSystem StokesSolver::assembled_system(const StokesProblem& problem
 StokesReport StokesSolver::solve(const StokesProblem& problem, StokesState& state,
                                  linear::Preconditioner preconditioner, PhaseTimes& times) {
   problem.constraints.impose(state.v);
-  shares_ = constant_pressure_shares(problem);
+  examine(problem, preconditioner);
   if (!partition_) return solve_local(problem, state, preconditioner, times);
   StokesState part = local_part(state, *partition_);
   StokesReport report = solve_local(local_part(problem, *partition_), part, preconditioner, times);
@@ -181,7 +191,7 @@ StokesReport StokesSolver::solve_local(const StokesProblem& problem, StokesState
 
 StokesReport StokesSolver::project(const StokesProblem& problem, Field<NodeId, Vec3>& v,
                                    linear::Preconditioner preconditioner, PhaseTimes& times) {
-  shares_ = constant_pressure_shares(problem);
+  examine(problem, preconditioner);
   StokesState state = state_at_rest();
   state.v = v;
   problem.constraints.impose(state.v);

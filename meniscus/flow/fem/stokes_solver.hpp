@@ -8,6 +8,7 @@
 #include "meniscus/flow/fem/options.hpp"
 #include "meniscus/flow/fem/partition.hpp"
 #include "meniscus/flow/fem/product_jacobian.hpp"
+#include "meniscus/flow/fem/slow_modes.hpp"
 #include "meniscus/flow/fem/spaces.hpp"
 #include "meniscus/flow/fem/stokes_jacobian.hpp"
 #include "meniscus/flow/fem/stokes_problem.hpp"
@@ -70,6 +71,8 @@ class StokesSolver {
   void use_product(const StokesProblem& problem);
   /// Null where there is none.
   [[nodiscard]] const StokesProduct* product() const { return product_ ? &*product_ : nullptr; }
+  /// Finds what preconditioners get from the global problem.
+  void examine(const StokesProblem& global, linear::Preconditioner preconditioner);
   linear::SaddleSystem assembled_system(const StokesProblem& problem, LinearSolver which,
                                         linear::Preconditioner preconditioner,
                                         const Linearization* about);
@@ -96,7 +99,8 @@ class StokesSolver {
   const FlowSpace& space_;
   std::unique_ptr<const Partition> partition_;  ///< this rank's; null on one rank
   Field<RegionId, double> shares_;              ///< of the problem, as below (region_pressures.hpp)
-  std::optional<StokesProduct> product_;    ///< of the problem that is being solved, if it has one
+  std::optional<SlowModes> slow_modes_;   ///< this rank's, since a fresh preconditioner last asked
+  std::optional<StokesProduct> product_;  ///< of the problem that is being solved, if it has one
   std::optional<StokesJacobian> jacobian_;  ///< made when a solver first takes matrices
   std::optional<ProductJacobian> product_jacobian_;
   std::map<LinearSolver, linear::SaddleSolver> linear_solvers_;

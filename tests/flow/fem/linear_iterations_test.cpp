@@ -93,23 +93,16 @@ TEST_P(LinearIterations, NoLongerGrowForAGas) {
   }
 }
 
-class StiffDrop : public LinearIterations {};
-INSTANTIATE_TEST_SUITE_P(WithoutNeck, StiffDrop,
-                         testing::Values(Case{DropShape::sphere, Elements::p1_p1, 300},
-                                         Case{DropShape::prolate, Elements::p1_p1, 200},
-                                         Case{DropShape::sphere, Elements::p2_p1, 60},
-                                         Case{DropShape::prolate, Elements::p2_p1, 42}));
-
-// A drop that turns as a rigid body dissipates nothing inside, where the Laplacians that stand for
-// the velocity block hold λ against it: three eigenvalues of 1/λ, all others as between like
-// liquids. To cancel each costs as many iterations as to lower the residual by λ, where those
-// between likes lower it by 1e6. A dumbbell's neck adds bending and torsion: 137 at λ = 1e4.
-TEST_P(StiffDrop, PaysForItsThreeRotations) {
+// Where a drop's sections turn as rigid bodies it dissipates next to nothing, and the Laplacians
+// that stand for the velocity block hold λ against it. Without the slow modes a sphere takes 42, a
+// prolate drop 101, a dumbbell 141 iterations at λ = 1000.
+TEST_P(LinearIterations, HardlyGrowForAStiffDrop) {
   const int between_likes = solved(1.0, {}).iterations;
-  for (const double exponent : {3.0, 4.0}) {
-    const StokesReport report = solved(std::pow(10.0, exponent), {});
+  for (const double lambda : {1e3, 1e4}) {
+    const StokesReport report = solved(lambda, {});
     ASSERT_TRUE(report.ok() && report.failed_solvers.empty()) << report.text();
-    EXPECT_LE(report.iterations, (1.0 + 3.0 * exponent / 6.0) * between_likes) << exponent;
+    const double factor = GetParam().shape == DropShape::dumbbell ? 2.5 : 1.5;
+    EXPECT_LE(report.iterations, factor * between_likes) << "lambda " << lambda;
   }
 }
 

@@ -13,6 +13,7 @@
 #include "meniscus/linear/collective.hpp"
 #include "tests/flow/fem/sheared_drop.hpp"
 #include "tests/flow/fem/straight_space.hpp"
+#include "tests/flow/fem/stretched_drop.hpp"
 
 namespace meniscus::fem {
 namespace {
@@ -98,6 +99,23 @@ TEST_P(RanksBySolver, TogetherFindWhatOneFindsAlone) {
   if (world().size() == 1) {
     EXPECT_EQ(numbers(together.state), numbers(alone.state));
   }
+}
+
+// The slow modes of a drop reach over the parts of ranks.
+TEST(Ranks, ShareSlowModes) {
+  Options options;
+  options.rtol = 1e-10;
+  for (const Elements elements : {Elements::p1_p1, Elements::p2_p1})
+    for (const double lambda : {0.001, 1000.0}) {
+      const Scene scene = stretched_drop(DropShape::dumbbell, 42, lambda);
+      TetMesh mesh;
+      ASSERT_TRUE(tetrahedralize(scene, suited_volume_mesh(elements), mesh).ok());
+      const FlowSpace space = flow_space(mesh, elements);
+      const auto [alone, together] = solved_both_ways(instant(scene, mesh, space), options);
+      EXPECT_NEAR(together.report.iterations, alone.report.iterations,
+                  0.15 * alone.report.iterations);
+      EXPECT_LT(largest_velocity_difference(alone.state, together.state), 4e-6);
+    }
 }
 
 TEST(Ranks, DoTheSameArithmeticAgain) {
