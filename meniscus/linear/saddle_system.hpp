@@ -26,9 +26,10 @@ using LinearOperator = std::function<void(std::span<const double> x, std::span<d
 
 /// The products with a saddle system (below) whose blocks are not given as matrices. Collective.
 struct SaddleProducts {
-  LinearOperator whole;       ///< [A Bᵀ; B −C]
-  LinearOperator gradient;    ///< Bᵀ
-  LinearOperator laplacians;  ///< ∫μ∇φ·∇φ of each component, three side by side
+  LinearOperator whole;     ///< [A Bᵀ; B −C]
+  LinearOperator gradient;  ///< Bᵀ
+  /// ∫μ∇φ·∇φ of each component, three side by side, or what it was with the preconditioner kept.
+  LinearOperator laplacians;
 };
 
 /// The system of a mixed velocity-pressure problem with n nodes and m pressures,

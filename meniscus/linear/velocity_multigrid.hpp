@@ -46,7 +46,7 @@ class VelocityMultigrid final : public VelocityPreconditioner {
 
 /// Two levels, quadratic over linear functions, for systems given by products. There is a step of
 /// Chebyshev–Jacobi smoothing before and after an algebraic cycle on the linear functions. Keeps
-/// the coarse level and the smoother's weights; residuals are those of the system being solved.
+/// the coarse level and the smoother's weights; residuals are by the system's own products.
 class MultigridByDegree final : public VelocityPreconditioner {
  public:
   MultigridByDegree(Communicator communicator, const SaddleSystem& system);

@@ -23,7 +23,10 @@ Vec3 free_part(const Vec3& local, const NodeConstraint& constraint) {
 
 std::vector<double> local_velocities(const StokesProblem& problem, std::span<const double> owned) {
   if (problem.partition != nullptr) return velocities_with_ghosts(owned, *problem.partition);
-  return {owned.begin(), owned.end()};
+  std::vector<double> all;
+  all.reserve(owned.size() + 1);  // for the number that the Laplacian wants after all
+  all.assign(owned.begin(), owned.end());
+  return all;
 }
 
 std::vector<double> local_pressures(const StokesProblem& problem, std::span<const double> owned) {
@@ -66,24 +69,22 @@ void FreeProduct::multiply_gradient(std::span<const double> p, std::span<double>
   std::copy_n(momentum.begin(), v.size(), v.begin());
 }
 
-void FreeProduct::multiply_laplacians(std::span<const double> x, std::span<double> r) const {
-  const std::int32_t num_nodes = problem_.space.velocity.num_nodes;
-  std::vector<double> v = local_velocities(problem_, x), result(v.size());
-  for_each_fixed(problem_.constraints, num_nodes, [&](std::size_t i) { v[i] = 0.0; });
-  product_.add_laplacian(v, result);
+void FreeProduct::multiply_laplacians(const LaplacianMatrix& laplacian, std::span<const double> x,
+                                      std::span<double> r) const {
+  std::vector<double> v = local_velocities(problem_, x);
+  for_each_fixed(problem_.constraints, problem_.space.velocity.num_nodes,
+                 [&](std::size_t i) { v[i] = 0.0; });
+  v.push_back(0.0);  // as the matrix wants it
+  laplacian.multiply(v, r);
   for_each_fixed(problem_.constraints, owned_counts(problem_).num_nodes,
-                 [&](std::size_t i) { result[i] = x[i]; });
-  std::copy_n(result.begin(), r.size(), r.begin());
+                 [&](std::size_t i) { r[i] = x[i]; });
 }
 
-std::vector<double> FreeProduct::laplacian_diagonals() const {
-  const std::int32_t num_owned = owned_counts(problem_).num_nodes;
-  std::vector<double> by_node(at(problem_.space.velocity.num_nodes));
-  product_.add_laplacian_diagonal(by_node);
+std::vector<double> FreeProduct::diagonals_of(const LaplacianMatrix& laplacian) const {
   std::vector<double> diagonals;
-  diagonals.reserve(3 * at(num_owned));
-  for (std::size_t i = 0; i < at(num_owned); ++i) diagonals.insert(diagonals.end(), 3, by_node[i]);
-  for_each_fixed(problem_.constraints, num_owned, [&](std::size_t i) { diagonals[i] = 1.0; });
+  for (const double each : laplacian.diagonal()) diagonals.insert(diagonals.end(), 3, each);
+  for_each_fixed(problem_.constraints, owned_counts(problem_).num_nodes,
+                 [&](std::size_t i) { diagonals[i] = 1.0; });
   return diagonals;
 }
 

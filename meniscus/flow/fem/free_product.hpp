@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meniscus/flow/fem/stokes_product.hpp"
+#include "meniscus/flow/fem/laplacian_matrix.hpp"
 
 namespace meniscus::fem {
 
@@ -19,9 +19,10 @@ class FreeProduct {
   /// v = Bᵀ p.
   void multiply_gradient(std::span<const double> p, std::span<double> v) const;
   /// r = the Laplacians of the three components, that stand for A's diagonal blocks.
-  void multiply_laplacians(std::span<const double> x, std::span<double> r) const;
+  void multiply_laplacians(const LaplacianMatrix& laplacian, std::span<const double> x,
+                           std::span<double> r) const;
   /// Their diagonals at the owned nodes.
-  [[nodiscard]] std::vector<double> laplacian_diagonals() const;
+  [[nodiscard]] std::vector<double> diagonals_of(const LaplacianMatrix& laplacian) const;
 
  private:
   /// Turns a test's results into the frames, without the fixed components.

@@ -149,17 +149,6 @@ void InertiaProduct::add_mass_diagonal(std::span<double> by_node) const {
             cells_->curved_mass[n].entry[i][i][m];
 }
 
-void InertiaProduct::add_diagonal(std::span<double> by_node) const {
-  add_mass_diagonal(by_node);
-  const auto add = [&](const FaceNodes& nodes, const Eigen::Matrix<double, 6, 6>& values) {
-    for (std::size_t i = 0; i < 6; ++i)
-      by_node[static_cast<std::size_t>(nodes[i].value)] +=
-          values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i));
-  };
-  for (const FaceStiffness& face : terms_.tension) add(face.nodes, face.values);
-  for (const FaceElasticity& face : terms_.elasticity) add(face.nodes, face.mean_of_components());
-}
-
 void InertiaProduct::subtract_given(std::span<double> momentum) const {
   for (std::size_t i = 0; i < momentum.size(); ++i)
     momentum[i] -= given_mass_[i] + given_tension_[i];

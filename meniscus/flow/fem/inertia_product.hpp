@@ -33,8 +33,6 @@ class InertiaProduct {
   void add(std::span<const double> v, std::span<double> momentum) const;
   /// Adds τσ∮∇_sv:∇_sφ + τ∮E ∇_s·v ∇_s·φ.
   void add_tension(std::span<const double> v, std::span<double> momentum) const;
-  /// Adds the diagonal of ∫ρv/τ·φ and of `add_tension`, one number by node.
-  void add_diagonal(std::span<double> by_node) const;
   /// Adds ∫ρφ_iφ_i/τ.
   void add_mass_diagonal(std::span<double> by_node) const;
   /// Subtracts what is given: ∫ρv̄/τ·φ and `add_tension` of v*.

@@ -266,7 +266,7 @@ std::vector<double> velocities_with_ghosts(std::span<const double> owned,
   const std::vector<double> all =
       of_all_ranks(owned, velocity_counts(partition.nodes.counts), partition.communicator);
   std::vector<double> local;
-  local.reserve(3 * partition.node_number.size());
+  local.reserve(3 * partition.node_number.size() + 1);
   for (const std::int32_t number : partition.node_number)
     for (std::size_t k = 0; k < 3; ++k) local.push_back(all[3 * at(number) + k]);
   return local;

@@ -83,7 +83,8 @@ ProductJacobian::ProductJacobian(const FlowSpace& space, const Partition* partit
       pressure_graph_(node_graph(space.pressure.nodes, space.pressure.nodes)),
       laplacians_(space, partition),
       region_weights_(space.pressure, partition),
-      partition_(partition) {
+      partition_(partition),
+      laplacian_(space, owned_.num_nodes) {
   MENISCUS_ASSERT(space.elements == Elements::p2_p1, "linear elements have matrices");
   std::vector<std::int32_t> number;  // of a vertex
   for (const std::int32_t each : coarse_.number)
@@ -103,7 +104,8 @@ void ProductJacobian::assemble(const StokesProblem& problem, const StokesProduct
   for (const CellId c : problem.mesh.cells.ids()) add_pressure_mass(problem, c);
   region_weights_.update(std::span(pressure_mass_).first(at(owned_.num_pressures)));
   if (preconditioner == linear::Preconditioner::kept && !diagonals_.empty()) return;
-  diagonals_ = product_->laplacian_diagonals();
+  laplacian_.assemble(problem, product);
+  diagonals_ = product_->diagonals_of(laplacian_);
   laplacians_.choose(problem.constraints, vertex_graph_.num_entries());
   for (const CellId c : problem.mesh.cells.ids()) add_laplacians(problem, c);
   divergence_ = {};
@@ -221,10 +223,11 @@ linear::SaddleSystem ProductJacobian::system() const {
   system.C = {num_pressures, num_pressures, {}, {}, {}};
   using Values = std::span<const double>;
   const FreeProduct& product = *product_;
-  system.products = {
-      [&product](Values x, std::span<double> y) { product.multiply(x, y); },
-      [&product](Values p, std::span<double> v) { product.multiply_gradient(p, v); },
-      [&product](Values v, std::span<double> r) { product.multiply_laplacians(v, r); }};
+  system.products = {[&product](Values x, std::span<double> y) { product.multiply(x, y); },
+                     [&product](Values p, std::span<double> v) { product.multiply_gradient(p, v); },
+                     [&product, this](Values v, std::span<double> r) {
+                       product.multiply_laplacians(laplacian_, v, r);
+                     }};
   system.laplacian_diagonals = diagonals_;
   laplacians_.put_into(system, vertex_graph_, coarse_.num_owned);
   system.consistent_mass = {num_pressures, num_pressures, pressure_graph_.row_start,

@@ -47,6 +47,7 @@ class ProductJacobian {
   ScalarLaplacians laplacians_;
   RegionWeights region_weights_;
   const Partition* partition_;
+  LaplacianMatrix laplacian_;  ///< of quadratic functions, of the smoother
   std::vector<double> pressure_mass_, consistent_mass_, diagonals_;
   std::optional<FreeProduct> product_;
   bool constant_pressure_is_null_ = false;

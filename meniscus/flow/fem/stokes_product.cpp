@@ -22,7 +22,6 @@ namespace {
 
 /// s(2μ D − p I).
 struct Stress {
-  static constexpr bool has_pressure = true;
   MENISCUS_INLINE static Tensor of(const Tensor& gradient, const Lanes& viscosity, const Lanes& p,
                                    const Lanes& s) {
     Tensor result;
@@ -31,18 +30,6 @@ struct Stress {
         result[a][b] = result[b][a] = s * viscosity * (gradient[a][b] + gradient[b][a]);
       result[a][a] -= s * p;
     }
-    return result;
-  }
-};
-
-/// sμ∇v.
-struct ViscousGradient {
-  static constexpr bool has_pressure = false;
-  MENISCUS_INLINE static Tensor of(const Tensor& gradient, const Lanes& viscosity, const Lanes&,
-                                   const Lanes& s) {
-    Tensor result;
-    for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t b = 0; b < 3; ++b) result[a][b] = s * viscosity * gradient[a][b];
     return result;
   }
 };
@@ -123,61 +110,6 @@ MENISCUS_INLINE void multiply_pressure(const CurvedCells& cells, const Corners& 
   }
 }
 
-MENISCUS_INLINE Lanes dot(const Lanes3& a, const Lanes3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/// ∇b_k·∇b_l of the four barycentric coordinates.
-MENISCUS_INLINE void products_of_gradients(const Tensor& g, std::array<Corners, 4>& products) {
-  Lanes3 first;
-  for (std::size_t a = 0; a < 3; ++a) first[a] = -(g[0][a] + g[1][a] + g[2][a]);
-  const std::array<Lanes3, 4> all = {first, g[0], g[1], g[2]};
-  for (std::size_t k = 0; k < 4; ++k)
-    for (std::size_t l = k; l < 4; ++l) products[k][l] = products[l][k] = dot(all[k], all[l]);
-}
-
-/// Adds s|∇φ_i|² at a point: ∇φ = (4b_k − 1)∇b_k at a corner, 4(b_p∇b_q + b_q∇b_p) at an edge.
-MENISCUS_INLINE void add_squares(const std::array<Corners, 4>& products,
-                                 const std::array<double, 4>& b, const Lanes& s,
-                                 std::array<Lanes, 10>& diagonal) {
-  for (std::size_t k = 0; k < 4; ++k) {
-    const double of_corner = 4.0 * b[k] - 1.0;
-    diagonal[k] += s * (of_corner * of_corner) * products[k][k];
-  }
-  for (std::size_t e = 0; e < 6; ++e) {
-    const auto [p, q] = kCellEdges[e];
-    diagonal[4 + e] += 16.0 * s *
-                       (b[p] * b[p] * products[q][q] + 2.0 * b[p] * b[q] * products[p][q] +
-                        b[q] * b[q] * products[p][p]);
-  }
-}
-
-MENISCUS_INLINE void find_diagonal(const StraightCells& cells, std::array<Lanes, 10>& diagonal) {
-  std::array<Corners, 4> products;
-  products_of_gradients(cells.gradient, products);
-  const Lanes scale = 20.0 * cells.volume * cells.viscosity;
-  for (const auto& [b, share] : kTetrahedronRule2)
-    add_squares(products, b, share * scale, diagonal);
-}
-MENISCUS_INLINE void find_diagonal(const CurvedCells& cells, std::array<Lanes, 10>& diagonal) {
-  for (std::size_t q = 0; q < cells.points.size(); ++q) {
-    std::array<Corners, 4> products;
-    products_of_gradients(cells.points[q].gradient, products);
-    add_squares(products, kTetrahedronRule5[q].barycentric,
-                cells.points[q].weight * cells.viscosity, diagonal);
-  }
-}
-
-template <class Batch>
-MENISCUS_INLINE void add_diagonal(std::span<const Batch> batches, double* by_node) {
-  for (const Batch& cells : batches) {
-    std::array<Lanes, 10> diagonal = {};
-    find_diagonal(cells, diagonal);
-    for (std::size_t m = 0; m < kLanes; ++m)
-      for (std::size_t i = 0; i < 10; ++i) by_node[cells.nodes[i][m]] += diagonal[i][m];
-  }
-}
-
 struct Fields {
   const double *v, *p;
   double *momentum, *continuity;
@@ -192,13 +124,13 @@ MENISCUS_INLINE void add_fluxes(std::span<const Batch> batches, const Inertia& i
     Corners p = {};
     Derivatives d;
     take(cells.nodes, fields.v, v);
-    if constexpr (Flux::has_pressure) take(cells.pressures, fields.p, p);
+    take(cells.pressures, fields.p, p);
     differentiate(v, d);
     multiply<Flux>(cells, d, p);
     differentiate_back(d, result);
     inertia.add(cells, n, v, result);
     give(cells.nodes, result, fields.momentum);
-    if constexpr (Flux::has_pressure) give(cells.pressures, p, fields.continuity);
+    give(cells.pressures, p, fields.continuity);
   }
 }
 
@@ -237,27 +169,10 @@ void add_stresses(const Batches& cells, const ConvectedCells& inertia, const Fie
   add_fluxes<Stress>(cells.curved, inertia.curved, fields);
 }
 MENISCUS_VECTOR_CLONES
-void add_gradients(const Batches& cells, const Fields& fields) {
-  add_fluxes<ViscousGradient>(cells.straight, NoInertia{}, fields);
-  add_fluxes<ViscousGradient>(cells.curved, NoInertia{}, fields);
-}
-MENISCUS_VECTOR_CLONES
-void add_gradients(const Batches& cells, const CellInertia& inertia, const Fields& fields) {
-  add_fluxes<ViscousGradient>(cells.straight, inertia.straight, fields);
-  add_fluxes<ViscousGradient>(cells.curved, inertia.curved, fields);
-}
-MENISCUS_VECTOR_CLONES
 void add_pressures(std::span<const StraightCells> straight, std::span<const CurvedCells> curved,
                    const Fields& fields) {
   add_pressure(straight, fields);
   add_pressure(curved, fields);
-}
-
-MENISCUS_VECTOR_CLONES
-void add_diagonals(std::span<const StraightCells> straight, std::span<const CurvedCells> curved,
-                   double* by_node) {
-  add_diagonal(straight, by_node);
-  add_diagonal(curved, by_node);
 }
 
 }  // namespace
@@ -295,19 +210,6 @@ void StokesProduct::add_stress(std::span<const double> v, std::span<const double
 
 void StokesProduct::add_gradient(std::span<const double> p, std::span<double> momentum) const {
   add_pressures(cells_->straight, cells_->curved, {nullptr, p.data(), momentum.data(), nullptr});
-}
-
-void StokesProduct::add_laplacian(std::span<const double> v, std::span<double> momentum) const {
-  const Batches cells = {cells_->straight, cells_->curved};
-  const Fields fields = {v.data(), nullptr, momentum.data(), nullptr};
-  if (!inertia_) return add_gradients(cells, fields);
-  add_gradients(cells, inertia_->by_cells(), fields);
-  inertia_->add_tension(v, momentum);
-}
-
-void StokesProduct::add_laplacian_diagonal(std::span<double> by_node) const {
-  add_diagonals(cells_->straight, cells_->curved, by_node.data());
-  if (inertia_) inertia_->add_diagonal(by_node);
 }
 
 }  // namespace meniscus::fem

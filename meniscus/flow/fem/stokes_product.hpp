@@ -40,10 +40,7 @@ class StokesProduct {
                   std::span<double> continuity) const;
   /// Adds −∫p∇·φ to `momentum`.
   void add_gradient(std::span<const double> p, std::span<double> momentum) const;
-  /// Adds ∫μ∇v:∇φ to `momentum`, and what is symmetric of inertia.
-  void add_laplacian(std::span<const double> v, std::span<double> momentum) const;
-  /// Adds the diagonal of that, one number by node.
-  void add_laplacian_diagonal(std::span<double> by_node) const;
+  [[nodiscard]] const CellBatches& cells() const { return *cells_; }
   /// What inertia adds; null without.
   [[nodiscard]] const InertiaProduct* inertia() const { return inertia_.get(); }
 

@@ -77,19 +77,5 @@ TEST_F(StokesProductOfDrop, HasThePressuresPartAlone) {
   expect_same(momentum, wanted);
 }
 
-TEST_F(StokesProductOfDrop, HasALaplacianForEachComponent) {
-  std::vector<double> result(num_velocities_);
-  StokesProduct(problem_).add_laplacian(v_, result);
-  for (std::size_t a = 0; a < 3; ++a) {
-    std::vector<double> component, found, wanted(num_velocities_ / 3);
-    for (std::size_t i = a; i < num_velocities_; i += 3) {
-      component.push_back(v_[i]);
-      found.push_back(result[i]);
-    }
-    add_product(jacobian_.system().laplacians[0], component, wanted);
-    expect_same(found, wanted);
-  }
-}
-
 }  // namespace
 }  // namespace meniscus::fem
