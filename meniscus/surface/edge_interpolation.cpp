@@ -59,6 +59,7 @@ void VertexInterpolation::add(const Vec3& x, double factor, Stencil& stencil) co
   double own = factor;
   const Vec3 d = (x - frame_.x) / scale_;
   const auto m = monomials<2>(d.dot(frame_.t1), d.dot(frame_.t2));
+  stencil.reserve(stencil.size() + ring_.size() + 1);
   for (std::size_t j = 0; j < ring_.size(); ++j) {
     const double weight = factor * m.dot(fit_.col(static_cast<Eigen::Index>(j)));
     stencil.push_back({ring_[j], weight});

@@ -62,16 +62,25 @@ CarrierSurface::CarrierSurface(const SurfaceMesh& mesh, SurfaceShape shape)
                                                    middles_of(mesh, topology, edges, surface_)));
 }
 
+TriangleTangents CarrierSurface::tangents_at(FaceId f,
+                                             const TriangleShape<kQuadraticNodes>& shape) const {
+  if (!surface_.quadratic_faces().empty()) return tangents(shape, surface_.quadratic_faces()[f]);
+  const FaceVertices& v = mesh_.faces[f];
+  return {mesh_.x[v[1]] - mesh_.x[v[0]], mesh_.x[v[2]] - mesh_.x[v[0]]};
+}
+
+double CarrierSurface::area_at(FaceId f, std::size_t q) const {
+  const auto& [b, share] = kTriangleRule4[q];
+  return share * tangents_at(f, quadratic_shape(b)).area().norm();
+}
+
 CarrierSurface::Points CarrierSurface::points(FaceId f) const {
   MENISCUS_ASSERT(f.value < mesh_.num_faces(), "{} of {}", f.value, mesh_.num_faces());
-  const FaceVertices& v = mesh_.faces[f];
-  const bool is_flat = surface_.quadratic_faces().empty();
-  const TriangleTangents flat{mesh_.x[v[1]] - mesh_.x[v[0]], mesh_.x[v[2]] - mesh_.x[v[0]]};
   Points points;
   for (std::size_t q = 0; q < points.size(); ++q) {
     const auto& [b, share] = kTriangleRule4[q];
     const TriangleShape<kQuadraticNodes> shape = quadratic_shape(b);
-    const TriangleTangents at = is_flat ? flat : tangents(shape, surface_.quadratic_faces()[f]);
+    const TriangleTangents at = tangents_at(f, shape);
     const TriangleGradients g = surface_gradients(at);
     points[q].value = shape.value;
     for (std::size_t i = 0; i < kQuadraticNodes; ++i)
@@ -82,12 +91,15 @@ CarrierSurface::Points CarrierSurface::points(FaceId f) const {
 }
 
 FaceField<CarrierSurface::NodeMatrix> CarrierSurface::masses() const {
+  std::array<NodeMatrix, kTriangleRule4.size()> products;  // of the ψ at each point
+  for (std::size_t q = 0; q < products.size(); ++q) {
+    const auto shape = quadratic_shape(kTriangleRule4[q].barycentric);
+    const Eigen::Map<const Eigen::Vector<double, kQuadraticNodes>> value(shape.value.data());
+    products[q] = value * value.transpose();
+  }
   FaceField<NodeMatrix> mass(mesh_.num_faces(), NodeMatrix::Zero());
   for (const FaceId f : mass.ids())
-    for (const Point& point : points(f)) {
-      const Eigen::Map<const Eigen::Vector<double, kQuadraticNodes>> value(point.value.data());
-      mass[f] += point.area * value * value.transpose();
-    }
+    for (std::size_t q = 0; q < products.size(); ++q) mass[f] += area_at(f, q) * products[q];
   return mass;
 }
 

@@ -44,6 +44,11 @@ class CarrierSurface {
   [[nodiscard]] const Interpolation& interpolation() const { return at_nodes_; }
 
  private:
+  [[nodiscard]] TriangleTangents tangents_at(FaceId f,
+                                             const TriangleShape<kQuadraticNodes>& shape) const;
+  /// dS at a point of the rule.
+  [[nodiscard]] double area_at(FaceId f, std::size_t q) const;
+
   const SurfaceMesh& mesh_;
   ReconstructedSurface surface_;
   FaceField<FaceNodes> nodes_;

@@ -89,17 +89,23 @@ MENISCUS_INLINE void multiply(const CurvedCells& cells, Derivatives& d, Corners&
   p = continuity;
 }
 
-/// The pressure's part of the momentum.
-MENISCUS_INLINE void multiply_pressure(const StraightCells& cells, const Corners& p,
-                                       Derivatives& d) {
+/// The pressure's part of the momentum, −∫p∇φ. It is −V/20 (4p_k − Σp)∇b_k at a corner k, and
+/// −V/5 [(Σp + p_i)∇b_j + (Σp + p_j)∇b_i] at the edge of i and j.
+MENISCUS_INLINE void multiply_pressure(const StraightCells& cells, const Corners& p, Nodal& r) {
   const Lanes sum = p[0] + p[1] + p[2] + p[3];
-  for (std::size_t k = 0; k < 4; ++k)
-    for (std::size_t l = 0; l < 3; ++l)
-      for (std::size_t a = 0; a < 3; ++a)
-        d[k][l][a] = -cells.volume * (sum + p[k]) * cells.gradient[l][a];
+  for (std::size_t a = 0; a < 3; ++a) {
+    Corners slope;
+    for (std::size_t l = 0; l < 3; ++l) slope[l + 1] = -cells.volume * cells.gradient[l][a];
+    slope[0] = -(slope[1] + slope[2] + slope[3]);
+    for (std::size_t k = 0; k < 4; ++k) r[k][a] = (4.0 * p[k] - sum) * slope[k];
+    for (std::size_t e = 0; e < 6; ++e) {
+      const auto [i, j] = kCellEdges[e];
+      r[4 + e][a] = 4.0 * ((sum + p[i]) * slope[j] + (sum + p[j]) * slope[i]);
+    }
+  }
 }
-MENISCUS_INLINE void multiply_pressure(const CurvedCells& cells, const Corners& p, Derivatives& d) {
-  d = {};
+MENISCUS_INLINE void multiply_pressure(const CurvedCells& cells, const Corners& p, Nodal& r) {
+  Derivatives d = {};
   for (std::size_t q = 0; q < cells.points.size(); ++q) {
     const auto& [g, weight] = cells.points[q];
     const std::array<double, 4>& b = kTetrahedronRule5[q].barycentric;
@@ -108,6 +114,7 @@ MENISCUS_INLINE void multiply_pressure(const CurvedCells& cells, const Corners& 
       for (std::size_t a = 0; a < 3; ++a) flux[l][a] = -weight * at_point(b, p) * g[l][a];
     add_back(b, flux, d);
   }
+  differentiate_back(d, r);
 }
 
 struct Fields {
@@ -137,13 +144,11 @@ MENISCUS_INLINE void add_fluxes(std::span<const Batch> batches, const Inertia& i
 template <class Batch>
 MENISCUS_INLINE void add_pressure(std::span<const Batch> batches, const Fields& fields) {
   for (const Batch& cells : batches) {
-    Nodal v;
+    Nodal result;
     Corners p;
-    Derivatives d;
     take(cells.pressures, fields.p, p);
-    multiply_pressure(cells, p, d);
-    differentiate_back(d, v);
-    give(cells.nodes, v, fields.momentum);
+    multiply_pressure(cells, p, result);
+    give(cells.nodes, result, fields.momentum);
   }
 }
 
