@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "meniscus/linear/collective.hpp"
+#include "meniscus/linear/ghost_values.hpp"
 #include "meniscus/linear/graph_partition.hpp"
 #include "meniscus/linear/saddle_solver.hpp"
 #include "tests/linear/chain.hpp"
@@ -206,6 +207,29 @@ TEST(GraphPartition, HeavyVerticesHaveFewerCompanions) {
   const std::vector<std::int32_t> part = partition(graph, 2);
   if (best_partitioner() == Partitioner::ptscotch) {
     EXPECT_NEAR(double(std::ranges::count(part, part[0])), 150.0, 25.0);
+  }
+}
+
+// Each rank owns two items more than the one before it, and wants the last of every other one.
+TEST(Ranks, FetchWhatOthersOwn) {
+  const auto number_owned = [](int rank) { return 1 + 2 * rank; };
+  std::vector<std::int32_t> wanted;
+  std::int32_t end = 0, first = 0;
+  for (int rank = 0; rank < world().size(); ++rank) {
+    if (rank == world().rank()) first = end;
+    end += number_owned(rank);
+    if (rank != world().rank()) wanted.insert(wanted.begin(), end - 1);
+  }
+  const GhostValues ghosts(world(), number_owned(world().rank()), wanted, 2);
+  for (const double sign : {1.0, -1.0}) {
+    std::vector<double> owned, found(2 * wanted.size());
+    for (std::int32_t i = 0; i < number_owned(world().rank()); ++i)
+      for (const double part : {0.25, 0.5}) owned.push_back(sign * (first + i + part));
+    ghosts.fetch(owned, found);
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      EXPECT_EQ(found[2 * k], sign * (wanted[k] + 0.25));
+      EXPECT_EQ(found[2 * k + 1], sign * (wanted[k] + 0.5));
+    }
   }
 }
 

@@ -2,7 +2,13 @@
 
 #include <algorithm>
 
+#include "meniscus/core/vector_clones.hpp"
 #include "meniscus/flow/fem/elements.hpp"
+
+// GCC 12 takes elements of vectors that are set one by one for uninitialised.
+#ifndef __clang__
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 
 namespace meniscus::fem {
 
@@ -24,16 +30,34 @@ void set(StraightCells& cells, std::size_t m, const StokesProblem& problem, Cell
   set(cells.gradient, m, {tet.gradient[1], tet.gradient[2], tet.gradient[3]});
   cells.volume[m] = times * tet.volume / 20.0;
 }
-void set(CurvedCells& cells, std::size_t m, const StokesProblem& problem, CellId c, double times) {
-  const std::array<CurvedMap, kTetrahedronRule5.size()> maps =
-      curved_maps(problem.positions.x, problem.space.velocity.of(c));
-  for (std::size_t q = 0; q < maps.size(); ++q) {
-    set(cells.points[q].gradient, m, maps[q].gradient);
-    cells.points[q].weight[m] = times * maps[q].weight;
+MENISCUS_INLINE Lanes3 cross(const Lanes3& a, const Lanes3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The gradients of barycentric coordinates at the points are the inverse of ∂x/∂b, whose
+/// determinant is six times the volume that the weights share out.
+MENISCUS_VECTOR_CLONES
+void set_points(std::span<CurvedCells> batches, const double* x) {
+  for (CurvedCells& cells : batches) {
+    Nodal nodes;
+    Derivatives d;
+    take(cells.nodes, x, nodes);
+    differentiate(nodes, d);
+    for (std::size_t q = 0; q < cells.points.size(); ++q) {
+      const auto& [b, share] = kTetrahedronRule5[q];
+      const Tensor by = at_point(b, d);
+      const Tensor normals = {cross(by[1], by[2]), cross(by[2], by[0]), cross(by[0], by[1])};
+      const Lanes determinant = dot(by[0], normals[0]), inverse = 1.0 / determinant;
+      for (std::size_t l = 0; l < 3; ++l)
+        for (std::size_t a = 0; a < 3; ++a)
+          cells.points[q].gradient[l][a] = inverse * normals[l][a];
+      cells.points[q].weight = (share / 6.0) * determinant;
+    }
   }
 }
 
-/// The cells by fours.
+/// The cells by fours, without their shapes. The last lanes repeat a cell, which then gets no
+/// volume.
 template <class Batch>
 std::vector<Batch> batches_of(const StokesProblem& problem, std::span<const CellId> cells) {
   std::vector<Batch> batches((cells.size() + kLanes - 1) / kLanes);
@@ -44,10 +68,23 @@ std::vector<Batch> batches_of(const StokesProblem& problem, std::span<const Cell
     const auto nodes = problem.space.velocity.of(c), pressures = problem.space.pressure.nodes.of(c);
     for (std::size_t i = 0; i < nodes.size(); ++i) batch.nodes[i][m] = nodes[i];
     for (std::size_t i = 0; i < pressures.size(); ++i) batch.pressures[i][m] = pressures[i];
-    set(batch, m, problem, c, n < cells.size() ? 1.0 : 0.0);
     batch.viscosity[m] = problem.viscosity[c];
   }
   return batches;
+}
+
+void set_shapes(const StokesProblem& problem, const std::vector<CellId>& cells,
+                std::vector<StraightCells>& batches) {
+  for (std::size_t n = 0; n < kLanes * batches.size(); ++n)
+    set(batches[n / kLanes], n % kLanes, problem, cells[std::min(n, cells.size() - 1)],
+        n < cells.size() ? 1.0 : 0.0);
+}
+
+void set_shapes(const StokesProblem& problem, const std::vector<CellId>& cells,
+                std::vector<CurvedCells>& batches) {
+  set_points(batches, numbers(problem.positions.x).data());
+  for (std::size_t n = cells.size(); n < kLanes * batches.size(); ++n)
+    for (CurvedPoint& point : batches.back().points) point.weight[n % kLanes] = 0.0;
 }
 
 }  // namespace
@@ -58,6 +95,8 @@ CellBatches cell_batches(const StokesProblem& problem) {
     (problem.positions.is_curved[c] ? batches.curved_cells : batches.straight_cells).push_back(c);
   batches.straight = batches_of<StraightCells>(problem, batches.straight_cells);
   batches.curved = batches_of<CurvedCells>(problem, batches.curved_cells);
+  set_shapes(problem, batches.straight_cells, batches.straight);
+  set_shapes(problem, batches.curved_cells, batches.curved);
   return batches;
 }
 

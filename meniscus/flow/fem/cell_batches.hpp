@@ -1,6 +1,8 @@
 #pragma once
 // Private header of the products of cells.
 
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "meniscus/flow/fem/cell_lanes.hpp"
@@ -15,5 +17,25 @@ struct CellBatches {
   std::vector<CellId> straight_cells, curved_cells;
 };
 [[nodiscard]] CellBatches cell_batches(const StokesProblem& problem);
+
+/// Some of the batches.
+struct Range {
+  std::size_t begin, end;
+};
+
+/// Has matrices made of a few batches at a time, so that they stay in the cache, and used: calls
+/// `set(range, matrices)`, then `use(cell, matrices, lane)` for each of these cells.
+template <class Matrices, class Set, class Use>
+void with_matrices(std::size_t num_batches, const std::vector<CellId>& cells, Set set, Use use) {
+  constexpr std::size_t kAtOnce = 8;
+  std::array<Matrices, kAtOnce> matrices;
+  for (std::size_t begin = 0; begin < num_batches; begin += kAtOnce) {
+    const std::size_t end = std::min(begin + kAtOnce, num_batches);
+    set(Range{begin, end}, matrices.data());
+    for (std::size_t n = lanes::kLanes * begin; n < std::min(lanes::kLanes * end, cells.size());
+         ++n)
+      use(cells[n], matrices[n / lanes::kLanes - begin], n % lanes::kLanes);
+  }
+}
 
 }  // namespace meniscus::fem

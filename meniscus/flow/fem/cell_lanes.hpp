@@ -96,6 +96,29 @@ MENISCUS_INLINE Tensor on_gradients(const Tensor& S, const Tensor& g) {
   return result;
 }
 
+MENISCUS_INLINE Lanes dot(const Lanes3& a, const Lanes3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// The gradients of the four barycentric coordinates from those of the last three.
+MENISCUS_INLINE std::array<Lanes3, 4> all_gradients(const Tensor& g) {
+  Lanes3 first;
+  for (std::size_t a = 0; a < 3; ++a) first[a] = -(g[0][a] + g[1][a] + g[2][a]);
+  return {first, g[0], g[1], g[2]};
+}
+
+/// Σ_k b_k of what is given by corners.
+MENISCUS_INLINE Lanes at_point(const std::array<double, 4>& b, const Corners& of) {
+  return b[0] * of[0] + b[1] * of[1] + b[2] * of[2] + b[3] * of[3];
+}
+MENISCUS_INLINE Tensor at_point(const std::array<double, 4>& b, const Derivatives& d) {
+  Tensor result;
+  for (std::size_t l = 0; l < 3; ++l)
+    for (std::size_t a = 0; a < 3; ++a)
+      result[l][a] = at_point(b, Corners{d[0][l][a], d[1][l][a], d[2][l][a], d[3][l][a]});
+  return result;
+}
+
 MENISCUS_INLINE Lanes trace(const Tensor& t) { return t[0][0] + t[1][1] + t[2][2]; }
 
 MENISCUS_INLINE void add_to(Tensor& to, const Tensor& t) {

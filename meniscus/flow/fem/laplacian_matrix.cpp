@@ -23,17 +23,6 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-MENISCUS_INLINE Lanes dot(const Lanes3& a, const Lanes3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/// The gradients of the four barycentric coordinates from those of the last three.
-MENISCUS_INLINE std::array<Lanes3, 4> all_gradients(const Tensor& g) {
-  Lanes3 first;
-  for (std::size_t a = 0; a < 3; ++a) first[a] = -(g[0][a] + g[1][a] + g[2][a]);
-  return {first, g[0], g[1], g[2]};
-}
-
 /// From ∇φ = (4b_k − 1)∇b_k at a corner k, 4(b_p∇b_q + b_q∇b_p) at an edge, and
 /// ∫b_k b_l = V(1 + δ_kl)/20.
 MENISCUS_INLINE void set_stiffness(const StraightCells& cells, Square& K) {
@@ -98,11 +87,6 @@ MENISCUS_INLINE void add_mass(const StraightMassesOf& of, std::size_t n, Square&
   for (std::size_t i = 0; i < 10; ++i)
     for (std::size_t j = 0; j < 10; ++j) K.entry[i][j] += kQuadraticMass[i][j] * scale;
 }
-
-/// Some of the batches of cells.
-struct Range {
-  std::size_t begin, end;
-};
 
 template <class Batch, class Masses>
 MENISCUS_INLINE void set_all(std::span<const Batch> cells, const Masses& masses, const Range& range,
@@ -174,22 +158,15 @@ void LaplacianMatrix::assemble(const StokesProblem& problem, const StokesProduct
 }
 
 void LaplacianMatrix::add_cells(const StokesProblem& problem, const StokesProduct& product) {
-  constexpr std::size_t kAtOnce = 8;  // whose matrices stay in the cache
-  std::array<Square, kAtOnce> squares;
   const auto add = [&](const auto& batches, const std::vector<CellId>& cells, auto set) {
-    for (std::size_t begin = 0; begin < batches.size(); begin += kAtOnce) {
-      const std::size_t end = std::min(begin + kAtOnce, batches.size());
-      set({begin, end}, squares.data());
-      for (std::size_t n = kLanes * begin; n < std::min(kLanes * end, cells.size()); ++n) {
-        const Square& K = squares[n / kLanes - begin];
-        const auto nodes = problem.space.velocity.of(cells[n]);
-        std::size_t pair = 100 * at(cells[n].value);
-        for (std::size_t i = 0; i < 10; ++i)
-          for (std::size_t j = 0; j < 10; ++j)
-            values_[graph_.entry(nodes[i], pair++)] +=
-                static_cast<float>(K.entry[i][j][n % kLanes]);
-      }
-    }
+    with_matrices<Square>(
+        batches.size(), cells, set, [&](CellId c, const Square& K, std::size_t lane) {
+          const auto nodes = problem.space.velocity.of(c);
+          std::size_t pair = 100 * at(c.value);
+          for (std::size_t i = 0; i < 10; ++i)
+            for (std::size_t j = 0; j < 10; ++j)
+              values_[graph_.entry(nodes[i], pair++)] += static_cast<float>(K.entry[i][j][lane]);
+        });
   };
   const CellBatches& cells = product.cells();
   const std::span<const StraightCells> straight = cells.straight;

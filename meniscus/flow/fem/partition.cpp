@@ -191,10 +191,28 @@ std::unique_ptr<const Partition> make_partition(const FlowSpace& space,
   partition->global_pressure = std::move(pressures.global);
   partition->node_number = std::move(nodes.number);
   partition->pressure_number = std::move(pressures.number);
+  const auto& [num_nodes, num_pressures, num_cells] = partition->owned;
+  partition->ghost_velocities.emplace(communicator, num_nodes,
+                                      std::span(partition->node_number).subspan(at(num_nodes)), 3);
+  partition->ghost_pressures.emplace(
+      communicator, num_pressures, std::span(partition->pressure_number).subspan(at(num_pressures)),
+      1);
   return partition;
 }
 
 namespace {
+
+/// Owned values and those of ghosts after them, `size` in all. There is room for one more, which
+/// Laplacians want.
+std::vector<double> with_fetched(std::span<const double> owned, const linear::GhostValues& ghosts,
+                                 std::size_t size) {
+  std::vector<double> local;
+  local.reserve(size + 1);
+  local.assign(owned.begin(), owned.end());
+  local.resize(size);
+  ghosts.fetch(owned, std::span(local).subspan(owned.size()));
+  return local;
+}
 
 /// Faces with a node that is not local, or with none that is owned, give nothing to owned rows.
 InertiaTerms local_part(const InertiaTerms& global, const Partition& partition) {
@@ -263,23 +281,12 @@ StokesState local_part(const StokesState& global, const Partition& partition) {
 
 std::vector<double> velocities_with_ghosts(std::span<const double> owned,
                                            const Partition& partition) {
-  const std::vector<double> all =
-      of_all_ranks(owned, velocity_counts(partition.nodes.counts), partition.communicator);
-  std::vector<double> local;
-  local.reserve(3 * partition.node_number.size() + 1);
-  for (const std::int32_t number : partition.node_number)
-    for (std::size_t k = 0; k < 3; ++k) local.push_back(all[3 * at(number) + k]);
-  return local;
+  return with_fetched(owned, *partition.ghost_velocities, 3 * partition.node_number.size());
 }
 
 std::vector<double> pressures_with_ghosts(std::span<const double> owned,
                                           const Partition& partition) {
-  const std::vector<double> all =
-      of_all_ranks(owned, partition.pressures.counts, partition.communicator);
-  std::vector<double> local;
-  local.reserve(partition.pressure_number.size());
-  for (const std::int32_t number : partition.pressure_number) local.push_back(all[at(number)]);
-  return local;
+  return with_fetched(owned, *partition.ghost_pressures, partition.pressure_number.size());
 }
 
 std::vector<double> with_ghosts(std::span<const double> owned, const Partition& partition) {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "meniscus/flow/fem/stokes_problem.hpp"
 #include "meniscus/linear/communicator.hpp"
+#include "meniscus/linear/ghost_values.hpp"
 
 namespace meniscus::fem {
 
@@ -50,6 +52,7 @@ struct Partition {
   std::vector<NodeId> global_node;                         ///< of each local node
   std::vector<std::int32_t> global_pressure;               ///< of each local pressure
   std::vector<std::int32_t> node_number, pressure_number;  ///< of each local one in the index map
+  std::optional<linear::GhostValues> ghost_velocities, ghost_pressures;
 };
 /// Null on one rank. Throws RunFailure when the ranks differ about the space, as they may on
 /// different machines. Collective.

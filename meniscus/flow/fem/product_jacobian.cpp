@@ -5,6 +5,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/elements.hpp"
 #include "meniscus/flow/fem/inertia_product.hpp"
+#include "meniscus/flow/fem/linear_integrals.hpp"
 
 namespace meniscus::fem {
 namespace {
@@ -26,49 +27,6 @@ NodeTable vertices_of_cells(const NodeTable& nodes, const std::vector<std::int32
     for (const std::int32_t node : nodes.of(c).first(4))
       vertices.cell_nodes.push_back(vertex_of[at(node)]);
   return vertices;
-}
-
-/// ∫∇b_k·∇b_l and ∫b_k b_l of a cell's barycentric coordinates.
-struct LinearIntegrals {
-  Eigen::Matrix4d gradients = Eigen::Matrix4d::Zero(), values = Eigen::Matrix4d::Zero();
-};
-
-LinearTetrahedron straight_cell(const StokesProblem& problem, CellId c) {
-  const auto nodes = problem.space.velocity.of(c);
-  const auto x = [&](std::size_t k) { return problem.positions.x[NodeId{nodes[k]}]; };
-  return linear_tetrahedron({x(0), x(1), x(2), x(3)});
-}
-
-/// ∫b_k b_l = V(1 + δ_kl)/20.
-Eigen::Matrix4d straight_mass(double volume) {
-  return volume / 20.0 * (Eigen::Matrix4d::Ones() + Eigen::Matrix4d::Identity());
-}
-
-LinearIntegrals straight_integrals(const StokesProblem& problem, CellId c) {
-  const LinearTetrahedron tet = straight_cell(problem, c);
-  Eigen::Matrix<double, 4, 3> gradients;
-  for (int k = 0; k < 4; ++k) gradients.row(k) = tet.gradient[static_cast<std::size_t>(k)];
-  return {tet.volume * gradients * gradients.transpose(), straight_mass(tet.volume)};
-}
-
-LinearIntegrals curved_integrals(const StokesProblem& problem, CellId c) {
-  const auto maps = curved_maps(problem.positions.x, problem.space.velocity.of(c));
-  LinearIntegrals integrals;
-  for (std::size_t q = 0; q < maps.size(); ++q) {
-    const auto& [weight, g] = maps[q];
-    Eigen::Matrix<double, 4, 3> gradients;
-    gradients.row(0) = -(g[0] + g[1] + g[2]);
-    for (int k = 0; k < 3; ++k) gradients.row(k + 1) = g[static_cast<std::size_t>(k)];
-    const Eigen::Map<const Eigen::Vector4d> values(kTetrahedronRule5[q].barycentric.data());
-    integrals.gradients.noalias() += weight * gradients * gradients.transpose();
-    integrals.values.noalias() += weight * values * values.transpose();
-  }
-  return integrals;
-}
-
-LinearIntegrals integrals_of(const StokesProblem& problem, CellId c) {
-  return problem.positions.is_curved[c] ? curved_integrals(problem, c)
-                                        : straight_integrals(problem, c);
 }
 
 }  // namespace
@@ -101,46 +59,46 @@ void ProductJacobian::assemble(const StokesProblem& problem, const StokesProduct
   constant_pressure_is_null_ = !problem.has_open_boundary;
   pressure_mass_.assign(at(pressure_graph_.num_rows()), 0.0);
   consistent_mass_.assign(pressure_graph_.num_entries(), 0.0);
-  for (const CellId c : problem.mesh.cells.ids()) add_pressure_mass(problem, c);
+  const bool is_fresh = preconditioner == linear::Preconditioner::fresh || diagonals_.empty();
+  if (is_fresh) laplacians_.choose(problem.constraints, vertex_graph_.num_entries());
+  with_linear_integrals(product.cells(),
+                        [&](CellId c, const LinearIntegrals& integrals, std::size_t lane) {
+                          add_pressure_mass(problem, c, integrals, lane);
+                          if (is_fresh) add_laplacians(problem, c, integrals, lane);
+                        });
   region_weights_.update(std::span(pressure_mass_).first(at(owned_.num_pressures)));
-  if (preconditioner == linear::Preconditioner::kept && !diagonals_.empty()) return;
+  if (!is_fresh) return;
   laplacian_.assemble(problem, product);
   diagonals_ = product_->diagonals_of(laplacian_);
-  laplacians_.choose(problem.constraints, vertex_graph_.num_entries());
-  for (const CellId c : problem.mesh.cells.ids()) add_laplacians(problem, c);
   divergence_ = {};
   if (!problem.inertia) return;
   add_tension(*problem.inertia);
   assemble_divergence(problem, *product.inertia());
 }
 
-void ProductJacobian::add_pressure_mass(const StokesProblem& problem, CellId c) {
-  const Eigen::Matrix4d values = problem.positions.is_curved[c]
-                                     ? curved_integrals(problem, c).values
-                                     : straight_mass(straight_cell(problem, c).volume);
+void ProductJacobian::add_pressure_mass(const StokesProblem& problem, CellId c,
+                                        const LinearIntegrals& integrals, std::size_t lane) {
   const auto pressures = space_.pressure.nodes.of(c);
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t l = 0; l < 4; ++l) {
-      const double mass =
-          values(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l)) / problem.viscosity[c];
+      const double mass = integrals.values[k][l][lane] / problem.viscosity[c];
       pressure_mass_[at(pressures[k])] += mass;
       consistent_mass_[pressure_graph_.entry(pressures[k], 16 * at(c.value) + 4 * k + l)] += mass;
     }
 }
 
-void ProductJacobian::add_laplacians(const StokesProblem& problem, CellId c) {
-  const LinearIntegrals integrals = integrals_of(problem, c);
+void ProductJacobian::add_laplacians(const StokesProblem& problem, CellId c,
+                                     const LinearIntegrals& integrals, std::size_t lane) {
   const auto nodes = space_.velocity.of(c), vertices = vertices_.of(c);
   const double density_rate =
       problem.inertia ? problem.inertia->density[c] / problem.inertia->duration : 0.0;
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t l = 0; l < 4; ++l) {
-      const auto row = static_cast<Eigen::Index>(k), column = static_cast<Eigen::Index>(l);
       const std::size_t entry = vertex_graph_.entry(vertices[k], 16 * at(c.value) + 4 * k + l);
       for (ScalarLaplacian& laplacian : laplacians_.all())
         if (k == l || (!laplacian.is_fixed[at(nodes[k])] && !laplacian.is_fixed[at(nodes[l])]))
-          laplacian.values[entry] += problem.viscosity[c] * integrals.gradients(row, column) +
-                                     density_rate * integrals.values(row, column);
+          laplacian.values[entry] += problem.viscosity[c] * integrals.gradients[k][l][lane] +
+                                     density_rate * integrals.values[k][l][lane];
     }
 }
 

@@ -11,6 +11,8 @@
 
 namespace meniscus::fem {
 
+struct LinearIntegrals;
+
 /// The Jacobian of R(u), for quadratic elements on Newtonian liquids, as a saddle system that is
 /// given by its products. Matrices are made of what preconditioners need: the mass matrix of the
 /// pressures, and the Laplacians of linear functions. These are multigrid's coarse level.
@@ -30,8 +32,11 @@ class ProductJacobian {
   [[nodiscard]] linear::SaddleSystem system() const;
 
  private:
-  void add_pressure_mass(const StokesProblem& problem, CellId c);
-  void add_laplacians(const StokesProblem& problem, CellId c);
+  /// Of a cell, whose integrals are those of a lane.
+  void add_pressure_mass(const StokesProblem& problem, CellId c, const LinearIntegrals& integrals,
+                         std::size_t lane);
+  void add_laplacians(const StokesProblem& problem, CellId c, const LinearIntegrals& integrals,
+                      std::size_t lane);
   void add_tension(const InertiaTerms& terms);
   void assemble_divergence(const StokesProblem& problem, const InertiaProduct& inertia);
 

@@ -55,17 +55,6 @@ MENISCUS_INLINE void multiply(const StraightCells& cells, Derivatives& d, Corner
   }
 }
 
-/// Σ_k b_k of what is given by corners.
-MENISCUS_INLINE Lanes at_point(const std::array<double, 4>& b, const Corners& of) {
-  return b[0] * of[0] + b[1] * of[1] + b[2] * of[2] + b[3] * of[3];
-}
-MENISCUS_INLINE Tensor at_point(const std::array<double, 4>& b, const Derivatives& d) {
-  Tensor result;
-  for (std::size_t l = 0; l < 3; ++l)
-    for (std::size_t a = 0; a < 3; ++a)
-      result[l][a] = at_point(b, Corners{d[0][l][a], d[1][l][a], d[2][l][a], d[3][l][a]});
-  return result;
-}
 /// The transpose of `at_point`.
 MENISCUS_INLINE void add_back(const std::array<double, 4>& b, const Tensor& t, Derivatives& d) {
   for (std::size_t k = 0; k < 4; ++k)
