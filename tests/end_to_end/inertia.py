@@ -50,7 +50,7 @@ def main():
     for elements in ("P2-P1", "P1-P1"):
         solver = SOLVERS[elements]
         meet = work / f"meet-{elements}.toml"
-        meet.write_text(with_inertia(MEET.format(end=0.22), 1.0) + COMMON + solver.format(radius=3), encoding="utf-8")
+        meet.write_text(with_inertia(MEET.format(end=0.3), 1.0) + COMMON + solver.format(radius=3), encoding="utf-8")
         folder = meet.with_suffix("")
         run(program, "run", str(meet), "-o", str(folder), "-q")
         check_resuming(program, folder, check_meeting(folder))
