@@ -1,6 +1,8 @@
 #include "meniscus/flow/fem/slow_modes.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -62,12 +64,52 @@ void add_rigid_motions(const StokesProblem& problem, const VertexWeights& sectio
   }
 }
 
+/// Adds the pressure that is the section's weight.
 void add_pressure(const PressureSpace& space, RegionId region, const VertexWeights& section,
                   linear::CsrMatrix& pressures) {
   for (std::size_t i = 0; i < space.vertex.size(); ++i)
     if (space.region[i] == region && section[space.vertex[i]] > 0.0)
       add_entry(pressures, i, section[space.vertex[i]]);
   end_row(pressures);
+}
+
+/// Adds the products of the section's weight with the three coordinates about its middle.
+void add_pressure_slopes(const StokesProblem& problem, RegionId region,
+                         const VertexWeights& section, linear::CsrMatrix& pressures) {
+  const PressureSpace& space = problem.space.pressure;
+  std::vector<std::size_t> columns;
+  Vec3 middle = Vec3::Zero();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < space.vertex.size(); ++i) {
+    const TetVertexId v = space.vertex[i];
+    if (space.region[i] != region || section[v] == 0.0) continue;
+    columns.push_back(i);
+    middle += section[v] * problem.mesh.x[v];
+    sum += section[v];
+  }
+  middle /= sum;
+  for (int k = 0; k < 3; ++k) {
+    for (const std::size_t i : columns) {
+      const TetVertexId v = space.vertex[i];
+      add_entry(pressures, i, section[v] * (problem.mesh.x[v][k] - middle[k]));
+    }
+    end_row(pressures);
+  }
+}
+
+/// Whether an implicit stage is so long that the inertia of a region, and of the matrix, does not
+/// outweigh the matrix's viscosity: ρR²/τ ≤ 10 μ_out, R the radius of the sphere of its volume.
+bool is_held_by_matrix(const StokesProblem& problem, RegionId region) {
+  constexpr double kOutweighs = 10.0;
+  if (!problem.inertia) return false;
+  double volume = 0.0, density = 0.0;
+  for (const CellId c : problem.mesh.cells.ids()) {
+    if (problem.mesh.region[c] == region) volume += signed_volume(problem.mesh, c);
+    if (problem.mesh.region[c] == region || problem.mesh.region[c] == RegionId{0})
+      density = std::max(density, problem.inertia->density[c]);
+  }
+  const double radius = std::cbrt(3.0 / (4.0 * std::numbers::pi) * volume);
+  return density * radius * radius <= kOutweighs * problem.inertia->duration;
 }
 
 /// The entries in owned columns. `item_of` gives the owned items in their order, each of so many
@@ -106,11 +148,15 @@ SlowModes slow_modes(const StokesProblem& problem) {
   for (const RegionId region : around.ids()) {
     if (!is_stiff(region) && !is_thin(region)) continue;
     const std::vector<VertexWeights> all = sections(problem.mesh, region, kMostSections / count);
-    for (const VertexWeights& section : all)
-      if (is_stiff(region))
+    const bool has_slopes = is_thin(region) && is_held_by_matrix(problem, region);
+    for (const VertexWeights& section : all) {
+      if (is_stiff(region)) {
         add_rigid_motions(problem, section, modes.velocities);
-      else if (all.size() > 1)
+      } else if (all.size() > 1) {
         add_pressure(space.pressure, region, section, modes.pressures);
+        if (has_slopes) add_pressure_slopes(problem, region, section, modes.pressures);
+      }
+    }
   }
   return modes;
 }

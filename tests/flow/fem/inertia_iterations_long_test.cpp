@@ -34,6 +34,7 @@ TEST(InertiaLong, IterationsHardlyDependOnRatiosStagesAndMeshes) {
   expect_few_iterations(DropShape::sphere, pushed_drop(110), {1e-3, 1e-2, 1.0, 1e2, 1e3});
   expect_few_iterations(DropShape::sphere, pushed_drop(800), {1e-2, 1.0, 1e2});
   expect_few_iterations(DropShape::dumbbell, extended_drop(110), {1e-3, 1e-2, 1.0, 1e2, 1e3});
+  expect_few_iterations(DropShape::dumbbell, pushed_drop(110), {1e-3, 1e-2, 1.0, 1e2, 1e3});
 }
 
 }  // namespace

@@ -1,11 +1,16 @@
 #include "meniscus/flow/fem/slow_modes.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "meniscus/flow/fem/drop_sections.hpp"
+#include "tests/flow/fem/stage_from_rest.hpp"
 #include "tests/flow/fem/straight_space.hpp"
 #include "tests/flow/fem/stretched_drop.hpp"
 
@@ -94,6 +99,43 @@ TEST(SlowModes, AreOfDropsMuchStifferOrThinner) {
   EXPECT_EQ(stiff % 6, 0);
   EXPECT_EQ(none, 0);
   EXPECT_EQ(modes(DropShape::dumbbell, 0.01), (std::array{0, stiff / 6}));
+}
+
+// A thin drop's sections have their weights w. Where a stage is long, w (x − x̄) along each axis
+// comes to each, x̄ being the mean of the vertices by w.
+TEST(SlowModes, OfThinDropsInLongStagesVaryAlongAxes) {
+  StageFromRest stage(pushed_drop(42), DropShape::dumbbell, Elements::p2_p1);
+  const auto pressures = [&](double duration) {
+    return slow_modes(stage.problem({.viscosity_ratio = 0.01}, duration)).pressures;
+  };
+  const std::int32_t sections = pressures(std::numeric_limits<double>::infinity()).view().num_rows;
+  ASSERT_GT(sections, 1);
+  EXPECT_EQ(pressures(0.01).view().num_rows, sections);
+  const linear::CsrMatrix all = pressures(10.0);
+  ASSERT_EQ(all.view().num_rows, 4 * sections);
+  const auto entries = [&](std::int32_t row) {
+    const auto begin = static_cast<std::size_t>(all.row_start[static_cast<std::size_t>(row)]),
+               end = static_cast<std::size_t>(all.row_start[static_cast<std::size_t>(row) + 1]);
+    return std::pair(std::span(all.columns).subspan(begin, end - begin),
+                     std::span(all.values).subspan(begin, end - begin));
+  };
+  for (std::int32_t section = 0; section < sections; ++section) {
+    const auto [columns, weights] = entries(4 * section);
+    for (int k = 0; k < 3; ++k) {
+      const auto [same, products] = entries(4 * section + 1 + k);
+      ASSERT_TRUE(std::ranges::equal(same, columns));
+      const auto x = [&](std::size_t n) {
+        return stage.mesh()
+            .x[stage.space().pressure.vertex[static_cast<std::size_t>(columns[n])]][k];
+      };
+      double sum = 0.0;
+      for (std::size_t n = 0; n < columns.size(); ++n) {
+        sum += products[n];
+        EXPECT_NEAR(products[n] / weights[n] - products[0] / weights[0], x(n) - x(0), 1e-11);
+      }
+      EXPECT_NEAR(sum, 0.0, 1e-10);
+    }
+  }
 }
 
 // On straight cells the velocities of a sphere's single section are rigid motions: in the drop
