@@ -50,8 +50,9 @@ int mesh_command(const MeshArguments& arguments) {
   const Case c = read_case(arguments.case_file, arguments.overrides);
   if (c.method == FlowMethod::boundary_integral && !arguments.output.empty())
     reject_input("--output {}: boundary integrals need no volume mesh", arguments.output);
-  Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c), make_moving_mesh(c),
-                      make_scalar_solver(c));
+  CaseSolvers solvers = make_solvers(c);
+  Evolution evolution(build_scene(c), c.evolution, std::move(solvers.flow), make_moving_mesh(c),
+                      std::move(solvers.scalars));
   evolution.set_listener(log_notice);
   if (const Report prepared = evolution.prepare(); !prepared.ok())
     throw RunFailure(fmt::format("{}: the mesh could not be made: {}",

@@ -17,8 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 Evolution make_evolution(const Case& c, Scene scene) {
-  Evolution evolution(std::move(scene), c.evolution, make_flow_solver(c), make_moving_mesh(c),
-                      make_scalar_solver(c));
+  CaseSolvers solvers = make_solvers(c);
+  Evolution evolution(std::move(scene), c.evolution, std::move(solvers.flow), make_moving_mesh(c),
+                      std::move(solvers.scalars));
   evolution.set_listener(log_notice);
   return evolution;
 }

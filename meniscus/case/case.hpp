@@ -150,8 +150,12 @@ struct Case {
                                             const std::optional<Vec3>& position);
 /// The flow solver of a case.
 [[nodiscard]] std::unique_ptr<FlowSolver> make_flow_solver(const Case& c);
-/// What convects and diffuses the bulk scalars of a case; null where it has none.
-[[nodiscard]] std::unique_ptr<ScalarSolver> make_scalar_solver(const Case& c);
+/// The flow solver of a case, and what convects and diffuses its bulk scalars.
+struct CaseSolvers {
+  std::unique_ptr<FlowSolver> flow;
+  std::unique_ptr<ScalarSolver> scalars;  ///< null where the case has none
+};
+[[nodiscard]] CaseSolvers make_solvers(const Case& c);
 /// The moving mesh of the case's solver, without tetrahedra as yet; none for boundary integrals.
 [[nodiscard]] std::optional<MovingMesh> make_moving_mesh(const Case& c);
 

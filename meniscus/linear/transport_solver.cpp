@@ -9,18 +9,19 @@
 namespace meniscus::linear {
 namespace {
 
+/// No rows of these matrices have the same columns, so that PETSc need not look for any.
 std::string options_of(ScalarSystem kind) {
   switch (kind) {
     case ScalarSystem::transport:
       // It keeps the preconditioned directions, so that none is found again at the end.
-      return "-ksp_type fgmres -ksp_gmres_restart 60 -pc_type sor -pc_sor_forward";
+      return "-ksp_type fgmres -ksp_gmres_restart 60 -pc_type sor -pc_sor_forward -mat_no_inode";
     case ScalarSystem::conduction:
       return "-ksp_type gmres -ksp_gmres_restart 60 -ksp_pc_side right" +
              multigrid_options("", has_hypre());
     case ScalarSystem::potential:
       break;
   }
-  return "-ksp_type cg -pc_type sor -pc_sor_symmetric";
+  return "-ksp_type cg -pc_type sor -pc_sor_symmetric -mat_no_inode";
 }
 
 }  // namespace

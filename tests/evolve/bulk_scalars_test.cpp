@@ -15,8 +15,9 @@ namespace {
 
 Evolution evolution_of(const std::string& text) {
   const Case c = parse_case(text, "test");
-  Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c), make_moving_mesh(c),
-                      make_scalar_solver(c));
+  CaseSolvers solvers = make_solvers(c);
+  Evolution evolution(build_scene(c), c.evolution, std::move(solvers.flow), make_moving_mesh(c),
+                      std::move(solvers.scalars));
   const Report prepared = evolution.prepare();
   EXPECT_TRUE(prepared.ok()) << prepared.text();
   return evolution;
@@ -38,7 +39,8 @@ double total(const Evolution& evolution) { return evolution.rows().history.scala
 /// The second moments of a scalar over its total.
 Mat3 moments(const Evolution& evolution, fem::Elements elements) {
   const FlowDomain domain = evolution.state().domain();
-  const bulk::ScalarSpace space = bulk::scalar_space(domain, elements);
+  const bulk::ScalarSpace space = bulk::scalar_space(
+      domain, std::make_shared<const fem::FlowSpace>(fem::flow_space(*domain.mesh, elements)));
   const fem::NodePositions positions =
       fem::node_positions(domain.scene, *domain.mesh, space.elements);
   double zeroth = 0.0;

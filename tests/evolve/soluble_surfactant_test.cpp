@@ -93,8 +93,9 @@ std::string stretched_drop(double step) {
 
 Evolution evolution_of(const std::string& text) {
   const Case c = parse_case(text, "test");
-  Evolution evolution(build_scene(c), c.evolution, make_flow_solver(c), make_moving_mesh(c),
-                      make_scalar_solver(c));
+  CaseSolvers solvers = make_solvers(c);
+  Evolution evolution(build_scene(c), c.evolution, std::move(solvers.flow), make_moving_mesh(c),
+                      std::move(solvers.scalars));
   const Report prepared = evolution.prepare();
   EXPECT_TRUE(prepared.ok()) << prepared.text();
   return evolution;
@@ -146,8 +147,9 @@ TEST(SolubleSurfactant, TheEndIsTheIsotherm) {
   const Case c = parse_case(resting_drop(60, 10.0, law), "test", {},
                             std::vector<std::string>{"time.end=100", "flow.capillary-number=inf",
                                                      "scalar[0].drop[0].diffusivity-ratio=1000"});
-  Evolution longer(build_scene(c), c.evolution, make_flow_solver(c), make_moving_mesh(c),
-                   make_scalar_solver(c));
+  CaseSolvers solvers = make_solvers(c);
+  Evolution longer(build_scene(c), c.evolution, std::move(solvers.flow), make_moving_mesh(c),
+                   std::move(solvers.scalars));
   ASSERT_TRUE(longer.prepare().ok());
   run(longer);
   double c_end = 0.0;
@@ -167,8 +169,9 @@ TEST(SolubleSurfactant, WhatIsAdsorbedInAStepIsCarriedInIt) {
     const Case c = parse_case(stretched_drop(step), "test");
     EvolutionOptions options = c.evolution;
     options.remesh_every = 1000000;
-    Evolution evolution(build_scene(c), options, make_flow_solver(c), make_moving_mesh(c),
-                        make_scalar_solver(c));
+    CaseSolvers solvers = make_solvers(c);
+    Evolution evolution(build_scene(c), options, std::move(solvers.flow), make_moving_mesh(c),
+                        std::move(solvers.scalars));
     ASSERT_TRUE(evolution.prepare().ok());
     ASSERT_TRUE(evolution.solve().ok());
     const double before = total(evolution, 0.5);

@@ -2,13 +2,7 @@
 
 #include <algorithm>
 
-#include "meniscus/core/vector_clones.hpp"
 #include "meniscus/flow/fem/elements.hpp"
-
-// GCC 12 takes elements of vectors that are set one by one for uninitialised.
-#ifndef __clang__
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
 
 namespace meniscus::fem {
 
@@ -30,12 +24,7 @@ void set(StraightCells& cells, std::size_t m, const StokesProblem& problem, Cell
   set(cells.gradient, m, {tet.gradient[1], tet.gradient[2], tet.gradient[3]});
   cells.volume[m] = times * tet.volume / 20.0;
 }
-MENISCUS_INLINE Lanes3 cross(const Lanes3& a, const Lanes3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
-/// The gradients of barycentric coordinates at the points are the inverse of ∂x/∂b, whose
-/// determinant is six times the volume that the weights share out.
 MENISCUS_VECTOR_CLONES
 void set_points(std::span<CurvedCells> batches, const double* x) {
   for (CurvedCells& cells : batches) {
@@ -43,16 +32,8 @@ void set_points(std::span<CurvedCells> batches, const double* x) {
     Derivatives d;
     take(cells.nodes, x, nodes);
     differentiate(nodes, d);
-    for (std::size_t q = 0; q < cells.points.size(); ++q) {
-      const auto& [b, share] = kTetrahedronRule5[q];
-      const Tensor by = at_point(b, d);
-      const Tensor normals = {cross(by[1], by[2]), cross(by[2], by[0]), cross(by[0], by[1])};
-      const Lanes determinant = dot(by[0], normals[0]), inverse = 1.0 / determinant;
-      for (std::size_t l = 0; l < 3; ++l)
-        for (std::size_t a = 0; a < 3; ++a)
-          cells.points[q].gradient[l][a] = inverse * normals[l][a];
-      cells.points[q].weight = (share / 6.0) * determinant;
-    }
+    for (std::size_t q = 0; q < cells.points.size(); ++q)
+      set_point(kTetrahedronRule5[q], d, cells.points[q]);
   }
 }
 

@@ -1,11 +1,17 @@
 #pragma once
-// Private header of stokes_product.cpp, which is compiled for several kinds of processor.
+// Private header of the sources whose functions are compiled for several kinds of processor.
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "meniscus/core/vector_clones.hpp"
 #include "meniscus/geometry/quadrature.hpp"
+
+// GCC 12 takes elements of vectors that are set one by one for uninitialised.
+#ifndef __clang__
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 
 /// A function that is compiled into each clone of its caller.
 #define MENISCUS_INLINE [[gnu::always_inline]] inline
@@ -117,6 +123,22 @@ MENISCUS_INLINE Tensor at_point(const std::array<double, 4>& b, const Derivative
     for (std::size_t a = 0; a < 3; ++a)
       result[l][a] = at_point(b, Corners{d[0][l][a], d[1][l][a], d[2][l][a], d[3][l][a]});
   return result;
+}
+
+MENISCUS_INLINE Lanes3 cross(const Lanes3& a, const Lanes3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The gradients of barycentric coordinates at a point are the inverse of ∂x/∂b, whose determinant
+/// is six times the volume that the weights share out.
+MENISCUS_INLINE void set_point(const QuadraturePoint<4>& at, const Derivatives& d,
+                               CurvedPoint& to) {
+  const Tensor by = at_point(at.barycentric, d);
+  const Tensor normals = {cross(by[1], by[2]), cross(by[2], by[0]), cross(by[0], by[1])};
+  const Lanes determinant = dot(by[0], normals[0]), inverse = 1.0 / determinant;
+  for (std::size_t l = 0; l < 3; ++l)
+    for (std::size_t a = 0; a < 3; ++a) to.gradient[l][a] = inverse * normals[l][a];
+  to.weight = (at.share / 6.0) * determinant;
 }
 
 MENISCUS_INLINE Lanes trace(const Tensor& t) { return t[0][0] + t[1][1] + t[2][2]; }

@@ -4,15 +4,13 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/flow/fem/curved_maps.hpp"
+
 namespace meniscus::fem {
 namespace {
 
 using Barycentric = std::array<double, 4>;
 using Gradients = Eigen::Matrix<double, 3, 10>;
-
-/// Gradients of ξ, η, ζ and 1 − ξ − η − ζ in the reference tetrahedron, corner 0 at its origin.
-const std::array<Vec3, 4> kReferenceGradients = {Vec3(-1, -1, -1), Vec3::UnitX(), Vec3::UnitY(),
-                                                 Vec3::UnitZ()};
 
 /// By columns, from the gradients of the barycentric coordinates.
 Gradients quadratic_gradients(const Barycentric& b, const std::array<Vec3, 4>& g) {
@@ -26,42 +24,19 @@ Gradients quadratic_gradients(const Barycentric& b, const std::array<Vec3, 4>& g
   return gradient;
 }
 
-/// What the points of a rule have in common for every cell.
 template <std::size_t Count>
-struct ReferencePoints {
-  std::array<std::array<double, 10>, Count> value;
-  std::array<Gradients, Count> gradient;
-
-  explicit ReferencePoints(const std::array<QuadraturePoint<4>, Count>& rule) {
-    for (std::size_t q = 0; q < Count; ++q) {
-      value[q] = quadratic_tetrahedron_values(rule[q].barycentric);
-      gradient[q] = quadratic_gradients(rule[q].barycentric, kReferenceGradients);
-    }
-  }
-};
-const ReferencePoints<kTetrahedronRule2.size()> kStraight(kTetrahedronRule2);
-const ReferencePoints<kTetrahedronRule5.size()> kCurved(kTetrahedronRule5);
-
-Eigen::Matrix<double, 10, 3> node_positions(const Field<NodeId, Vec3>& x,
-                                            std::span<const std::int32_t> nodes) {
-  Eigen::Matrix<double, 10, 3> rows;
-  for (std::size_t i = 0; i < 10; ++i)
-    rows.row(static_cast<Eigen::Index>(i)) = x[NodeId{nodes[i]}].transpose();
-  return rows;
+std::array<std::array<double, 10>, Count> values_at(
+    const std::array<QuadraturePoint<4>, Count>& rule) {
+  std::array<std::array<double, 10>, Count> values;
+  for (std::size_t q = 0; q < Count; ++q)
+    values[q] = quadratic_tetrahedron_values(rule[q].barycentric);
+  return values;
 }
+const auto kStraightValues = values_at(kTetrahedronRule2);
+const auto kCurvedValues = values_at(kTetrahedronRule5);
 
 std::array<Vec3, 4> corners(const Field<NodeId, Vec3>& x, std::span<const std::int32_t> nodes) {
   return {x[NodeId{nodes[0]}], x[NodeId{nodes[1]}], x[NodeId{nodes[2]}], x[NodeId{nodes[3]}]};
-}
-
-Barycentric node_barycentric(std::size_t node) {
-  Barycentric b{};
-  if (node < 4) {
-    b[node] = 1.0;
-  } else {
-    b[kCellEdges[node - 4][0]] = b[kCellEdges[node - 4][1]] = 0.5;
-  }
-  return b;
 }
 
 }  // namespace
@@ -86,60 +61,32 @@ std::span<const LinearElement::Point> LinearElement::points(CellId c) {
 }
 
 std::span<const QuadraticElement::Point> QuadraticElement::points(CellId c) {
-  const auto nodes = space_.velocity.of(c);
-  return positions_.is_curved[c] ? curved_points(nodes) : straight_points(nodes);
+  return positions_.is_curved[c] ? curved_points(c) : straight_points(c);
 }
 
-std::span<const QuadraticElement::Point> QuadraticElement::straight_points(
-    std::span<const std::int32_t> nodes) {
-  const LinearTetrahedron tet = linear_tetrahedron(corners(positions_.x, nodes));
+std::span<const QuadraticElement::Point> QuadraticElement::straight_points(CellId c) {
+  const LinearTetrahedron tet = linear_tetrahedron(corners(positions_.x, space_.velocity.of(c)));
   for (std::size_t q = 0; q < kTetrahedronRule2.size(); ++q) {
     const auto& [barycentric, share] = kTetrahedronRule2[q];
     points_[q].weight = share * tet.volume;
     points_[q].pressure = barycentric;
-    points_[q].value = kStraight.value[q];
+    points_[q].value = kStraightValues[q];
     points_[q].gradient = quadratic_gradients(barycentric, tet.gradient);
   }
   return std::span(points_).first(kTetrahedronRule2.size());
 }
 
-std::span<const QuadraticElement::Point> QuadraticElement::curved_points(
-    std::span<const std::int32_t> nodes) {
-  const std::array<CurvedMap, kTetrahedronRule5.size()> maps = curved_maps(positions_.x, nodes);
+std::span<const QuadraticElement::Point> QuadraticElement::curved_points(CellId c) {
+  const CurvedMaps maps = curved_maps(positions_.x, space_.velocity, std::span(&c, 1)).front();
   for (std::size_t q = 0; q < maps.size(); ++q) {
     const std::array<Vec3, 3>& g = maps[q].gradient;
     points_[q].weight = maps[q].weight;
     points_[q].pressure = kTetrahedronRule5[q].barycentric;
-    points_[q].value = kCurved.value[q];
+    points_[q].value = kCurvedValues[q];
     points_[q].gradient = quadratic_gradients(kTetrahedronRule5[q].barycentric,
                                               {-(g[0] + g[1] + g[2]), g[0], g[1], g[2]});
   }
   return points_;
-}
-
-std::array<CurvedMap, kTetrahedronRule5.size()> curved_maps(const Field<NodeId, Vec3>& x,
-                                                            std::span<const std::int32_t> nodes) {
-  const Eigen::Matrix<double, 10, 3> positions = node_positions(x, nodes);
-  std::array<CurvedMap, kTetrahedronRule5.size()> maps;
-  for (std::size_t q = 0; q < maps.size(); ++q) {
-    const Mat3 jacobian = kCurved.gradient[q] * positions;  // ∂x_b/∂ξ_a at (a, b)
-    const Mat3 inverse = jacobian.inverse();
-    maps[q] = {kTetrahedronRule5[q].share * jacobian.determinant() / 6.0,
-               {inverse.col(0), inverse.col(1), inverse.col(2)}};
-  }
-  return maps;
-}
-
-double least_jacobian(const Field<NodeId, Vec3>& x, std::span<const std::int32_t> nodes) {
-  const Eigen::Matrix<double, 10, 3> positions = node_positions(x, nodes);
-  double least = std::numeric_limits<double>::infinity();
-  for (const Gradients& gradient : kCurved.gradient)
-    least = std::min(least, Mat3(gradient * positions).determinant());
-  for (std::size_t i = 0; i < 10; ++i) {
-    const Gradients gradient = quadratic_gradients(node_barycentric(i), kReferenceGradients);
-    least = std::min(least, Mat3(gradient * positions).determinant());
-  }
-  return least;
 }
 
 }  // namespace meniscus::fem

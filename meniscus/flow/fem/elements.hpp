@@ -71,8 +71,8 @@ class QuadraticElement {
   [[nodiscard]] std::span<const Point> points(CellId c);
 
  private:
-  [[nodiscard]] std::span<const Point> straight_points(std::span<const std::int32_t> nodes);
-  [[nodiscard]] std::span<const Point> curved_points(std::span<const std::int32_t> nodes);
+  [[nodiscard]] std::span<const Point> straight_points(CellId c);
+  [[nodiscard]] std::span<const Point> curved_points(CellId c);
   const FlowSpace& space_;
   const NodePositions& positions_;
   std::array<Point, kTetrahedronRule5.size()> points_;
@@ -108,18 +108,5 @@ inline constexpr std::array<std::array<double, 10>, 10> kQuadraticMass = [] {
     for (double& each : row) each /= 420.0;
   return mass;
 }();
-
-/// A point of the curved rule in a quadratic tetrahedron.
-struct CurvedMap {
-  double weight = 0.0;             ///< [R0³]
-  std::array<Vec3, 3> gradient{};  ///< of the barycentric coordinates but the first [1/R0]
-};
-[[nodiscard]] std::array<CurvedMap, kTetrahedronRule5.size()> curved_maps(
-    const Field<NodeId, Vec3>& x, std::span<const std::int32_t> nodes);
-
-/// Smallest determinant of ∂x/∂ξ at the points of the curved rule and at the nodes of a quadratic
-/// tetrahedron. It is six times the volume where it is straight.
-[[nodiscard]] double least_jacobian(const Field<NodeId, Vec3>& x,
-                                    std::span<const std::int32_t> nodes);
 
 }  // namespace meniscus::fem

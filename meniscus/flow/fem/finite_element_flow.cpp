@@ -81,7 +81,9 @@ void level_pressure(const TetMesh& mesh, const PressureSpace& space,
 
 class FiniteElementFlow final : public FlowSolver {
  public:
-  explicit FiniteElementFlow(const Options& options) : options_(options) {
+  FiniteElementFlow(const Options& options, std::shared_ptr<KnownElements> elements)
+      : options_(options), elements_(std::move(elements)) {
+    MENISCUS_ASSERT(elements_->elements() == options.elements, "elements of another kind");
     if (options.elements == Elements::p2_p1 && options.capillary == CapillaryForm::nodal)
       reject_input("the nodal form of surface tension needs P1-P1 elements");
     if (options.elements == Elements::p2_p1 && options.linear == LinearSolver::paper_gmres)
@@ -115,8 +117,9 @@ class FiniteElementFlow final : public FlowSolver {
   void restore_preconditioner(const Archive& archive, const FlowDomain& domain);
 
   Options options_;
+  std::shared_ptr<KnownElements> elements_;
   std::int64_t connectivity_ = 0;  // that all below is made for
-  FlowSpace space_;
+  std::shared_ptr<const FlowSpace> space_;
   std::optional<StokesSolver> stokes_;
   /// The last solution less the undisturbed flow, or less what the stage began with: the next
   /// solve's first guess.
@@ -129,8 +132,8 @@ class FiniteElementFlow final : public FlowSolver {
 
 void FiniteElementFlow::use_connectivity(const FlowDomain& domain) {
   stokes_.reset();
-  space_ = flow_space(*domain.mesh, options_.elements);
-  stokes_.emplace(space_, options_);
+  space_ = elements_->space(domain);
+  stokes_.emplace(*space_, options_);
   guess_.reset();
   preconditioner_.at.reset();
   connectivity_ = domain.connectivity;
@@ -141,10 +144,10 @@ void FiniteElementFlow::follow(const MeshChange& change, const FlowDomain& domai
   const RemainderTimer timer(times_, "assemble");
   const StokesState guess = *std::move(guess_);
   stokes_.reset();  // refers to the space
-  const FlowSpace before = std::move(space_);
+  const std::shared_ptr<const FlowSpace> before = space_;
   use_connectivity(domain);
   guess_ =
-      interpolated_state(guess, {change.before, before}, {*domain.mesh, space_}, change.sources);
+      interpolated_state(guess, {change.before, *before}, {*domain.mesh, *space_}, change.sources);
 }
 
 /// Undisturbed flow and drops change on their own. The one is known at once, what the drops add to
@@ -169,8 +172,7 @@ void FiniteElementFlow::keep_solution(const StokesProblem& problem, StokesState 
 /// The flow with which a run of liquids with inertia begins, without divergence and with the
 /// boundary's velocity, and the pressure that goes with it.
 FlowSolution FiniteElementFlow::first_flow(const FlowDomain& domain, double t) {
-  const NodePositions positions =
-      node_positions(domain.scene, *domain.mesh, space_, domain.surfaces);
+  const NodePositions positions = *elements_->positions(domain);
   StokesState state = stokes_->state_at_rest();
   const Scene& scene = domain.scene;
   for (const NodeId i : state.v.ids())
@@ -183,7 +185,7 @@ FlowSolution FiniteElementFlow::first_flow(const FlowDomain& domain, double t) {
     result.iterations += report.iterations;
     if (!report.ok()) return failed_flow(*report.fault, result.iterations);
   }
-  const InstantProblem problem = instant_problem(domain, space_, positions, options_.capillary, t);
+  const InstantProblem problem = instant_problem(domain, *space_, positions, options_.capillary, t);
   const int iterations = result.iterations;
   result = solution(domain, problem, state, stokes_->power(problem.stokes, state));
   result.iterations = iterations;
@@ -196,8 +198,7 @@ FlowSolution FiniteElementFlow::first_flow(const FlowDomain& domain, double t) {
 /// short for anything else. The pressure becomes what it is then.
 StokesReport FiniteElementFlow::settle(const FlowDomain& domain, double t, StokesState& state) {
   constexpr double kShare = 1e-4;  // of the time in which viscosity crosses a cell
-  const NodePositions positions =
-      node_positions(domain.scene, *domain.mesh, space_, domain.surfaces);
+  const NodePositions positions = *elements_->positions(domain);
   double fastest = 0.0;
   for (const Liquid& liquid : domain.scene.liquids)
     fastest = std::max(fastest, liquid.viscosity / liquid.density);
@@ -208,7 +209,7 @@ StokesReport FiniteElementFlow::settle(const FlowDomain& domain, double t, Stoke
                       .expected_v = {state.v.begin(), state.v.end()},
                       .slowing = {}};
   const auto stage_problem = [&] {
-    return instant_problem(with_stage(domain, stage), space_, positions, options_.capillary, t);
+    return instant_problem(with_stage(domain, stage), *space_, positions, options_.capillary, t);
   };
   preconditioner_.at.reset();
   if (options_.elements == Elements::p1_p1) {
@@ -222,16 +223,16 @@ StokesReport FiniteElementFlow::settle(const FlowDomain& domain, double t, Stoke
   StokesReport report =
       stokes_->solve(problem.stokes, state, linear::Preconditioner::fresh, times_);
   if (report.ok() && !problem.stokes.has_open_boundary)
-    level_pressure(*domain.mesh, space_.pressure, state.p);
+    level_pressure(*domain.mesh, space_->pressure, state.p);
   return report;
 }
 
 /// The projection by the matrix of a stage as long as the last.
 StageProjection FiniteElementFlow::projection(const FlowDomain& domain, double t) {
   MENISCUS_ASSERT(last_duration_ > 0.0, "no stage before");
-  NodePositions positions = node_positions(domain.scene, *domain.mesh, space_, domain.surfaces);
+  NodePositions positions = *elements_->positions(domain);
   const ImplicitStage stage = stage_at_rest(domain.scene, last_duration_, positions.x);
-  InstantProblem problem = instant_problem(with_stage(domain, stage), space_, std::move(positions),
+  InstantProblem problem = instant_problem(with_stage(domain, stage), *space_, std::move(positions),
                                            options_.capillary, t);
   return {*stokes_, std::move(problem.stokes), preconditioner_, times_};
 }
@@ -251,9 +252,9 @@ TransferredFlow FiniteElementFlow::transferred(const MeshChange& change, const S
       node_positions(before, change.before, old_space, domain.surfaces);
   const std::vector<NodeSource> sources =
       node_sources({change.before, old_space, old_positions},
-                   {*domain.mesh, space_, projection.positions()}, change.sources);
+                   {*domain.mesh, *space_, projection.positions()}, change.sources);
   const MovingLiquids then{before, change.before, old_space, old_positions},
-      now{domain.scene, *domain.mesh, space_, projection.positions()};
+      now{domain.scene, *domain.mesh, *space_, projection.positions()};
   Field<NodeId, Vec3> v(interpolated_values<Vec3>(flow.v, old_space, sources));
   TransferredFlow result;
   result.fault = projection.apply(v).fault;
@@ -277,18 +278,16 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
   if (!has_connectivity_of(domain)) use_connectivity(domain);
   if (domain.stage == nullptr && has_inertia(domain.scene)) {
     if (domain.known == nullptr) return first_flow(domain, instant.t);
-    const InstantProblem problem =
-        instant_problem(domain, space_, node_positions(domain.scene, mesh, space_, domain.surfaces),
-                        options_.capillary, instant.t);
+    const InstantProblem problem = instant_problem(domain, *space_, *elements_->positions(domain),
+                                                   options_.capillary, instant.t);
     return solution(domain, problem, {Field<NodeId, Vec3>(domain.known->v), domain.known->p}, {});
   }
   for (const CellId c : mesh.cells.ids())
     if (!(signed_volume(mesh, c) > 0.0))
       return failed_flow({FaultKind::inverted_cell, "a cell of the volume mesh is inverted",
                           mesh.x[mesh.cells[c][0]]});
-  const InstantProblem problem =
-      instant_problem(domain, space_, node_positions(domain.scene, mesh, space_, domain.surfaces),
-                      options_.capillary, instant.t);
+  const InstantProblem problem = instant_problem(domain, *space_, *elements_->positions(domain),
+                                                 options_.capillary, instant.t);
   if (problem.fault) return failed_flow(*problem.fault);
   StokesState state = first_guess(domain, problem.stokes);
   if (domain.stage != nullptr) {
@@ -308,7 +307,7 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
       std::ranges::any_of(domain.scene.interfaces, varies_in_matrix))
     preconditioner_.at.reset();
   if (report.ok() && !problem.stokes.has_open_boundary)
-    level_pressure(mesh, space_.pressure, state.p);
+    level_pressure(mesh, space_->pressure, state.p);
   FlowSolution result =
       report.ok() ? solution(domain, problem, state, report.power) : failed_flow(*report.fault);
   if (report.ok()) keep_solution(problem.stokes, std::move(state));
@@ -327,7 +326,7 @@ FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const Instant
   FlowSolution result;
   for (std::size_t i = 0; i < mesh.interfaces.size(); ++i) {
     const SurfaceMesh& surface = domain.scene.interfaces[i].mesh;
-    const FaceNodeTable faces = face_nodes(space_, mesh, surface, mesh.interfaces[i]);
+    const FaceNodeTable faces = face_nodes(*space_, mesh, surface, mesh.interfaces[i]);
     const NodePositions& positions = problem.stokes.positions;
     VertexField<Vec3> v = vertex_velocity(surface, faces, positions, state.v);
     remove_net_flux(surface, net_flux(faces, positions, state.v), v);
@@ -351,7 +350,7 @@ FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const Instant
   BulkFlow bulk{at_vertices(state.v, mesh.num_vertices()), {}, {}};
   const auto at_edges = state.v.span().subspan(static_cast<std::size_t>(mesh.num_vertices()));
   bulk.v_at_edges.assign(at_edges.begin(), at_edges.end());
-  for (const std::int32_t node : space_.pressure.nodes.cell_nodes)
+  for (const std::int32_t node : space_->pressure.nodes.cell_nodes)
     bulk.corner_pressure.push_back(state.p[static_cast<std::size_t>(node)]);
   result.bulk = std::move(bulk);
   if (!has_inertia(domain.scene)) return result;
@@ -360,7 +359,7 @@ FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const Instant
       NodalFlow{{x.begin(), x.end()}, {state.v.begin(), state.v.end()}, state.p, *result.power};
   if (domain.stage == nullptr)
     result.motions =
-        region_motions(domain.scene, mesh, space_, problem.stokes.positions, result.nodal->v);
+        region_motions(domain.scene, mesh, *space_, problem.stokes.positions, result.nodal->v);
   return result;
 }
 
@@ -375,7 +374,7 @@ void FiniteElementFlow::save(Archive& archive, const FlowDomain& domain) const {
 void FiniteElementFlow::restore_preconditioner(const Archive& archive, const FlowDomain& domain) {
   preconditioner_ = load_preconditioner(archive);
   if (!preconditioner_.at) return;
-  if (preconditioner_.at->x.size() != space_.velocity.num_nodes ||
+  if (preconditioner_.at->x.size() != space_->velocity.num_nodes ||
       preconditioner_.at->is_curved.size() != domain.mesh->num_cells())
     reject_input("checkpoint: flow/preconditioner/x does not fit the volume mesh");
   FlowDomain then = domain;
@@ -386,7 +385,7 @@ void FiniteElementFlow::restore_preconditioner(const Archive& archive, const Flo
   }
   // Time, forces and velocities matter to the right-hand side alone.
   stokes_->prepare(
-      instant_problem(then, space_, *preconditioner_.at, options_.capillary, 0.0).stokes);
+      instant_problem(then, *space_, *preconditioner_.at, options_.capillary, 0.0).stokes);
 }
 
 void FiniteElementFlow::load(const Archive& archive, const FlowDomain& domain) {
@@ -403,8 +402,13 @@ void FiniteElementFlow::load(const Archive& archive, const FlowDomain& domain) {
 
 }  // namespace
 
+std::unique_ptr<FlowSolver> make_finite_element_flow(const Options& options,
+                                                     std::shared_ptr<KnownElements> elements) {
+  return std::make_unique<FiniteElementFlow>(options, std::move(elements));
+}
+
 std::unique_ptr<FlowSolver> make_finite_element_flow(const Options& options) {
-  return std::make_unique<FiniteElementFlow>(options);
+  return make_finite_element_flow(options, std::make_shared<KnownElements>(options.elements));
 }
 
 }  // namespace meniscus::fem

@@ -3,15 +3,9 @@
 #include <algorithm>
 
 #include "meniscus/core/error.hpp"
-#include "meniscus/core/vector_clones.hpp"
 #include "meniscus/flow/fem/cell_batches.hpp"
 #include "meniscus/flow/fem/cell_inertia.hpp"
 #include "meniscus/flow/fem/elements.hpp"
-
-// GCC 12 takes elements of vectors that are set one by one for uninitialised.
-#ifndef __clang__
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
 
 namespace meniscus::fem {
 

@@ -4,16 +4,10 @@
 #include <cstring>
 
 #include "meniscus/core/error.hpp"
-#include "meniscus/core/vector_clones.hpp"
 #include "meniscus/flow/fem/cell_batches.hpp"
 #include "meniscus/flow/fem/cell_inertia.hpp"
 #include "meniscus/flow/fem/elements.hpp"
 #include "meniscus/flow/fem/inertia_product.hpp"
-
-// GCC 12 takes elements of vectors that are set one by one for uninitialised.
-#ifndef __clang__
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
 
 namespace meniscus::fem {
 
@@ -149,10 +143,10 @@ void multiply_rows(std::int32_t num_rows, const std::int32_t* row_start,
 }  // namespace
 
 LaplacianMatrix::LaplacianMatrix(const FlowSpace& space, std::int32_t num_rows)
-    : num_rows_(num_rows), graph_(node_graph(space.velocity, space.velocity)) {}
+    : num_rows_(num_rows), graph_(space.velocity_graph()) {}
 
 void LaplacianMatrix::assemble(const StokesProblem& problem, const StokesProduct& product) {
-  values_.assign(graph_.num_entries(), 0.0F);
+  values_.assign(graph_->num_entries(), 0.0F);
   add_cells(problem, product);
   if (problem.inertia) add_tension(*problem.inertia);
 }
@@ -165,7 +159,7 @@ void LaplacianMatrix::add_cells(const StokesProblem& problem, const StokesProduc
           std::size_t pair = 100 * at(c.value);
           for (std::size_t i = 0; i < 10; ++i)
             for (std::size_t j = 0; j < 10; ++j)
-              values_[graph_.entry(nodes[i], pair++)] += static_cast<float>(K.entry[i][j][lane]);
+              values_[graph_->entry(nodes[i], pair++)] += static_cast<float>(K.entry[i][j][lane]);
         });
   };
   const CellBatches& cells = product.cells();
@@ -197,18 +191,18 @@ void LaplacianMatrix::add_tension(const InertiaTerms& terms) {
 }
 
 std::size_t LaplacianMatrix::entry(std::int32_t row, std::int32_t column) const {
-  const auto first = graph_.columns.begin() + graph_.row_start[at(row)],
-             last = graph_.columns.begin() + graph_.row_start[at(row) + 1],
+  const auto first = graph_->columns.begin() + graph_->row_start[at(row)],
+             last = graph_->columns.begin() + graph_->row_start[at(row) + 1],
              found = std::lower_bound(first, last, column);
   MENISCUS_ASSERT(found != last && *found == column, "nodes {} and {}", row, column);
-  return static_cast<std::size_t>(found - graph_.columns.begin());
+  return static_cast<std::size_t>(found - graph_->columns.begin());
 }
 
 void LaplacianMatrix::multiply(std::span<const double> v, std::span<double> result) const {
-  MENISCUS_ASSERT(v.size() == 3 * at(graph_.num_columns) + 1 && result.size() == 3 * at(num_rows_),
+  MENISCUS_ASSERT(v.size() == 3 * at(graph_->num_columns) + 1 && result.size() == 3 * at(num_rows_),
                   "{} numbers in, {} out", v.size(), result.size());
-  multiply_rows(num_rows_, graph_.row_start.data(), graph_.columns.data(), values_.data(), v.data(),
-                result.data());
+  multiply_rows(num_rows_, graph_->row_start.data(), graph_->columns.data(), values_.data(),
+                v.data(), result.data());
 }
 
 std::vector<double> LaplacianMatrix::diagonal() const {

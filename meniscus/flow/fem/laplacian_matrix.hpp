@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -31,7 +32,7 @@ class LaplacianMatrix {
   [[nodiscard]] std::size_t entry(std::int32_t row, std::int32_t column) const;
 
   std::int32_t num_rows_;
-  NodeGraph graph_;
+  std::shared_ptr<const NodeGraph> graph_;
   std::vector<float> values_;
 };
 

@@ -1,12 +1,5 @@
 #include "meniscus/flow/fem/linear_integrals.hpp"
 
-#include "meniscus/core/vector_clones.hpp"
-
-// GCC 12 takes elements of vectors that are set one by one for uninitialised.
-#ifndef __clang__
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
-
 namespace meniscus::fem {
 
 using namespace lanes;

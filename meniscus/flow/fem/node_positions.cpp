@@ -5,7 +5,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/constants.hpp"
-#include "meniscus/flow/fem/elements.hpp"
+#include "meniscus/flow/fem/curved_maps.hpp"
 
 namespace meniscus::fem {
 namespace {
@@ -41,10 +41,14 @@ int straighten(const TetMesh& mesh, const FlowSpace& space, CellId c,
   return count;
 }
 
-bool is_folded(const TetMesh& mesh, const FlowSpace& space, const NodePositions& positions,
-               CellId c) {
-  return least_jacobian(positions.x, space.velocity.of(c)) <
-         kLeastJacobian * 6.0 * signed_volume(mesh, c);
+/// Whether the maps of cells fold.
+std::vector<char> are_folded(const TetMesh& mesh, const FlowSpace& space,
+                             const NodePositions& positions, std::span<const CellId> cells) {
+  const std::vector<double> least = least_jacobians(positions.x, space.velocity, cells);
+  std::vector<char> result(cells.size());
+  for (std::size_t n = 0; n < result.size(); ++n)
+    result[n] = static_cast<char>(least[n] < kLeastJacobian * 6.0 * signed_volume(mesh, cells[n]));
+  return result;
 }
 
 /// The middles of the edges of the outer boundary, on the smooth wall of one of the two patches.
@@ -96,13 +100,18 @@ void settle_curved_cells(const TetMesh& mesh, const FlowSpace& space, NodePositi
     if (is_curved(c)) curved.push_back(c);
   // A straightened edge changes the cells around it, which are looked at again; there are fewer
   // curved edges each time.
-  for (bool has_changed = true; std::exchange(has_changed, false);)
-    for (const CellId c : curved)
-      if (is_folded(mesh, space, positions, c)) {
-        const int count = straighten(mesh, space, c, is_straight, positions);
-        positions.num_straightened += count;
-        has_changed = has_changed || count > 0;
-      }
+  for (bool has_changed = true; std::exchange(has_changed, false);) {
+    const std::vector<char> folded = are_folded(mesh, space, positions, curved);
+    for (std::size_t n = 0; n < curved.size(); ++n) {
+      // Others straightened before may have unfolded it.
+      if (folded[n] == 0 ||
+          are_folded(mesh, space, positions, std::span(&curved[n], 1)).front() == 0)
+        continue;
+      const int count = straighten(mesh, space, curved[n], is_straight, positions);
+      positions.num_straightened += count;
+      has_changed = has_changed || count > 0;
+    }
+  }
   for (const CellId c : curved) positions.is_curved[c] = is_curved(c);
 }
 

@@ -1,6 +1,7 @@
 #include "meniscus/flow/fem/region_motions.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/flow/fem/curved_maps.hpp"
 #include "meniscus/flow/fem/elements.hpp"
 
 namespace meniscus::fem {
@@ -25,10 +26,8 @@ CellMotion straight_motion(double volume, const std::array<Vec3, 10>& v) {
   return motion;
 }
 
-CellMotion curved_motion(const Field<NodeId, Vec3>& x, std::span<const std::int32_t> nodes,
-                         const std::array<Vec3, 10>& v) {
+CellMotion curved_motion(const CurvedMaps& maps, const std::array<Vec3, 10>& v) {
   CellMotion motion;
-  const auto maps = curved_maps(x, nodes);
   for (std::size_t q = 0; q < maps.size(); ++q) {
     const auto phi = quadratic_tetrahedron_values(kTetrahedronRule5[q].barycentric);
     Vec3 here = Vec3::Zero();
@@ -56,7 +55,7 @@ CellMotion linear_motion(double volume, const std::array<Vec3, 4>& v) {
 }
 
 CellMotion cell_motion(const TetMesh& mesh, const FlowSpace& space, const NodePositions& positions,
-                       std::span<const Vec3> v, CellId c) {
+                       const MapsOfCurvedCells& maps, std::span<const Vec3> v, CellId c) {
   const auto nodes = space.velocity.of(c);
   const auto at_nodes = [&]<std::size_t count>(std::array<Vec3, count> values) {
     for (std::size_t i = 0; i < count; ++i) values[i] = v[static_cast<std::size_t>(nodes[i])];
@@ -65,7 +64,7 @@ CellMotion cell_motion(const TetMesh& mesh, const FlowSpace& space, const NodePo
   if (space.elements == Elements::p1_p1)
     return linear_motion(signed_volume(mesh, c), at_nodes(std::array<Vec3, 4>()));
   const auto quadratic = at_nodes(std::array<Vec3, 10>());
-  return positions.is_curved[c] != 0 ? curved_motion(positions.x, nodes, quadratic)
+  return positions.is_curved[c] != 0 ? curved_motion(maps.of(c), quadratic)
                                      : straight_motion(signed_volume(mesh, c), quadratic);
 }
 
@@ -77,8 +76,9 @@ std::vector<RegionMotion> region_motions(const Scene& scene, const TetMesh& mesh
   std::vector<RegionMotion> motions(static_cast<std::size_t>(scene.liquids.size()));
   std::vector<double> volume(motions.size(), 0.0);
   if (gross != nullptr) *gross = 0.0;
+  const MapsOfCurvedCells maps(space, positions);
   for (const CellId c : mesh.cells.ids()) {
-    const CellMotion cell = cell_motion(mesh, space, positions, v, c);
+    const CellMotion cell = cell_motion(mesh, space, positions, maps, v, c);
     const double density = scene.liquids[mesh.region[c]].density;
     const auto region = static_cast<std::size_t>(mesh.region[c].value);
     RegionMotion& motion = motions[region];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meniscus/flow/fem/curved_maps.hpp"
 #include "meniscus/flow/fem/elements.hpp"
 
 namespace meniscus::fem {
@@ -27,9 +28,12 @@ std::array<std::array<double, 10>, kTetrahedronRule5.size()> rule_values() {
 void add_nodal_force(const Scalar& scalar, const std::vector<double>& T,
                      const StokesProblem& problem, Field<NodeId, Vec3>& force) {
   static const auto kValues = rule_values();
-  for (const CellId c : problem.mesh.cells.ids()) {
+  const auto all = problem.mesh.cells.ids();
+  const std::vector<CurvedMaps> maps_of = curved_maps(problem.positions.x, problem.space.velocity,
+                                                      std::vector<CellId>(all.begin(), all.end()));
+  for (const CellId c : all) {
     const auto nodes = problem.space.velocity.of(c);
-    const auto maps = curved_maps(problem.positions.x, nodes);
+    const CurvedMaps& maps = maps_of[static_cast<std::size_t>(c.value)];
     for (std::size_t q = 0; q < maps.size(); ++q) {
       double here = -scalar.reference;
       for (std::size_t i = 0; i < 10; ++i)

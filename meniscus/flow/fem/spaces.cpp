@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "meniscus/flow/fem/node_graph.hpp"
+
 namespace meniscus::fem {
 namespace {
 
@@ -66,6 +68,12 @@ void add_edge_nodes(const TetMesh& mesh, FlowSpace& space) {
 std::size_t edge_node(std::size_t a, std::size_t b) {
   const std::array<std::size_t, 2> ends = {std::min(a, b), std::max(a, b)};
   return 4 + static_cast<std::size_t>(std::ranges::find(kCellEdges, ends) - kCellEdges.begin());
+}
+
+std::shared_ptr<const NodeGraph> FlowSpace::velocity_graph() const {
+  if (!velocity_graph_)
+    velocity_graph_ = std::make_shared<const NodeGraph>(node_graph(velocity, velocity));
+  return velocity_graph_;
 }
 
 FlowSpace flow_space(const TetMesh& mesh, Elements elements) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,8 @@ struct PressureSpace {
 };
 [[nodiscard]] PressureSpace pressure_space(const TetMesh& mesh);
 
+struct NodeGraph;
+
 /// Continuous velocity and the pressure that goes with it, on one topology. Positions are no part
 /// of it.
 struct FlowSpace {
@@ -58,6 +61,12 @@ struct FlowSpace {
   [[nodiscard]] std::int32_t num_vertices() const {
     return velocity.num_nodes - static_cast<std::int32_t>(edges.size());
   }
+  /// Which nodes of the velocity share cells. It is made when first asked for; the nodes must not
+  /// change after that.
+  [[nodiscard]] std::shared_ptr<const NodeGraph> velocity_graph() const;
+
+ private:
+  mutable std::shared_ptr<const NodeGraph> velocity_graph_;
 };
 [[nodiscard]] FlowSpace flow_space(const TetMesh& mesh, Elements elements);
 

@@ -154,7 +154,7 @@ void CellKernel<Nodes>::go_to(CellId c, bool has_gradients) {
   corner_gradient_ = tet.gradient;
   if constexpr (Nodes == 10)
     if (is_curved_) {
-      const auto maps = fem::curved_maps(positions_.x, nodes_);
+      const fem::CurvedMaps& maps = maps_.of(c);
       std::array<std::array<double, 3 * kPoints>, 3> slope;  // ∂b_a/∂x_k
       volume_ = 0.0;
       for (std::size_t q = 0; q < kPoints; ++q) {
@@ -168,6 +168,7 @@ void CellKernel<Nodes>::go_to(CellId c, bool has_gradients) {
       return;
     }
   volume_ = tet.volume;
+  if (!has_gradients) return;
   for (std::size_t q = 0; q < kPoints; ++q) weight_[q] = tet.volume * at.share[q];
   if constexpr (Nodes == 4)
     for (std::size_t k = 0; k < 3; ++k)

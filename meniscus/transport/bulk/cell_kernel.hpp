@@ -3,6 +3,7 @@
 #include <array>
 #include <span>
 
+#include "meniscus/flow/fem/curved_maps.hpp"
 #include "meniscus/flow/fem/elements.hpp"
 #include "meniscus/transport/bulk/scalar_space.hpp"
 
@@ -25,9 +26,9 @@ class CellKernel {
   using Vectors = std::array<Vec3, kPoints>;
 
   CellKernel(const ScalarSpace& space, const NodePositions& positions)
-      : space_(space), positions_(positions) {}
+      : space_(space), positions_(positions), maps_(space.elements, positions) {}
 
-  /// Evaluates the maps of a cell. Without gradients there are values, weights and masses alone.
+  /// Evaluates the maps of a cell. Without gradients there are masses and shares alone.
   void go_to(CellId c, bool has_gradients = true);
 
   [[nodiscard]] std::span<const std::int32_t> nodes() const { return nodes_; }
@@ -67,6 +68,7 @@ class CellKernel {
 
   const ScalarSpace& space_;
   const NodePositions& positions_;
+  fem::MapsOfCurvedCells maps_;
   std::span<const std::int32_t> nodes_;
   bool is_curved_ = false;
   double volume_ = 0.0;

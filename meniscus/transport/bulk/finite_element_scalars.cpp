@@ -65,7 +65,8 @@ void take_up(const std::vector<VertexField<double>>& part,
 
 class FiniteElementScalars final : public ScalarSolver {
  public:
-  explicit FiniteElementScalars(fem::Elements elements) : elements_(elements) {}
+  explicit FiniteElementScalars(std::shared_ptr<fem::KnownElements> elements)
+      : elements_(std::move(elements)) {}
 
   Report initial(const FlowDomain& domain, BulkScalars& scalars) override;
   std::size_t num_values(const FlowDomain& domain) override;
@@ -93,7 +94,7 @@ class FiniteElementScalars final : public ScalarSolver {
   static const MassMatrix& mass(const Placed& at, const Scene& scene, const TetMesh& mesh,
                                 std::size_t k);
 
-  fem::Elements elements_;
+  std::shared_ptr<fem::KnownElements> elements_;
   std::deque<Placed> last_;  // a step asks again for its start
   PhaseTimes times_;
 };
@@ -107,10 +108,10 @@ const FiniteElementScalars::Placed& FiniteElementScalars::placed(const FlowDomai
     space = each.space;
     if (each.vertices == domain.mesh->x) return each;
   }
-  if (!space) space = std::make_shared<const ScalarSpace>(scalar_space(domain, elements_));
-  auto positions = std::make_shared<const NodePositions>(
-      fem::node_positions(domain.scene, *domain.mesh, space->elements, domain.surfaces));
-  last_.push_front({domain.connectivity, std::move(space), domain.mesh->x, std::move(positions),
+  if (!space)
+    space = std::make_shared<const ScalarSpace>(scalar_space(domain, elements_->space(domain)));
+  last_.push_front({domain.connectivity, std::move(space), domain.mesh->x,
+                    elements_->positions(domain),
                     std::make_shared<std::vector<std::unique_ptr<const MassMatrix>>>(
                         domain.scene.scalars.size())});
   if (last_.size() > kMostKept) last_.pop_back();
@@ -286,8 +287,9 @@ std::vector<ScalarMeasures> FiniteElementScalars::measures(const FlowDomain& dom
 
 }  // namespace
 
-std::unique_ptr<ScalarSolver> make_finite_element_scalars(fem::Elements elements) {
-  return std::make_unique<FiniteElementScalars>(elements);
+std::unique_ptr<ScalarSolver> make_finite_element_scalars(
+    std::shared_ptr<fem::KnownElements> elements) {
+  return std::make_unique<FiniteElementScalars>(std::move(elements));
 }
 
 }  // namespace meniscus::bulk

@@ -33,31 +33,45 @@ std::array<double, 4> in_cell(const ScalarSpace& space, CellId c, std::span<cons
   return result;
 }
 
-ScalarExchange exchange(const Scene& scene, const TetMesh& mesh, const ScalarSpace& space,
-                        const NodePositions& positions, std::size_t k,
-                        std::span<const double> values, std::size_t i) {
+/// −∮k∇T·n dS of an interface, k∇T being the mean of both sides.
+double outflow(const Scene& scene, const TetMesh& mesh, const ScalarSpace& space,
+               const NodePositions& positions, std::size_t k, std::span<const double> values,
+               std::size_t i) {
   const fem::FaceNodeTable& faces = space.interfaces[i];
-  const auto liquid = [&](CellId c) -> const ScalarLiquid& {
-    return scene.liquids[mesh.region[c]].scalars[k];
-  };
+  double result = 0.0;
+  for (const FaceId f : faces.faces()) {
+    const auto nodes = faces.of(f);
+    const fem::FacePoints points = fem::face_points(positions.x, nodes);
+    for (std::size_t q = 0; q < points.size(); ++q) {
+      const auto flux = [&](CellId c) -> Vec3 {
+        const auto b = in_cell(space, c, nodes, kTriangleRule6[q].barycentric);
+        return scene.liquids[mesh.region[c]].scalars[k].conductivity *
+               value_at(space, positions, c, b, values).gradient;
+      };
+      const auto [inside, outside] = mesh.interfaces[i].sides[f];
+      result -= 0.5 * (flux(inside) + flux(outside)).dot(points[q].area);
+    }
+  }
+  return result;
+}
+
+/// The area of an interface, and the mean on its outer side.
+ScalarExchange outer_side(const Scene& scene, const ScalarSpace& space,
+                          const NodePositions& positions, std::size_t k,
+                          std::span<const double> values, std::size_t i) {
+  const ScalarLiquid& outside = scene.liquids[scene.interfaces[i].outside].scalars[k];
+  const double unit = scene.scalars[k].is_species ? outside.capacity : 1.0;
+  const fem::FaceNodeTable& faces = space.interfaces[i];
   ScalarExchange result;
   for (const FaceId f : faces.faces()) {
     const auto nodes = faces.of(f);
-    const auto [inside, outside] = mesh.interfaces[i].sides[f];
-    const fem::FacePoints points = fem::face_points(positions.x, nodes);
-    for (std::size_t q = 0; q < points.size(); ++q) {
-      const auto& b = kTriangleRule6[q].barycentric;
-      const PointValue within = value_at(space, positions, inside, in_cell(space, inside, nodes, b),
-                                         values),
-                       beyond = value_at(space, positions, outside,
-                                         in_cell(space, outside, nodes, b), values);
-      const Vec3 flux = 0.5 * (liquid(inside).conductivity * within.gradient +
-                               liquid(outside).conductivity * beyond.gradient);
-      const double area = points[q].area.norm();
-      result.outflow -= flux.dot(points[q].area);
+    for (const fem::FacePoint& point : fem::face_points(positions.x, nodes)) {
+      const double area = point.area.norm();
+      double value = 0.0;
+      for (std::size_t j = 0; j < nodes.size(); ++j)
+        value += point.value[j] * values[static_cast<std::size_t>(nodes[j].value)];
       result.area += area;
-      result.mean_outside +=
-          area * (scene.scalars[k].is_species ? liquid(outside).capacity : 1.0) * beyond.value;
+      result.mean_outside += area * unit * value;
     }
   }
   result.mean_outside /= result.area;
@@ -107,11 +121,13 @@ ScalarMeasures scalar_measures(const Scene& scene, const TetMesh& mesh, const Sc
   ScalarMeasures result;
   result.regions = contents(mass, values);
   for (std::size_t i = 0; i < space.interfaces.size(); ++i) {
-    result.interfaces.push_back(exchange(scene, mesh, space, positions, k, values, i));
-    if (!scalar.region_loss.empty())
-      result.interfaces[i].outflow =
-          loss_within(scene, i, k, scalar.region_loss, result.regions) *
-          (std::isinf(scene.scalars[k].peclet) ? 0.0 : scene.scalars[k].peclet);
+    ScalarExchange& here =
+        result.interfaces.emplace_back(outer_side(scene, space, positions, k, values, i));
+    if (scalar.region_loss.empty())
+      here.outflow = outflow(scene, mesh, space, positions, k, values, i);
+    else
+      here.outflow = loss_within(scene, i, k, scalar.region_loss, result.regions) *
+                     (std::isinf(scene.scalars[k].peclet) ? 0.0 : scene.scalars[k].peclet);
   }
   const auto [least, largest] = std::ranges::minmax(values);
   result.least = least;

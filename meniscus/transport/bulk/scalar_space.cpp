@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/flow/fem/curved_maps.hpp"
 #include "meniscus/flow/fem/elements.hpp"
 
 namespace meniscus::bulk {
@@ -13,11 +14,9 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-ScalarSpace scalar_space(const FlowDomain& domain, fem::Elements elements) {
+ScalarSpace scalar_space(const FlowDomain& domain, std::shared_ptr<const fem::FlowSpace> of_flow) {
   const TetMesh& mesh = *domain.mesh;
-  ScalarSpace space;
-  space.elements = fem::flow_space(mesh, elements);
-  space.graph = fem::node_graph(space.elements.velocity, space.elements.velocity);
+  ScalarSpace space{.of_flow = std::move(of_flow), .interfaces = {}, .boundary = {}};
   for (std::size_t i = 0; i < mesh.interfaces.size(); ++i)
     space.interfaces.push_back(
         fem::face_nodes(space.elements, mesh, domain.scene.interfaces[i].mesh, mesh.interfaces[i]));
@@ -44,12 +43,13 @@ NodePositions halfway(const NodePositions& from, const NodePositions& to) {
 
 std::vector<double> element_volumes(const TetMesh& mesh, const ScalarSpace& space,
                                     const NodePositions& positions) {
+  const fem::MapsOfCurvedCells maps(space.elements, positions);
   std::vector<double> volumes(mesh.interfaces.size() + 1, 0.0);
   for (const CellId c : mesh.cells.ids()) {
     const auto nodes = space.elements.velocity.of(c);
     double volume = 0.0;
     if (positions.is_curved[c] != 0) {
-      for (const fem::CurvedMap& map : fem::curved_maps(positions.x, nodes)) volume += map.weight;
+      for (const fem::CurvedMap& map : maps.of(c)) volume += map.weight;
     } else {
       volume = linear_tetrahedron({positions.x[NodeId{nodes[0]}], positions.x[NodeId{nodes[1]}],
                                    positions.x[NodeId{nodes[2]}], positions.x[NodeId{nodes[3]}]})

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "meniscus/flow/fem/known_elements.hpp"
 #include "meniscus/flow/fem/node_graph.hpp"
-#include "meniscus/flow/fem/node_positions.hpp"
-#include "meniscus/flow/flow_solver.hpp"
 
 namespace meniscus::bulk {
 
@@ -14,14 +14,16 @@ using fem::NodePositions;
 
 /// The finite elements of bulk scalars on one connectivity: those of the flow's velocity.
 struct ScalarSpace {
-  fem::FlowSpace elements;
-  fem::NodeGraph graph;  ///< of the nodes with one another
+  std::shared_ptr<const fem::FlowSpace> of_flow;
+  const fem::FlowSpace& elements = *of_flow;
+  const fem::NodeGraph& graph = *elements.velocity_graph();  ///< of the nodes with one another
   std::vector<fem::FaceNodeTable> interfaces;
   fem::FaceNodeTable boundary;
 
   [[nodiscard]] std::int32_t num_nodes() const { return elements.velocity.num_nodes; }
 };
-[[nodiscard]] ScalarSpace scalar_space(const FlowDomain& domain, fem::Elements elements);
+[[nodiscard]] ScalarSpace scalar_space(const FlowDomain& domain,
+                                       std::shared_ptr<const fem::FlowSpace> of_flow);
 
 /// Where an entry is in the values of a matrix on a graph; it must be there.
 [[nodiscard]] std::size_t place_of(const fem::NodeGraph& graph, NodeId row, NodeId column);

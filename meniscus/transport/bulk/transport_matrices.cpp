@@ -37,9 +37,10 @@ std::vector<double> add_inflow(const ScalarSpace& space, const NodePositions& po
                                const Field<NodeId, Vec3>& v, double capacity, MatrixValues& rates) {
   const auto count = at(space.num_nodes());
   std::vector<double> flux(count, 0.0), area(count, 0.0);
+  std::vector<fem::FacePoints> points;  // by face
   for (const FaceId f : space.boundary.faces()) {
     const auto nodes = space.boundary.of(f);
-    for (const fem::FacePoint& point : fem::face_points(positions.x, nodes)) {
+    for (const fem::FacePoint& point : points.emplace_back(fem::face_points(positions.x, nodes))) {
       const double through = normal_flow(nodes, point, v), here = point.area.norm();
       for (std::size_t i = 0; i < nodes.size(); ++i) {
         flux[at(nodes[i].value)] += capacity * point.value[i] * through;
@@ -56,7 +57,7 @@ std::vector<double> add_inflow(const ScalarSpace& space, const NodePositions& po
   for (const FaceId f : space.boundary.faces()) {
     const auto nodes = space.boundary.of(f);
     Eigen::MatrixXd element = Eigen::MatrixXd::Zero(std::ssize(nodes), std::ssize(nodes));
-    for (const fem::FacePoint& point : fem::face_points(positions.x, nodes)) {
+    for (const fem::FacePoint& point : points[at(f.value)]) {
       const Eigen::Map<const Eigen::VectorXd> value(point.value.data(), element.rows());
       element += capacity * (normal_flow(nodes, point, v) + shift * point.area.norm()) * value *
                  value.transpose();
@@ -91,14 +92,16 @@ void add_potential_flow(const ScalarSpace& space, const MatrixValues& stiffness,
   const fem::NodeGraph& graph = space.graph;
   for (std::size_t i = 0; i < defect.size(); ++i) {
     double half = 0.0;
+    std::size_t diagonal = 0;
     for (auto e = at(graph.row_start[i]); e < at(graph.row_start[i + 1]); ++e) {
+      const auto j = at(graph.columns[e]);
+      if (j == i) diagonal = e;
       // Zero at the diagonal.
-      const double flow = 0.5 * stiffness[e] * (potential[at(graph.columns[e])] - potential[i]);
+      const double flow = 0.5 * stiffness[e] * (potential[j] - potential[i]);
       rates[e] += flow;
       half += flow;
     }
-    const NodeId node{static_cast<std::int32_t>(i)};
-    rates[place_of(graph, node, node)] += half;
+    rates[diagonal] += half;
     defect[i] += 2.0 * half;
   }
 }

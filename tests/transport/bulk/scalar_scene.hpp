@@ -28,7 +28,8 @@ class ScalarScene {
   };
   explicit ScalarScene(const Options& options)
       : scene(fem::sphere_in_sphere(options.spheres)),
-        solver(make_finite_element_scalars(options.elements)) {
+        solver(
+            make_finite_element_scalars(std::make_shared<fem::KnownElements>(options.elements))) {
     scene.interfaces[0].volume = 4.0 / 3.0 * std::numbers::pi;
     scene.scalars = {options.scalar};
     scene.liquids[RegionId{0}].scalars = {options.matrix};
@@ -46,7 +47,7 @@ class ScalarScene {
   }
   /// Where the nodes are.
   [[nodiscard]] NodePositions positions(fem::Elements elements) const {
-    return fem::node_positions(scene, mesh, scalar_space(domain(), elements).elements);
+    return fem::node_positions(scene, mesh, fem::flow_space(mesh, elements));
   }
 
   Scene scene;

@@ -29,7 +29,9 @@ class RandomStep {
       if (v.value >= first) after.mesh.x[v] += 2e-3 * Vec3(one(random), one(random), one(random));
     for (const CellId c : after.mesh.cells.ids()) EXPECT_GT(signed_volume(after.mesh, c), 0.0);
     BulkFlow bulk;
-    const ScalarSpace space = scalar_space(before.domain(), elements);
+    const ScalarSpace space = scalar_space(
+        before.domain(),
+        std::make_shared<const fem::FlowSpace>(fem::flow_space(before.mesh, elements)));
     std::vector<char> is_wall(static_cast<std::size_t>(space.num_nodes()), 0);
     for (const NodeId i : space.boundary.face_nodes) is_wall[static_cast<std::size_t>(i.value)] = 1;
     for (std::int32_t i = 0; i < space.num_nodes(); ++i) {

@@ -6,19 +6,18 @@
 
 namespace meniscus {
 
-std::unique_ptr<FlowSolver> make_flow_solver(const Case& c) {
+CaseSolvers make_solvers(const Case& c) {
   MENISCUS_ASSERT((c.method == FlowMethod::boundary_integral) ==
                       (c.domain.shape == DomainCase::Shape::unbounded),
                   "elements need a boundary, boundary integrals have none");
-  return c.method == FlowMethod::boundary_integral
-             ? bem::make_boundary_integral_flow(c.boundary_integral)
-             : fem::make_finite_element_flow(c.flow_solver);
+  if (c.method == FlowMethod::boundary_integral)
+    return {bem::make_boundary_integral_flow(c.boundary_integral), nullptr};
+  auto elements = std::make_shared<fem::KnownElements>(c.flow_solver.elements);
+  return {fem::make_finite_element_flow(c.flow_solver, elements),
+          c.scalars.empty() ? nullptr : bulk::make_finite_element_scalars(elements)};
 }
 
-std::unique_ptr<ScalarSolver> make_scalar_solver(const Case& c) {
-  if (c.scalars.empty()) return nullptr;
-  return bulk::make_finite_element_scalars(c.flow_solver.elements);
-}
+std::unique_ptr<FlowSolver> make_flow_solver(const Case& c) { return make_solvers(c).flow; }
 
 std::optional<MovingMesh> make_moving_mesh(const Case& c) {
   if (c.method == FlowMethod::boundary_integral) return std::nullopt;

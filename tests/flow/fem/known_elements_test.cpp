@@ -1,0 +1,63 @@
+#include "meniscus/flow/fem/known_elements.hpp"
+
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "meniscus/volume/tetrahedralize.hpp"
+#include "tests/flow/fem/sphere_scene.hpp"
+
+namespace meniscus::fem {
+namespace {
+
+class KnownElementsOfABall : public testing::Test {
+ protected:
+  KnownElementsOfABall()
+      : scene_(sphere_in_sphere({.num_vertices = 42, .outer_radius = 3.0})),
+        known_(Elements::p2_p1) {
+    EXPECT_TRUE(tetrahedralize(scene_, {}, mesh_).ok());
+  }
+  [[nodiscard]] FlowDomain domain(std::int64_t connectivity) const {
+    return {scene_, &mesh_, connectivity};
+  }
+  /// Moves a vertex off the surfaces.
+  void move() { mesh_.x[TetVertexId{mesh_.num_vertices() - 1}] += Vec3(1e-3, 0.0, 0.0); }
+  Scene scene_;
+  TetMesh mesh_;
+  KnownElements known_;
+};
+
+TEST_F(KnownElementsOfABall, AreMadeOnce) {
+  const auto space = known_.space(domain(1));
+  const auto positions = known_.positions(domain(1));
+  EXPECT_EQ(known_.space(domain(1)), space);
+  EXPECT_EQ(known_.positions(domain(1)), positions);
+  EXPECT_EQ(space->velocity_graph(), space->velocity_graph());
+  const FlowSpace alone = flow_space(mesh_, Elements::p2_p1);
+  EXPECT_EQ(space->velocity.cell_nodes, alone.velocity.cell_nodes);
+  EXPECT_EQ(positions->x, node_positions(scene_, mesh_, alone).x);
+}
+
+TEST_F(KnownElementsOfABall, FollowTheVertices) {
+  const auto space = known_.space(domain(1));
+  const auto before = known_.positions(domain(1));
+  move();
+  const auto after = known_.positions(domain(1));
+  EXPECT_EQ(known_.space(domain(1)), space);
+  EXPECT_NE(after->x, before->x);
+  EXPECT_EQ(after->x, node_positions(scene_, mesh_, *space).x);
+}
+
+// The last few are kept, no more.
+TEST_F(KnownElementsOfABall, ForgetOldMeshes) {
+  const std::weak_ptr<const FlowSpace> space = known_.space(domain(1));
+  const std::weak_ptr<const NodePositions> positions = known_.positions(domain(1));
+  EXPECT_NE(known_.space(domain(2)), space.lock());
+  EXPECT_FALSE(space.expired());
+  for (const std::int64_t connectivity : {3, 4, 5}) (void)known_.positions(domain(connectivity));
+  EXPECT_TRUE(space.expired());
+  EXPECT_TRUE(positions.expired());
+}
+
+}  // namespace
+}  // namespace meniscus::fem
