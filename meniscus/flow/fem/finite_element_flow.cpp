@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "meniscus/core/archive_entries.hpp"
 #include "meniscus/core/error.hpp"
@@ -146,8 +147,11 @@ void FiniteElementFlow::follow(const MeshChange& change, const FlowDomain& domai
   stokes_.reset();  // refers to the space
   const std::shared_ptr<const FlowSpace> before = space_;
   use_connectivity(domain);
+  // The scalars will look for the same places.
+  const auto places = domain.scene.scalars.empty() ? nullptr : elements_->sources(change, domain);
   guess_ =
-      interpolated_state(guess, {change.before, *before}, {*domain.mesh, *space_}, change.sources);
+      interpolated_state(guess, {change.before, *before}, {*domain.mesh, *space_}, change.sources,
+                         places ? std::span(*places) : std::span<const NodeSource>());
 }
 
 /// Undisturbed flow and drops change on their own. The one is known at once, what the drops add to

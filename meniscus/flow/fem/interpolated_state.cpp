@@ -98,7 +98,8 @@ Vec3 node_position(const TetMesh& mesh, CellId c, std::size_t k) {
 }  // namespace
 
 StokesState interpolated_state(const StokesState& state, const MeshedSpace& from,
-                               const MeshedSpace& to, const RegionSources& sources) {
+                               const MeshedSpace& to, const RegionSources& sources,
+                               std::span<const NodeSource> places) {
   MENISCUS_ASSERT(from.space.elements == to.space.elements, "other elements");
   MENISCUS_ASSERT(state.v.size() == from.space.velocity.num_nodes, "{} {}", state.v.size(),
                   from.space.velocity.num_nodes);
@@ -106,6 +107,8 @@ StokesState interpolated_state(const StokesState& state, const MeshedSpace& from
   const CellsByRegion old_cells = cells_by_region(from.mesh);
   Field<RegionId, Source> source = sources_of_regions(from.mesh, to.mesh, sources);
   StokesState result = state_at_rest(to.space);
+  if (!places.empty())
+    result.v = Field<NodeId, Vec3>(interpolated_values<Vec3>(state.v.span(), from.space, places));
   std::vector<CellId> hit_cells(result.p.size());  // where pressures were found
   // A vertex on an interface is looked for in the liquids on both sides: the nearer point counts.
   Field<NodeId, double> distance(to.space.velocity.num_nodes,
@@ -117,13 +120,17 @@ StokesState interpolated_state(const StokesState& state, const MeshedSpace& from
       if (hit_cells[at(pressures[k])].is_valid()) near = hit_cells[at(pressures[k])];
     if (!near.is_valid())
       near = nearest_cell(from.mesh, old_cells, is_allowed, node_position(to.mesh, c, 0));
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
+    for (std::size_t k = 0; k < (places.empty() ? nodes.size() : 4); ++k) {
       const NodeId i{nodes[k]};
       const bool is_known = k < 4 ? hit_cells[at(pressures[k])].is_valid() : distance[i] < HUGE_VAL;
       if (is_known) continue;
+      if (!places.empty())
+        if (const CellId known = places[at(i.value)].cell;
+            is_allowed[at(from.mesh.region[known].value)])
+          near = known;
       const CellWalk::Hit hit = walk.find(near, node_position(to.mesh, c, k), is_allowed);
       near = hit.cell;
-      if (hit.squared_distance < distance[i]) {
+      if (places.empty() && hit.squared_distance < distance[i]) {
         distance[i] = hit.squared_distance;
         result.v[i] = velocity_at(state, from.space.velocity.of(hit.cell), hit.weights);
       }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meniscus/flow/fem/node_sources.hpp"
 #include "meniscus/flow/fem/stokes_problem.hpp"
 #include "meniscus/volume/field_transfer.hpp"
 
@@ -15,8 +16,10 @@ struct MeshedSpace {
 /// shape functions where a walk to it ends. The walk stays in old cells of the node's liquid. It
 /// ends at the node, or where that liquid ended. `sources` says where a region has its liquid from;
 /// where it says nothing of one, any cell will do. Mid-edge nodes count as the middles of straight
-/// edges, on both meshes: second order at curved surfaces, third elsewhere. Linear cost.
+/// edges, on both meshes: second order at curved surfaces, third elsewhere. Linear cost. Where
+/// `places` is not empty it says where the nodes of the velocity lie, on curved edges too.
 [[nodiscard]] StokesState interpolated_state(const StokesState& state, const MeshedSpace& from,
-                                             const MeshedSpace& to, const RegionSources& sources);
+                                             const MeshedSpace& to, const RegionSources& sources,
+                                             std::span<const NodeSource> places = {});
 
 }  // namespace meniscus::fem

@@ -15,10 +15,14 @@ void remember(Known known, std::size_t most, std::deque<Known>& last) {
 
 }  // namespace
 
+std::shared_ptr<const FlowSpace> KnownElements::known_space(std::int64_t connectivity) const {
+  const auto known = std::ranges::find(spaces_, connectivity, &KnownSpace::connectivity);
+  return known != spaces_.end() ? known->space : nullptr;
+}
+
 std::shared_ptr<const FlowSpace> KnownElements::space(const FlowDomain& domain) {
   MENISCUS_ASSERT(domain.mesh != nullptr, "finite elements need a volume mesh");
-  const auto known = std::ranges::find(spaces_, domain.connectivity, &KnownSpace::connectivity);
-  if (known != spaces_.end()) return known->space;
+  if (auto known = known_space(domain.connectivity)) return known;
   auto space = std::make_shared<const FlowSpace>(flow_space(*domain.mesh, elements_));
   remember<KnownSpace>({domain.connectivity, space}, 2, spaces_);
   return space;
@@ -32,8 +36,23 @@ std::shared_ptr<const NodePositions> KnownElements::positions(const FlowDomain& 
   if (known != positions_.end()) return known->positions;
   auto positions = std::make_shared<const NodePositions>(
       node_positions(domain.scene, *domain.mesh, *space, domain.surfaces));
-  remember<KnownPositions>({domain.connectivity, domain.mesh->x, positions}, 3, positions_);
+  remember<KnownPositions>({domain.connectivity, domain.mesh->x, positions}, 5, positions_);
   return positions;
+}
+
+std::shared_ptr<const std::vector<NodeSource>> KnownElements::sources(const MeshChange& change,
+                                                                      const FlowDomain& domain) {
+  if (last_.sources && last_.connectivity == domain.connectivity) return last_.sources;
+  const auto before = std::ranges::find(positions_, change.before.x, &KnownPositions::vertices);
+  if (before == positions_.end()) return nullptr;
+  const std::shared_ptr<const FlowSpace> old_space = known_space(before->connectivity);
+  if (!old_space) return nullptr;
+  const std::shared_ptr<const NodePositions> old_positions = before->positions;
+  last_ = {domain.connectivity,
+           std::make_shared<const std::vector<NodeSource>>(
+               node_sources({change.before, *old_space, *old_positions},
+                            {*domain.mesh, *space(domain), *positions(domain)}, change.sources))};
+  return last_.sources;
 }
 
 }  // namespace meniscus::fem

@@ -3,8 +3,9 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <vector>
 
-#include "meniscus/flow/fem/node_positions.hpp"
+#include "meniscus/flow/fem/node_sources.hpp"
 #include "meniscus/flow/flow_solver.hpp"
 
 namespace meniscus::fem {
@@ -20,6 +21,10 @@ class KnownElements {
   [[nodiscard]] std::shared_ptr<const FlowSpace> space(const FlowDomain& domain);
   /// Where the nodes of that space are.
   [[nodiscard]] std::shared_ptr<const NodePositions> positions(const FlowDomain& domain);
+  /// Where the nodes of a domain's mesh lie in the one whose place it took. Null where it is not
+  /// known any more where that one's nodes were.
+  [[nodiscard]] std::shared_ptr<const std::vector<NodeSource>> sources(const MeshChange& change,
+                                                                       const FlowDomain& domain);
 
  private:
   struct KnownSpace {
@@ -31,11 +36,17 @@ class KnownElements {
     Field<TetVertexId, Vec3> vertices;
     std::shared_ptr<const NodePositions> positions;
   };
+  struct KnownSources {
+    std::int64_t connectivity = 0;  // that they lead to
+    std::shared_ptr<const std::vector<NodeSource>> sources;
+  };
+  [[nodiscard]] std::shared_ptr<const FlowSpace> known_space(std::int64_t connectivity) const;
 
   Elements elements_;
   // The last first. A step begins on one mesh and goes on with another.
   std::deque<KnownSpace> spaces_;
   std::deque<KnownPositions> positions_;
+  KnownSources last_;
 };
 
 }  // namespace meniscus::fem

@@ -245,15 +245,14 @@ BulkScalars FiniteElementScalars::follow(const MeshChange& change, const Scene& 
   MENISCUS_ASSERT(old_space != last_.end(), "the mesh before the change is not known");
   const Placed old = *old_space;
   const Placed now = placed(domain);
-  const std::vector<fem::NodeSource> sources =
-      fem::node_sources({change.before, old.space->elements, *old.positions},
-                        {*domain.mesh, now.space->elements, *now.positions}, change.sources);
+  const auto sources = elements_->sources(change, domain);
+  MENISCUS_ASSERT(sources != nullptr, "the positions before the change are not known");
   BulkScalars result(scalars.size());
   for (std::size_t k = 0; k < scalars.size(); ++k) {
     result[k] = scalars[k];
     if (!change.sources.empty()) result[k].region_loss.clear();
     result[k].values =
-        fem::interpolated_values<double>(scalars[k].values, old.space->elements, sources);
+        fem::interpolated_values<double>(scalars[k].values, old.space->elements, *sources);
     const GivenValues given = given_values(domain.scene, k, *now.space, *now.positions);
     for (std::size_t i = 0; i < given.value.size(); ++i)
       if (given.is_given[i] != 0) result[k].values[i] = given.value[i];

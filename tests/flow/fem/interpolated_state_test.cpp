@@ -49,13 +49,18 @@ TEST_P(InterpolatedState, KeepsWhatBothSpacesHave) {
       sources.add({RegionId{1}});
       sources.add({RegionId{0}});
     }
-    const StokesState carried = interpolated_state(exact_state(from, 1), {before.mesh, from.space},
-                                                   {after.mesh, to.space}, sources);
-    const StokesState wanted = exact_state(to, low);
-    for (const NodeId i : wanted.v.ids())
-      EXPECT_LT((carried.v[i] - wanted.v[i]).norm(), 1e-12) << i.value;
-    for (std::size_t i = 0; i < wanted.p.size(); ++i)
-      EXPECT_NEAR(carried.p[i], wanted.p[i], 1e-12) << i;
+    const std::vector<NodeSource> known = node_sources(
+        {before.mesh, from.space, from.positions}, {after.mesh, to.space, to.positions}, sources);
+    for (const bool has_places : {false, true}) {
+      const StokesState carried = interpolated_state(
+          exact_state(from, 1), {before.mesh, from.space}, {after.mesh, to.space}, sources,
+          has_places ? std::span(known) : std::span<const NodeSource>());
+      const StokesState wanted = exact_state(to, low);
+      for (const NodeId i : wanted.v.ids())
+        EXPECT_LT((carried.v[i] - wanted.v[i]).norm(), 1e-12) << i.value;
+      for (std::size_t i = 0; i < wanted.p.size(); ++i)
+        EXPECT_NEAR(carried.p[i], wanted.p[i], 1e-12) << i;
+    }
   }
 }
 

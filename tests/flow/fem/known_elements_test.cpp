@@ -48,13 +48,30 @@ TEST_F(KnownElementsOfABall, FollowTheVertices) {
   EXPECT_EQ(after->x, node_positions(scene_, mesh_, *space).x);
 }
 
+// A mesh in the place of itself: each node lies where it is.
+TEST_F(KnownElementsOfABall, SayWhereNodesLieInTheMeshBefore) {
+  MeshChange change;
+  change.before = mesh_;
+  EXPECT_EQ(known_.sources(change, domain(2)), nullptr);  // no positions were asked for
+  const auto space = known_.space(domain(1));
+  const auto positions = known_.positions(domain(1));
+  const auto sources = known_.sources(change, domain(2));
+  ASSERT_NE(sources, nullptr);
+  EXPECT_EQ(known_.sources(change, domain(2)), sources);
+  const std::span<const Vec3> x = positions->x.span();
+  const std::vector<Vec3> found = interpolated_values<Vec3>(x, *space, *sources);
+  ASSERT_EQ(found.size(), x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) EXPECT_LT((found[i] - x[i]).norm(), 1e-12);
+}
+
 // The last few are kept, no more.
 TEST_F(KnownElementsOfABall, ForgetOldMeshes) {
   const std::weak_ptr<const FlowSpace> space = known_.space(domain(1));
   const std::weak_ptr<const NodePositions> positions = known_.positions(domain(1));
   EXPECT_NE(known_.space(domain(2)), space.lock());
   EXPECT_FALSE(space.expired());
-  for (const std::int64_t connectivity : {3, 4, 5}) (void)known_.positions(domain(connectivity));
+  for (const std::int64_t connectivity : {3, 4, 5, 6, 7})
+    (void)known_.positions(domain(connectivity));
   EXPECT_TRUE(space.expired());
   EXPECT_TRUE(positions.expired());
 }
