@@ -97,8 +97,8 @@ void add_pressure_slopes(const StokesProblem& problem, RegionId region,
   }
 }
 
-/// Whether an implicit stage is so long that the inertia of a region, and of the matrix, does not
-/// outweigh the matrix's viscosity: ρR²/τ ≤ 10 μ_out, R the radius of the sphere of its volume.
+/// Whether the matrix's viscosity holds a region in a long implicit stage: ρR²/τ ≤ 10 μ_out for the
+/// region and the matrix, R being the radius of the sphere of the region's volume.
 bool is_held_by_matrix(const StokesProblem& problem, RegionId region) {
   constexpr double kOutweighs = 10.0;
   if (!problem.inertia) return false;

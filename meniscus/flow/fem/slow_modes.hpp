@@ -20,8 +20,8 @@ struct SlowModes {
 /// In a drop much less viscous, a pressure that varies only along its length has to move the liquid
 /// around or to pass a neck. It drives less flow than its mass over μ says. Such pressures are the
 /// sections' weights. For a drop of one section that is `constant_pressure_shares`. A pressure that
-/// varies along any axis accelerates such a drop, as far as the matrix gives way. In implicit
-/// stages long enough for the matrix to hold it, ρR²/τ ≤ 10 μ_out of drop and matrix, the weights'
+/// varies along any axis accelerates such a drop, as far as the matrix gives way. The
+/// matrix holds it in long implicit stages: ρR²/τ ≤ 10 μ_out of drop and matrix. There the weights'
 /// products with the coordinates come to it. In Stokes flow these save no more than they cost.
 ///
 /// More than eight such drops have none, as each function takes a product with the whole matrix.
