@@ -33,7 +33,10 @@ std::shared_ptr<const NodePositions> KnownElements::positions(const FlowDomain& 
   const auto known = std::ranges::find_if(positions_, [&](const KnownPositions& each) {
     return each.connectivity == domain.connectivity && each.vertices == domain.mesh->x;
   });
-  if (known != positions_.end()) return known->positions;
+  if (known != positions_.end()) {
+    std::rotate(positions_.begin(), known, known + 1);
+    return positions_.front().positions;
+  }
   auto positions = std::make_shared<const NodePositions>(
       node_positions(domain.scene, *domain.mesh, *space, domain.surfaces));
   remember<KnownPositions>({domain.connectivity, domain.mesh->x, positions}, 5, positions_);

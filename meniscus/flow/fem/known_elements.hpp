@@ -43,7 +43,7 @@ class KnownElements {
   [[nodiscard]] std::shared_ptr<const FlowSpace> known_space(std::int64_t connectivity) const;
 
   Elements elements_;
-  // The last first. A step begins on one mesh and goes on with another.
+  // Those asked for last first. A step begins on one mesh and goes on with another.
   std::deque<KnownSpace> spaces_;
   std::deque<KnownPositions> positions_;
   KnownSources last_;

@@ -245,8 +245,11 @@ BulkScalars FiniteElementScalars::follow(const MeshChange& change, const Scene& 
   MENISCUS_ASSERT(old_space != last_.end(), "the mesh before the change is not known");
   const Placed old = *old_space;
   const Placed now = placed(domain);
-  const auto sources = elements_->sources(change, domain);
-  MENISCUS_ASSERT(sources != nullptr, "the positions before the change are not known");
+  auto sources = elements_->sources(change, domain);
+  if (!sources)  // after many stages of the flow on the mesh before
+    sources = std::make_shared<const std::vector<fem::NodeSource>>(
+        fem::node_sources({change.before, old.space->elements, *old.positions},
+                          {*domain.mesh, now.space->elements, *now.positions}, change.sources));
   BulkScalars result(scalars.size());
   for (std::size_t k = 0; k < scalars.size(); ++k) {
     result[k] = scalars[k];

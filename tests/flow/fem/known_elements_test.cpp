@@ -64,6 +64,15 @@ TEST_F(KnownElementsOfABall, SayWhereNodesLieInTheMeshBefore) {
   for (std::size_t i = 0; i < x.size(); ++i) EXPECT_LT((found[i] - x[i]).norm(), 1e-12);
 }
 
+// What is asked for again is not the oldest.
+TEST_F(KnownElementsOfABall, KeepWhatIsAskedFor) {
+  const std::weak_ptr<const NodePositions> positions = known_.positions(domain(1));
+  for (const std::int64_t connectivity : {2, 3, 4, 5, 6, 7}) {
+    (void)known_.positions(domain(connectivity));
+    EXPECT_EQ(known_.positions(domain(1)), positions.lock());
+  }
+}
+
 // The last few are kept, no more.
 TEST_F(KnownElementsOfABall, ForgetOldMeshes) {
   const std::weak_ptr<const FlowSpace> space = known_.space(domain(1));

@@ -28,8 +28,8 @@ class ScalarScene {
   };
   explicit ScalarScene(const Options& options)
       : scene(fem::sphere_in_sphere(options.spheres)),
-        solver(
-            make_finite_element_scalars(std::make_shared<fem::KnownElements>(options.elements))) {
+        known(std::make_shared<fem::KnownElements>(options.elements)),
+        solver(make_finite_element_scalars(known)) {
     scene.interfaces[0].volume = 4.0 / 3.0 * std::numbers::pi;
     scene.scalars = {options.scalar};
     scene.liquids[RegionId{0}].scalars = {options.matrix};
@@ -52,6 +52,7 @@ class ScalarScene {
 
   Scene scene;
   TetMesh mesh;
+  std::shared_ptr<fem::KnownElements> known;
   std::unique_ptr<ScalarSolver> solver;
 };
 

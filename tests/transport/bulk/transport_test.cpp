@@ -101,6 +101,32 @@ TEST_P(EveryElement, KeepsTotalsOnAMovingMesh) {
 }
 
 // A sink takes more than there is; of heat that is allowed.
+// The flow may ask for so many positions that those before the change are forgotten.
+TEST(BulkScalars, FollowAMeshWhosePositionsTheFlowHasForgotten) {
+  ScalarScene drop({.spheres = {.num_vertices = 60},
+                    .scalar = {.name = "T", .peclet = 1.0},
+                    .drop = {.initial = {.value = 1.0}}});
+  BulkScalars scalars;
+  ASSERT_TRUE(drop.solver->initial(drop.domain(1), scalars).ok());
+  MeshChange change;
+  change.before = drop.mesh;
+  const auto followed = [&](std::int64_t connectivity) {
+    return drop.solver->follow(change, drop.scene, drop.domain(connectivity), scalars)[0].values;
+  };
+  ASSERT_NE(drop.known->sources(change, drop.domain(2)), nullptr);
+  const std::vector<double> known = followed(2);
+  drop.mesh.x[TetVertexId{drop.mesh.num_vertices() - 1}].x() += 1e-12;  // other positions
+  for (std::int64_t other = 20; other < 30; ++other)
+    (void)drop.known->positions(drop.domain(other));
+  ASSERT_EQ(drop.known->sources(change, drop.domain(3)), nullptr);
+  const std::vector<double> forgotten = followed(3);
+  ASSERT_EQ(known.size(), scalars[0].values.size());
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    EXPECT_NEAR(known[i], scalars[0].values[i], 1e-9);
+    EXPECT_NEAR(forgotten[i], known[i], 1e-9);
+  }
+}
+
 TEST(BulkSpecies, RefuseAStepBelowZero) {
   const auto step = [](bool is_species, double dt) {
     ScalarScene::Options options;
