@@ -21,7 +21,9 @@ std::unique_ptr<FlowSolver> make_flow_solver(const Case& c) { return make_solver
 
 std::optional<MovingMesh> make_moving_mesh(const Case& c) {
   if (c.method == FlowMethod::boundary_integral) return std::nullopt;
-  return MovingMesh(c.volume_mesh);
+  MovingMeshOptions options = c.volume_mesh;
+  options.takes_over_vertices = c.reynolds == 0.0 && c.scalars.empty();
+  return MovingMesh(options);
 }
 
 }  // namespace meniscus

@@ -90,7 +90,7 @@ HistoryRow history_row(const State& state, const FlowSolution& flow, const Inter
     const TetMesh& mesh = state.mesh->tetrahedra();
     row.nodes = mesh.num_vertices();
     row.tetrahedra = mesh.num_cells();
-    row.min_dihedral_deg = quality(mesh).min_dihedral_deg;
+    row.min_dihedral_deg = smallest_dihedral_deg(mesh);
   }
   row.min_gap = smallest_gap(scene);
   row.linear_iterations = state.iterations;

@@ -307,10 +307,18 @@ class SaddleSolver::Implementation {
     report.reason = KSPConvergedReasons[reason];
     report.iterations = iterations;
     report.residuals.assign(history.begin(), history.begin() + recorded);
-    if (report.converged && options_.method != SaddleMethod::minres)
+    if (report.converged && options_.method != SaddleMethod::minres &&
+        may_be_breakdown(rtol, report))
       check_breakdown(b.get(), x.get(), rtol, report);
     if (system.constant_pressure_is_null)
       remove_mean(communicator_, solution.subspan(std::size_t(system.num_velocities())));
+  }
+
+  /// Whether the estimate of the residual fell by more than an iteration does before it is small
+  /// enough.
+  static bool may_be_breakdown(double rtol, const LinearReport& report) {
+    const std::vector<double>& residuals = report.residuals;
+    return residuals.empty() || residuals.back() < 0.01 * rtol * residuals.front();
   }
 
   /// Checks the true residual: on a singular operator a Krylov method may stop with a zero residual

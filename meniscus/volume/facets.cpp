@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
 
 #include "meniscus/core/error.hpp"
 
@@ -15,9 +14,11 @@ FacetVertices canonical_facet(const FacetVertices& f) {
   return f[1] < f[2] ? FacetVertices{f[1], f[2], f[0]} : FacetVertices{f[2], f[0], f[1]};
 }
 
-/// The other two vertices of a rotated facet whatever its sense: equal for the two sides of one.
-std::pair<TetVertexId, TetVertexId> other_vertices(const FacetVertices& f) {
-  return std::minmax(f[1], f[2]);
+/// The other two vertices of a rotated facet, the smaller one first, and its sense as the last bit.
+/// So the two sides of one facet differ in that bit alone.
+std::uint64_t side_of(const FacetVertices& f) {
+  const auto b = static_cast<std::uint64_t>(f[1].value), c = static_cast<std::uint64_t>(f[2].value);
+  return b < c ? b << 32U | c << 1U : c << 32U | b << 1U | 1U;
 }
 
 }  // namespace
@@ -52,20 +53,17 @@ void FacetTable::gather(const TetMesh& mesh) {
       const FacetVertices f = canonical_facet(facet(mesh.cells[c], k));
       std::int32_t& slot = next[static_cast<std::size_t>(f[0].value)];
       MENISCUS_ASSERT(slot < first_[static_cast<std::size_t>(f[0].value) + 1], "slot {}", slot);
-      entries_[static_cast<std::size_t>(slot++)] = {f, c, k};
+      entries_[static_cast<std::size_t>(slot++)] = {side_of(f), c, k};
     }
 }
 
-/// Makes the two sides of each facet among those of one smallest vertex neighbours in memory.
+/// Sorts those of one smallest vertex, so that the two sides of a facet follow each other.
 void FacetTable::pair_up(std::span<Entry> entries) {
-  std::ranges::sort(entries, [](const Entry& a, const Entry& b) {
-    return std::pair(other_vertices(a.facet), a.facet[1]) <
-           std::pair(other_vertices(b.facet), b.facet[1]);
-  });
+  std::ranges::sort(entries, {}, &Entry::side);
   for (std::size_t i = 0; i + 1 < entries.size(); ++i) {
     const Entry &a = entries[i], &b = entries[i + 1];
-    if (other_vertices(a.facet) != other_vertices(b.facet)) continue;
-    if (a.facet == b.facet) {
+    if (a.side >> 1U != b.side >> 1U) continue;
+    if (a.side == b.side) {
       overlapping_ = a.cell;
       continue;
     }
@@ -78,10 +76,10 @@ CellId FacetTable::find(const FacetVertices& facet) const {
   const FacetVertices wanted = canonical_facet(facet);
   const auto v = static_cast<std::size_t>(wanted[0].value);
   MENISCUS_ASSERT(v + 1 < first_.size(), "vertex {}", wanted[0].value);
-  for (std::int32_t i = first_[v]; i < first_[v + 1]; ++i) {
-    const Entry& entry = entries_[static_cast<std::size_t>(i)];
-    if (entry.facet == wanted) return entry.cell;
-  }
+  const auto begin = entries_.begin() + first_[v], end = entries_.begin() + first_[v + 1];
+  const std::uint64_t side = side_of(wanted);
+  const auto entry = std::ranges::lower_bound(begin, end, side, {}, &Entry::side);
+  if (entry != end && entry->side == side) return entry->cell;
   return {};
 }
 

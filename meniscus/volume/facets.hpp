@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -32,15 +33,16 @@ class FacetTable {
   [[nodiscard]] CellId overlapping() const { return overlapping_; }
 
  private:
+  /// One side of a facet.
   struct Entry {
-    FacetVertices facet;  // rotated: the smallest vertex first
+    std::uint64_t side = 0;  // what `side_of` gives
     CellId cell;
     std::uint8_t corner = 0;  // the facet lies opposite
   };
   void gather(const TetMesh& mesh);
   void pair_up(std::span<Entry> entries);
 
-  std::vector<std::int32_t> first_;  // entries by their smallest vertex
+  std::vector<std::int32_t> first_;  // entries by their smallest vertex, rising by side
   std::vector<Entry> entries_;
   CellField<std::array<CellId, 4>> neighbours_;
   CellId overlapping_;

@@ -183,11 +183,17 @@ std::optional<Fault> find_wrong_volume(const TetMesh& mesh, const Scene& scene) 
 }  // namespace
 
 std::optional<Fault> find_defect(const TetMesh& mesh, const Scene& scene) {
+  // A table of facets needs cells of vertices that are there.
+  if (auto fault = find_wrong_size(mesh, scene)) return fault;
+  return find_defect(mesh, FacetTable(mesh), scene);
+}
+
+std::optional<Fault> find_defect(const TetMesh& mesh, const FacetTable& facets,
+                                 const Scene& scene) {
   if (auto fault = find_wrong_size(mesh, scene)) return fault;
   const std::vector<SurfacePair> pairs = surface_pairs(mesh, scene);
   if (auto fault = find_moved_vertex(mesh, pairs)) return fault;
   if (auto fault = find_inverted_cell(mesh)) return fault;
-  const FacetTable facets(mesh);
   for (const SurfacePair& pair : pairs)
     if (auto fault = find_wrong_face(mesh, facets, pair)) return fault;
   if (auto fault = find_wrong_facet(mesh, facets, scene)) return fault;

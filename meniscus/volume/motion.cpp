@@ -1,7 +1,8 @@
 #include "meniscus/volume/motion.hpp"
 
+#include <utility>
+
 #include "meniscus/core/error.hpp"
-#include "meniscus/volume/spines.hpp"
 
 namespace meniscus {
 namespace {
@@ -27,6 +28,17 @@ TetVertexId first_free_vertex(const TetMesh& mesh) {
 
 }  // namespace
 
+const std::vector<Spine>& VolumeMover::spines_of(const Scene& scene, const TetMesh& mesh) {
+  if (spines_) return *spines_;
+  std::vector<Spine> all;
+  const Spines spines(scene.interfaces[0].mesh, scene.boundary.mesh);
+  if (spines.exist())
+    for (TetVertexId v = first_free_vertex(mesh); v.value < mesh.num_vertices(); ++v.value)
+      all.push_back(spines.through(mesh.x[v]));
+  spines_ = std::make_shared<const std::vector<Spine>>(std::move(all));
+  return *spines_;
+}
+
 const HarmonicExtension& VolumeMover::extension_of(const TetMesh& mesh) {
   if (!pattern_) pattern_ = std::make_shared<HarmonicPattern>(mesh, first_free_vertex(mesh));
   if (!extension_) extension_ = std::make_shared<HarmonicExtension>(*pattern_, mesh);
@@ -46,10 +58,12 @@ Field<TetVertexId, Vec3> VolumeMover::velocity(const Scene& scene, const TetMesh
     return w;
   }
   if (motion_ == VolumeMotion::spines && scene.interfaces.size() == 1) {
-    const Spines spines(scene.interfaces[0].mesh, scene.boundary.mesh);
-    if (spines.exist()) {
-      for (TetVertexId v = first_free; v.value < mesh.num_vertices(); ++v.value)
-        w[v] = spines.velocity(mesh.x[v], interface_motion[0]);
+    if (const std::vector<Spine>& spines = spines_of(scene, mesh); !spines.empty()) {
+      TetVertexId v = first_free;
+      for (const Spine& spine : spines) {
+        w[v] = spine.velocity(interface_motion[0]);
+        ++v.value;
+      }
       return w;
     }
   }

@@ -37,10 +37,13 @@ std::optional<Fault> find_inverted_cell(const TetMesh& mesh) {
 }  // namespace
 
 MovingMesh::MovingMesh(const MovingMeshOptions& options)
-    : MovingMesh(options.motion,
-                 [tetrahedra = options.tetrahedra](const Scene& scene, TetMesh& mesh) {
-                   return tetrahedralize(scene, tetrahedra, mesh);
-                 }) {}
+    : MovingMesh(
+          options.motion,
+          [tetrahedra = options.tetrahedra](const Scene& scene, const TetMesh& before,
+                                            TetMesh& mesh) {
+            return tetrahedralize(scene, tetrahedra, before, mesh);
+          },
+          options.takes_over_vertices) {}
 
 void MovingMesh::begin_step(const Scene& scene) {
   const PhaseTimer timer(times_, "move mesh");
@@ -99,10 +102,26 @@ void MovingMesh::place_interfaces(const Scene& scene) {
   }
 }
 
+/// Takes over vertices of the mesh as it stands where that is wanted, unless cells without them are
+/// much better.
+MovingMesh::NewMesh MovingMesh::mesh_anew(const Scene& scene) const {
+  const auto made = [&](const TetMesh& before) {
+    NewMesh result;
+    result.report = mesher_(scene, before, result.mesh);
+    if (result.report.ok()) result.angle_deg = smallest_dihedral_deg(result.mesh);
+    return result;
+  };
+  if (!takes_over_vertices_ || mesh_.num_vertices() == 0) return made({});
+  NewMesh result = made(mesh_);
+  if (!result.report.ok() || result.angle_deg >= kLeastAngleKept * made_angle_deg_) return result;
+  NewMesh from_none = made({});
+  return from_none.angle_deg > result.angle_deg ? std::move(from_none) : std::move(result);
+}
+
 MeshChange MovingMesh::follow(const Scene& scene, const RegionSources& sources) {
   const PhaseTimer timer(times_, "tetrahedralize");
-  TetMesh fitted;
-  MeshChange change{mesher_(scene, fitted)};
+  auto [report, fitted, angle_deg] = mesh_anew(scene);
+  MeshChange change{std::move(report)};
   if (!change.ok()) return change;
   change.old_to_new = boundary_counterparts(mesh_, fitted);
   MENISCUS_ASSERT(change.old_to_new.size() == mesh_.num_vertices(), "{} {}",
@@ -110,7 +129,7 @@ MeshChange MovingMesh::follow(const Scene& scene, const RegionSources& sources) 
   if (!fields_.empty()) fields_ = transfer_fields(fields_, mesh_, fitted, excess_, sources);
   change.before = std::exchange(mesh_, std::move(fitted));
   change.sources = sources;
-  made_angle_deg_ = smallest_dihedral_deg(mesh_);
+  made_angle_deg_ = angle_deg;
   velocity_ = {};
   mover_.forget_mesh();
   return change;

@@ -256,11 +256,20 @@ double SizeLaw::size_in_gaps(double size, Around& around) const {
   return size;
 }
 
-double SizeLaw::operator()(const Vec3& x) const {
+double SizeLaw::distance_from_surfaces(Around& around) const {
+  if (around.inner->members.empty()) return around.outer.distance;
+  return std::min(around.outer.distance,
+                  around.inner->boxes.least(
+                      around.x, [](double distance) { return distance; },
+                      [&](std::size_t position) { return ask_member(position, around).distance; }));
+}
+
+SizeAt SizeLaw::at(const Vec3& x) const {
   const std::size_t enclosing = enclosing_surface(x);
   Around around{x, enclosing, &inner_[enclosing], ask(enclosing, x), {}};
   const double size = least_law(around);
-  return options_.gap_layers > 0.0 ? size_in_gaps(size, around) : size;
+  return {options_.gap_layers > 0.0 ? size_in_gaps(size, around) : size,
+          distance_from_surfaces(around)};
 }
 
 }  // namespace meniscus

@@ -48,6 +48,11 @@ struct LeastSize {
 /// where the gap is wider than 7/4 layers of h: the surfaces hold it by themselves.
 [[nodiscard]] double gap_size(double width, double layers, double h);
 
+/// The edge wanted at a point, and how far the nearest surface is from it, up to a fifth [R0].
+struct SizeAt {
+  double size, distance;
+};
+
 /// The wanted edge length of the tetrahedra of a scene as a function of the point.
 ///
 /// Each region is bounded from outside by one surface, the interface that encloses it or the outer
@@ -65,7 +70,8 @@ class SizeLaw {
   SizeLaw(const Scene& scene, const VolumeMeshOptions& options);
 
   /// [R0]; a few µs per surface that may set the size there. The scene must outlive the law.
-  [[nodiscard]] double operator()(const Vec3& x) const;
+  [[nodiscard]] double operator()(const Vec3& x) const { return at(x).size; }
+  [[nodiscard]] SizeAt at(const Vec3& x) const;
   /// How often the nearest point of a surface has been looked for: what the law costs.
   [[nodiscard]] std::int64_t num_searches() const { return num_searches_; }
 
@@ -120,6 +126,7 @@ class SizeLaw {
   [[nodiscard]] double size_in_gap(double size, const Sized::Nearest& a,
                                    const Sized::Nearest& b) const;
   [[nodiscard]] double size_in_gaps(double size, Around& around) const;
+  [[nodiscard]] double distance_from_surfaces(Around& around) const;
   static BoxTree boxes_of(std::span<const Sized> surfaces, std::span<const std::size_t> members);
   [[nodiscard]] std::size_t enclosing_surface(const Vec3& x) const;
 

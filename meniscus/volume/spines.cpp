@@ -25,22 +25,20 @@ Spines::Spines(const SurfaceMesh& drop, const SurfaceMesh& boundary)
       boundary_tree_(boundary),
       exist_(is_star_shaped(drop, center_) && is_star_shaped(boundary, center_)) {}
 
-Vec3 Spines::velocity(const Vec3& x, const VertexField<Vec3>& drop_motion) const {
-  MENISCUS_ASSERT(exist_ && drop_motion.size() == drop_.num_vertices(), "{} {}", drop_motion.size(),
-                  drop_.num_vertices());
+Spine Spines::through(const Vec3& x) const {
+  MENISCUS_ASSERT(exist_, "a surface that is not star-shaped");
+  const Spine at_rest{{VertexId{0}, VertexId{0}, VertexId{0}}};
   const double r = (x - center_).norm();
-  if (r == 0.0) return Vec3::Zero();
+  if (r == 0.0) return at_rest;
   const Vec3 direction = (x - center_) / r;
   const auto at_drop = drop_tree_.first_hit(center_, direction);
-  if (!at_drop) return Vec3::Zero();  // cannot be: the drop is closed around its centre
-  Vec3 motion = Vec3::Zero();
-  for (std::size_t k = 0; k < 3; ++k)
-    motion += at_drop->weights[static_cast<int>(k)] * drop_motion[drop_.faces[at_drop->face][k]];
+  if (!at_drop) return at_rest;  // cannot be: the drop is closed around its centre
+  const FaceVertices& corners = drop_.faces[at_drop->face];
   const double a = at_drop->distance;
-  if (r <= a) return r / a * motion;
+  if (r <= a) return {corners, r / a * at_drop->weights};
   const auto at_boundary = boundary_tree_.first_hit(center_, direction);
-  if (!at_boundary || r >= at_boundary->distance) return Vec3::Zero();
-  return (at_boundary->distance - r) / (at_boundary->distance - a) * motion;
+  if (!at_boundary || r >= at_boundary->distance) return at_rest;
+  return {corners, (at_boundary->distance - r) / (at_boundary->distance - a) * at_drop->weights};
 }
 
 }  // namespace meniscus

@@ -4,6 +4,20 @@
 
 namespace meniscus {
 
+/// How a point follows the surface that the ray through it leaves: with these parts of the motions
+/// of the corners of the face there.
+struct Spine {
+  FaceVertices corners = {};
+  Vec3 weights = Vec3::Zero();
+
+  [[nodiscard]] Vec3 velocity(const VertexField<Vec3>& drop_motion) const {
+    Vec3 motion = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k)
+      motion += weights[static_cast<Eigen::Index>(k)] * drop_motion[corners[k]];
+    return motion;
+  }
+};
+
 /// Rays from the centroid of a drop through its surface to the outer boundary (§4.4 of hooper2001).
 /// Both surfaces must outlive it.
 class Spines {
@@ -14,11 +28,11 @@ class Spines {
   /// about the drop's centroid (decided by exact predicates).
   [[nodiscard]] bool exist() const { return exist_; }
 
-  /// `drop_motion`, interpolated where the ray through x leaves the drop at distance a from the
-  /// centre, times r/a inside and (b − r)/(b − a) outside. r is the distance of x and b that of the
-  /// boundary: whole at the drop, zero at the centre and at the boundary. (The printed ratio, (r −
-  /// a)/(b − a), is zero at the drop.)
-  [[nodiscard]] Vec3 velocity(const Vec3& x, const VertexField<Vec3>& drop_motion) const;
+  /// The motion of the drop where the ray through x leaves it, at distance a from the centre, times
+  /// r/a inside and (b − r)/(b − a) outside. r is the distance of x and b that of the boundary:
+  /// whole at the drop, zero at the centre and at the boundary. (The printed ratio, (r − a)/(b −
+  /// a), is zero at the drop.)
+  [[nodiscard]] Spine through(const Vec3& x) const;
 
  private:
   const SurfaceMesh& drop_;

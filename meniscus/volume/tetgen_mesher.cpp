@@ -7,7 +7,6 @@
 #include <memory>
 #include <new>
 #include <stdexcept>
-#include <unordered_map>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -25,11 +24,15 @@ using Point = const double*;
 Vec3 position(Point p) { return {p[0], p[1], p[2]}; }
 
 /// The size law at TetGen's vertices. TetGen tests each vertex with each new tetrahedron around it,
-/// dozens of times. It may also free a vertex and use its memory again, so an entry holds only for
-/// the coordinates it was made for.
+/// dozens of times. It may also free a vertex and give its number to another one, so an entry holds
+/// only for the coordinates it was made for.
 class SizeTest {
  public:
-  explicit SizeTest(const CellTarget& target) : target_(target) {}
+  /// The vertices of `mesh` begin with `num_fixed` of the surfaces, then those of the target.
+  SizeTest(const CellTarget& target, std::size_t num_fixed, tetgenmesh& mesh)
+      : target_(target), mesh_(mesh), known_(num_fixed) {
+    for (const SizedVertex& vertex : target.vertices) known_.push_back({vertex.x, vertex.size});
+  }
 
   bool is_too_large(Point a, Point b, Point c, Point d) {
     const double h = 0.25 * (size(a) + size(b) + size(c) + size(d));
@@ -41,17 +44,22 @@ class SizeTest {
 
  private:
   double size(Point p) {
-    const auto [entry, is_new] = known_.try_emplace(p);
-    if (is_new || entry->second.x != position(p))
-      entry->second = {position(p), target_.size(position(p))};
-    return entry->second.size;
+    const int mark = mesh_.pointmark(const_cast<double*>(p));
+    MENISCUS_ASSERT(mark >= 0, "TetGen's vertex {}", mark);
+    const auto number = static_cast<std::size_t>(mark);
+    if (number >= known_.size()) known_.resize(std::max(number + 1, 2 * known_.size()));
+    Known& known = known_[number];
+    if (!(known.size > 0.0) || known.x != position(p))
+      known = {position(p), target_.size(position(p))};
+    return known.size;
   }
   struct Known {
     Vec3 x = Vec3::Zero();
     double size = 0.0;
   };
   const CellTarget& target_;
-  std::unordered_map<Point, Known> known_;
+  tetgenmesh& mesh_;
+  std::vector<Known> known_;  // by TetGen's number of the vertex
 };
 
 /// TetGen's hook is a bare function pointer, so the test it should use travels beside it.
@@ -69,16 +77,18 @@ class ActiveSizeTest {
   ~ActiveSizeTest() { current_test = nullptr; }
 };
 
-/// TetGen's view of a complex. It points into vectors kept here, and lets go of them before
-/// TetGen's destructor would free them.
+/// TetGen's view of a complex and of vertices between its surfaces. It points into vectors kept
+/// here, and lets go of them before TetGen's destructor would free them.
 class TetgenInput {
  public:
-  explicit TetgenInput(const SurfaceComplex& complex)
+  TetgenInput(const SurfaceComplex& complex, const std::vector<SizedVertex>& between)
       : corners_(3 * complex.triangles.size()),
         polygons_(complex.triangles.size()),
         facets_(complex.triangles.size()) {
-    coordinates_.reserve(3 * complex.x.size());
+    coordinates_.reserve(3 * (complex.x.size() + between.size()));
     for (const Vec3& x : complex.x) coordinates_.insert(coordinates_.end(), x.begin(), x.end());
+    for (const auto& [x, size] : between)
+      coordinates_.insert(coordinates_.end(), x.begin(), x.end());
     for (std::size_t f = 0; f < facets_.size(); ++f) {
       std::copy(complex.triangles[f].begin(), complex.triangles[f].end(), &corners_[3 * f]);
       polygons_[f] = {&corners_[3 * f], 3};
@@ -86,7 +96,7 @@ class TetgenInput {
     }
     io_.firstnumber = 0;
     io_.pointlist = coordinates_.data();
-    io_.numberofpoints = static_cast<int>(complex.x.size());
+    io_.numberofpoints = static_cast<int>(coordinates_.size() / 3);
     io_.facetlist = facets_.data();
     io_.numberoffacets = static_cast<int>(facets_.size());
     io_.tetunsuitable = is_unsuitable;
@@ -133,6 +143,17 @@ constexpr int kMostOrders = 4;
 constexpr unsigned kLeastSeconds = 60;
 constexpr double kSecondsPerCell = 1e-3;
 
+/// Lets TetGen treat vertices that it was given between the surfaces as its own. It moves those to
+/// improve cells.
+void free_given_vertices(tetgenmesh& mesh) {
+  mesh.points->traversalinit();
+  while (tetgenmesh::point p = mesh.pointtraverse())
+    if (mesh.pointtype(p) == tetgenmesh::VOLVERTEX) {
+      mesh.setpointtype(p, tetgenmesh::FREEVOLVERTEX);
+      ++mesh.st_volref_count;
+    }
+}
+
 /// The phases of TetGen for given facets that are to be kept whole (-pY).
 void run_phases(tetgenmesh& mesh, tetgenio& out) {
   const tetgenbehavior& behavior = *mesh.b;
@@ -147,6 +168,7 @@ void run_phases(tetgenmesh& mesh, tetgenio& out) {
   mesh.carveholes();
   mesh.suppresssteinerpoints();
   mesh.recoverdelaunay();
+  free_given_vertices(mesh);
   if (behavior.quality != 0) mesh.delaunayrefinement();
   if (behavior.optlevel > 0) mesh.optimizemesh();
   mesh.outnodes(&out);
@@ -167,11 +189,11 @@ void read_output(const tetgenio& out, MesherResult& result) {
 /// Throws what TetGen finds as a runtime_error.
 void mesh_complex(const SurfaceComplex& complex, tetgenbehavior behavior, const CellTarget& target,
                   MesherResult& result) {
-  SizeTest test(target);
-  const ActiveSizeTest active(test);
-  TetgenInput input(complex);
+  TetgenInput input(complex, target.vertices);
   tetgenio output;
   auto mesh = std::make_unique<tetgenmesh>();
+  SizeTest test(target, complex.x.size(), *mesh);
+  const ActiveSizeTest active(test);
   mesh->b = &behavior;
   mesh->in = &input.io();
   try {

@@ -16,8 +16,8 @@ struct SurfaceComplex {
   std::vector<std::array<std::int32_t, 3>> triangles;
 };
 
-/// What a mesher gives: the vertices of the complex in their order, then its own; `failure` says
-/// why there are none.
+/// What a mesher gives: the vertices of the complex in their order, then those between the
+/// surfaces; `failure` says why there are none.
 struct [[nodiscard]] MesherResult {
   std::string failure;
   Field<TetVertexId, Vec3> x;
@@ -30,6 +30,12 @@ struct [[nodiscard]] MesherResult {
 /// quiet.
 [[nodiscard]] std::vector<std::string> tetgen_switches(double radius_edge);
 
+/// A vertex that the mesh may have between the surfaces, and the edge wanted there.
+struct SizedVertex {
+  Vec3 x;
+  double size;
+};
+
 /// How large tetrahedra are to be.
 struct CellTarget {
   std::function<double(const Vec3&)> size;  ///< edge wanted at a point
@@ -37,12 +43,15 @@ struct CellTarget {
   /// regular one whose edge h is the mean of `size` over the vertices.
   double volume_factor = 2.0;
   double num_cells = 0.0;  ///< how many are expected, for the time that meshing may take
+  /// Vertices to begin with; they may be moved, and further ones are added where cells ask for it.
+  std::vector<SizedVertex> vertices = {};
 };
 
 /// Tetrahedra of all that the complex encloses, by TetGen under the given switches; `size` is
-/// evaluated once per vertex. TetGen works in a child process (`run_in_child`), for Debian's
-/// library is built with its assertions on. One that does not hold ends the child and is a failure
-/// here. Points in special positions bring that out: coplanar and cospherical ones, as on a box.
+/// evaluated once per further vertex. TetGen works in a child process (`run_in_child`), for
+/// Debian's library is built with its assertions on. One that does not hold ends the child and is a
+/// failure here. Points in special positions bring that out: coplanar and cospherical ones, as on a
+/// box.
 MesherResult run_tetgen(const SurfaceComplex& complex, const std::string& switches,
                         const CellTarget& target);
 

@@ -12,6 +12,7 @@
 #include "meniscus/volume/mesh_order.hpp"
 #include "meniscus/volume/size_law.hpp"
 #include "meniscus/volume/tetgen_mesher.hpp"
+#include "meniscus/volume/vertices_to_keep.hpp"
 
 namespace meniscus {
 namespace {
@@ -104,7 +105,7 @@ std::optional<Fault> try_to_mesh(const Scene& scene, const SurfaceComplex& compl
   const FacetTable facets(mesh);
   if (auto lost = embed_surfaces(scene, facets, mesh)) return lost;
   label_regions(scene, facets, mesh);
-  return find_defect(mesh, scene);
+  return find_defect(mesh, facets, scene);
 }
 
 std::optional<Fault> find_unfit_surface(const Scene& scene) {
@@ -132,6 +133,11 @@ void VolumeMeshOptions::validate() const {
 
 VolumeMeshReport tetrahedralize(const Scene& scene, const VolumeMeshOptions& options,
                                 TetMesh& mesh) {
+  return tetrahedralize(scene, options, {}, mesh);
+}
+
+VolumeMeshReport tetrahedralize(const Scene& scene, const VolumeMeshOptions& options,
+                                const TetMesh& before, TetMesh& mesh) {
   options.validate();
   VolumeMeshReport report;
   report.fault = find_unfit_surface(scene);
@@ -145,9 +151,16 @@ VolumeMeshReport tetrahedralize(const Scene& scene, const VolumeMeshOptions& opt
   }
 
   const SurfaceComplex complex = gather_surfaces(scene);
-  const CellTarget target{size, options.cell_volume, foreseen.number};
-  for (const std::string& switches : tetgen_switches(options.radius_edge)) {
-    TetMesh candidate;
+  CellTarget target{size, options.cell_volume, foreseen.number, vertices_to_keep(before, law)};
+  const std::vector<std::string> all_switches = tetgen_switches(options.radius_edge);
+  TetMesh candidate;
+  if (!target.vertices.empty()) {
+    report.fault = try_to_mesh(scene, complex, all_switches.front(), target, candidate);
+    if (report.ok()) mesh = std::move(candidate);
+    if (report.ok()) return report;
+    target.vertices.clear();
+  }
+  for (const std::string& switches : all_switches) {
     report.fault = try_to_mesh(scene, complex, switches, target, candidate);
     if (report.ok()) {
       mesh = std::move(candidate);

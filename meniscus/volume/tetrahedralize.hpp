@@ -7,6 +7,8 @@
 
 namespace meniscus {
 
+class FacetTable;
+
 /// How element size passes from one surface's resolution to another's.
 enum class Grading { linear, exponential, gaussian };
 
@@ -34,9 +36,17 @@ struct [[nodiscard]] VolumeMeshReport : Report {
 VolumeMeshReport tetrahedralize(const Scene& scene, const VolumeMeshOptions& options,
                                 TetMesh& mesh);
 
+/// As above, from the vertices between the surfaces of a mesh that filled nearly the same space
+/// before. Those that still have the wanted distances are taken over, which halves the cost.
+VolumeMeshReport tetrahedralize(const Scene& scene, const VolumeMeshOptions& options,
+                                const TetMesh& before, TetMesh& mesh);
+
 /// What is wrong with a mesh of this scene. Interface faces must be facets of exactly two cells
 /// (boundary: one) on the right sides, and volumes be positive. Regions must be consistent, of the
 /// volumes that the surfaces enclose, and surface vertices where the scene has them.
 [[nodiscard]] std::optional<Fault> find_defect(const TetMesh& mesh, const Scene& scene);
+/// The same, where the mesh's facets are known.
+[[nodiscard]] std::optional<Fault> find_defect(const TetMesh& mesh, const FacetTable& facets,
+                                               const Scene& scene);
 
 }  // namespace meniscus

@@ -132,7 +132,7 @@ TEST(EvolutionEvents, ArePartOfTheCheckpointAfterThem) {
 
 /// A mesh of the interfaces' vertices alone, without a cell, for two drops or more.
 MovingMesh mesh_of_two_drops() {
-  return {VolumeMotion::spines, [](const Scene& scene, TetMesh& mesh) {
+  return {VolumeMotion::spines, [](const Scene& scene, const TetMesh&, TetMesh& mesh) {
             if (scene.interfaces.size() < 2)
               return VolumeMeshReport{{Fault{FaultKind::mesher, "too few drops"}}};
             mesh = {};

@@ -145,9 +145,9 @@ TEST(MovingMesh, FollowingSaysWhereTheOuterBoundaryWent) {
 TEST(MovingMesh, AFailedMesherLeavesTheMeshAsItWas) {
   const Scene scene = test::drop_in_sphere(110, 3.0, 100);
   bool fails = false;
-  MovingMesh mesh(VolumeMotion::spines, [&](const Scene& of, TetMesh& made) {
+  MovingMesh mesh(VolumeMotion::spines, [&](const Scene& of, const TetMesh& before, TetMesh& made) {
     if (fails) return VolumeMeshReport{{Fault{FaultKind::mesher, "told to fail"}}};
-    return tetrahedralize(of, {}, made);
+    return tetrahedralize(of, {}, before, made);
   });
   ASSERT_TRUE(mesh.follow(scene).ok());
   const TetMesh before = mesh.tetrahedra();
@@ -156,6 +156,38 @@ TEST(MovingMesh, AFailedMesherLeavesTheMeshAsItWas) {
   EXPECT_FALSE(change.ok());
   EXPECT_EQ(change.text(), "told to fail");
   EXPECT_EQ(mesh.tetrahedra().x, before.x);
+}
+
+/// Moves a vertex between the surfaces so near to another one that a cell there is thin.
+void spoil(TetMesh& mesh) {
+  const TetVertexId first{mesh.boundary.first_vertex.value + mesh.boundary.num_vertices};
+  for (const CellId c : mesh.cells.ids())
+    for (const TetVertexId v : mesh.cells[c]) {
+      if (v < first) continue;
+      const Vec3 before = mesh.x[v];
+      mesh.x[v] += 0.9 * (mesh.x[mesh.cells[c][0]] - before);
+      if (quality(mesh).min_volume > 0.0 && smallest_dihedral_deg(mesh) < 5.0) return;
+      mesh.x[v] = before;
+    }
+  FAIL() << "every vertex is needed where it is";
+}
+
+TEST(MovingMesh, TakesOverNothingWhereThatMakesPoorCells) {
+  const Scene scene = test::drop_in_sphere(110, 3.0, 100);
+  int from_none = 0, from_before = 0;
+  MovingMesh mesh(VolumeMotion::spines, [&](const Scene& of, const TetMesh& before, TetMesh& made) {
+    ++(before.num_vertices() == 0 ? from_none : from_before);
+    const VolumeMeshReport report = tetrahedralize(of, {}, made);
+    if (before.num_vertices() > 0) spoil(made);
+    return report;
+  });
+  ASSERT_TRUE(mesh.follow(scene).ok());
+  const double angle = smallest_dihedral_deg(mesh.tetrahedra());
+  EXPECT_GT(angle, 7.5);
+  ASSERT_TRUE(mesh.follow(scene).ok());
+  EXPECT_EQ(from_none, 2);
+  EXPECT_EQ(from_before, 1);
+  EXPECT_EQ(smallest_dihedral_deg(mesh.tetrahedra()), angle);
 }
 
 TEST(MovingMesh, ComesBackFromAnArchiveAndRefusesADamagedOne) {

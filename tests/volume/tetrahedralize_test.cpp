@@ -1,5 +1,7 @@
 #include "meniscus/volume/tetrahedralize.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -8,12 +10,14 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/mesh/surface_tree.hpp"
 #include "meniscus/surface/remesh.hpp"
 #include "meniscus/volume/facets.hpp"
 #include "meniscus/volume/foreseen_cells.hpp"
 #include "meniscus/volume/quality.hpp"
 #include "meniscus/volume/size_law.hpp"
 #include "meniscus/volume/tetgen_mesher.hpp"
+#include "meniscus/volume/vertices_to_keep.hpp"
 #include "tests/volume/scenes.hpp"
 
 #undef NDEBUG  // an assertion below is meant to fail
@@ -260,6 +264,69 @@ TEST(TetgenMesher, ReportsIntersectingSurfaces) {
         run_tetgen(complex, switches, {.size = [](const Vec3&) { return 1.0; }});
     EXPECT_NE(result.failure.find("intersect"), std::string::npos) << result.failure;
     EXPECT_EQ(result.cells.size(), 0);
+  }
+}
+
+/// Between the surfaces.
+std::vector<Vec3> free_vertices(const TetMesh& mesh) {
+  const auto all = mesh.x.span();
+  const auto first = mesh.boundary.first_vertex.value + mesh.boundary.num_vertices;
+  return {all.begin() + first, all.end()};
+}
+
+TEST(VerticesToKeep, AreApartFromSurfacesAndFromEachOther) {
+  Scene scene = test::scene_within(sphere(300, 6.0));
+  add_drop(scene, sphere(300, 1.0, Vec3(-1.3, 0, 0)));
+  add_drop(scene, sphere(300, 1.0, Vec3(1.2, 0, 0)));
+  const VolumeMeshOptions options{.grading = Grading::gaussian, .gap_layers = 3.0};
+  TetMesh mesh;
+  ASSERT_TRUE(tetrahedralize(scene, options, mesh).ok());
+  // The drops have come closer, and one has grown: some vertices are now too near or in the other.
+  scene.interfaces[0].mesh = sphere(300, 1.1, Vec3(-1.25, 0, 0));
+  const SizeLaw law(scene, options);
+  const std::vector<SizedVertex> kept = vertices_to_keep(mesh, law);
+  EXPECT_GT(kept.size(), free_vertices(mesh).size() / 2);
+  EXPECT_LT(kept.size(), free_vertices(mesh).size());
+  const std::array trees{SurfaceTree(scene.interfaces[0].mesh),
+                         SurfaceTree(scene.interfaces[1].mesh), SurfaceTree(scene.boundary.mesh)};
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    EXPECT_EQ(kept[i].size, law(kept[i].x));
+    for (const SurfaceTree& tree : trees)
+      EXPECT_GT(tree.closest(kept[i].x).distance, 0.6 / 1.2 * kept[i].size);
+    // Of neighbours, the one that is left out is too near by its own size.
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GT((kept[i].x - kept[j].x).norm(), 0.6 * std::min(kept[i].size, kept[j].size));
+  }
+  EXPECT_TRUE(vertices_to_keep({}, law).empty());
+}
+
+TEST(Tetrahedralize, TakesOverVerticesOfAMeshBefore) {
+  std::mt19937 random(11);
+  for (const Grading grading : {Grading::linear, Grading::gaussian}) {
+    Scene scene = test::scene_within(box(300, Vec3(6.0, 5.0, 5.0)).mesh);
+    add_drop(scene, test::random_ellipsoid(random, 300, Vec3::Zero()));
+    const VolumeMeshOptions options{.grading = grading, .cell_volume = 1.5};
+    TetMesh before, after, from_none;
+    ASSERT_TRUE(tetrahedralize(scene, options, before).ok());
+    double angles = 0.0, angles_from_none = 0.0;
+    for (int generation = 0; generation < 20; ++generation) {
+      for (Vec3& x : scene.interfaces[0].mesh.x) x += Vec3(0.04 * x.y(), 0.0, 0.0);
+      ASSERT_TRUE(tetrahedralize(scene, options, before, after).ok());
+      ASSERT_TRUE(tetrahedralize(scene, options, from_none).ok());
+      EXPECT_EQ(text_of(find_defect(after, scene)), "");
+      std::size_t taken_over = 0;
+      const std::vector<Vec3> old = free_vertices(before);
+      for (const Vec3& x : free_vertices(after))
+        taken_over += std::ranges::find(old, x) != old.end() ? 1U : 0U;
+      EXPECT_GT(taken_over, old.size() / 2);
+      // As many cells as a mesh from none has, of the same quality.
+      EXPECT_NEAR(after.num_cells(), from_none.num_cells(), 0.05 * from_none.num_cells());
+      EXPECT_LT(quality(after).below_10_deg, 1e-3);
+      angles += smallest_dihedral_deg(after);
+      angles_from_none += smallest_dihedral_deg(from_none);
+      std::swap(before, after);
+    }
+    EXPECT_GT(angles, 0.8 * angles_from_none);
   }
 }
 

@@ -7,12 +7,11 @@
 namespace meniscus::fem {
 namespace {
 
-/// The residual of a velocity without pressure, once the fixed velocities are imposed.
-double residual_at(const StokesProblem& problem, const StokesProduct* product,
-                   Field<NodeId, Vec3> v) {
+/// A velocity without pressure, once the fixed velocities are imposed.
+StokesState without_pressure(const StokesProblem& problem, Field<NodeId, Vec3> v) {
   StokesState state{std::move(v), std::vector<double>(problem.space.pressure.vertex.size(), 0.0)};
   problem.constraints.impose(state.v);
-  return free_norm(residual(problem, state, product), problem);
+  return state;
 }
 
 }  // namespace
@@ -66,9 +65,11 @@ void add_step(StokesState& state, const StokesProblem& problem,
 }
 
 double reference_residual(const StokesProblem& problem, const StokesProduct* product) {
-  const double at_rest = residual_at(problem, product, state_at_rest(problem.space).v);
+  const StokesState rest = without_pressure(problem, state_at_rest(problem.space).v);
+  const double at_rest = free_norm(residual_near_rest(problem, rest, product), problem);
   if (problem.undisturbed.empty()) return at_rest;
-  const double undisturbed = residual_at(problem, product, problem.undisturbed);
+  const StokesState flow = without_pressure(problem, problem.undisturbed);
+  const double undisturbed = free_norm(residual(problem, flow, product), problem);
   return std::clamp(kMostOfDisturbance * undisturbed, kLeastOfRest * at_rest, at_rest);
 }
 

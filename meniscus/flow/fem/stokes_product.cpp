@@ -5,7 +5,6 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/cell_batches.hpp"
 #include "meniscus/flow/fem/cell_inertia.hpp"
-#include "meniscus/flow/fem/elements.hpp"
 #include "meniscus/flow/fem/inertia_product.hpp"
 
 namespace meniscus::fem {
@@ -15,29 +14,26 @@ using namespace lanes;
 namespace {
 
 /// s(2μ D − p I).
-struct Stress {
-  MENISCUS_INLINE static Tensor of(const Tensor& gradient, const Lanes& viscosity, const Lanes& p,
-                                   const Lanes& s) {
-    Tensor result;
-    for (std::size_t a = 0; a < 3; ++a) {
-      for (std::size_t b = a; b < 3; ++b)
-        result[a][b] = result[b][a] = s * viscosity * (gradient[a][b] + gradient[b][a]);
-      result[a][a] -= s * p;
-    }
-    return result;
+MENISCUS_INLINE Tensor stress_of(const Tensor& gradient, const Lanes& viscosity, const Lanes& p,
+                                 const Lanes& s) {
+  Tensor result;
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t b = a; b < 3; ++b)
+      result[a][b] = result[b][a] = s * viscosity * (gradient[a][b] + gradient[b][a]);
+    result[a][a] -= s * p;
   }
-};
+  return result;
+}
 
 /// The derivatives d of the velocity become those that the test functions are paid with; p becomes
 /// what the continuity gets.
-template <class Flux>
 MENISCUS_INLINE void multiply(const StraightCells& cells, Derivatives& d, Corners& p) {
   std::array<Tensor, 4> S;
   Tensor sum = {};
   Lanes divergence = {};
   for (std::size_t k = 0; k < 4; ++k) {
     const Tensor gradient = gradient_of(d[k], cells.gradient);
-    S[k] = Flux::of(gradient, cells.viscosity, p[k], cells.volume);
+    S[k] = stress_of(gradient, cells.viscosity, p[k], cells.volume);
     add_to(sum, S[k]);
     p[k] = trace(gradient);
     divergence += p[k];
@@ -56,7 +52,6 @@ MENISCUS_INLINE void add_back(const std::array<double, 4>& b, const Tensor& t, D
       for (std::size_t a = 0; a < 3; ++a) d[k][l][a] += b[k] * t[l][a];
 }
 
-template <class Flux>
 MENISCUS_INLINE void multiply(const CurvedCells& cells, Derivatives& d, Corners& p) {
   Derivatives paid = {};
   Corners continuity = {};
@@ -64,7 +59,7 @@ MENISCUS_INLINE void multiply(const CurvedCells& cells, Derivatives& d, Corners&
     const auto& [g, weight] = cells.points[q];
     const std::array<double, 4>& b = kTetrahedronRule5[q].barycentric;
     const Tensor gradient = gradient_of(at_point(b, d), g);
-    const Tensor flux = Flux::of(gradient, cells.viscosity, at_point(b, p), weight);
+    const Tensor flux = stress_of(gradient, cells.viscosity, at_point(b, p), weight);
     add_back(b, on_gradients(flux, g), paid);
     for (std::size_t k = 0; k < 4; ++k) continuity[k] -= b[k] * weight * trace(gradient);
   }
@@ -103,9 +98,20 @@ MENISCUS_INLINE void multiply_pressure(const CurvedCells& cells, const Corners& 
 struct Fields {
   const double *v, *p;
   double *momentum, *continuity;
+  bool are_zero_in_most = false;  // v and p
 };
 
-template <class Flux, class Batch, class Inertia>
+MENISCUS_INLINE bool are_zero(const Nodal& v, const Corners& p) {
+  Lanes squares = {};
+  for (const Lanes3& at_node : v)
+    for (std::size_t a = 0; a < 3; ++a) squares += at_node[a] * at_node[a];
+  for (const Lanes& at_corner : p) squares += at_corner * at_corner;
+  double sum = 0.0;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) sum += squares[lane];
+  return sum == 0.0;
+}
+
+template <class Batch, class Inertia>
 MENISCUS_INLINE void add_fluxes(std::span<const Batch> batches, const Inertia& inertia,
                                 const Fields& fields) {
   for (std::size_t n = 0; n < batches.size(); ++n) {
@@ -115,8 +121,9 @@ MENISCUS_INLINE void add_fluxes(std::span<const Batch> batches, const Inertia& i
     Derivatives d;
     take(cells.nodes, fields.v, v);
     take(cells.pressures, fields.p, p);
+    if (fields.are_zero_in_most && are_zero(v, p)) continue;
     differentiate(v, d);
-    multiply<Flux>(cells, d, p);
+    multiply(cells, d, p);
     differentiate_back(d, result);
     inertia.add(cells, n, v, result);
     give(cells.nodes, result, fields.momentum);
@@ -143,18 +150,18 @@ struct Batches {
 // One function for each, as clones are made of functions alone.
 MENISCUS_VECTOR_CLONES
 void add_stresses(const Batches& cells, const Fields& fields) {
-  add_fluxes<Stress>(cells.straight, NoInertia{}, fields);
-  add_fluxes<Stress>(cells.curved, NoInertia{}, fields);
+  add_fluxes(cells.straight, NoInertia{}, fields);
+  add_fluxes(cells.curved, NoInertia{}, fields);
 }
 MENISCUS_VECTOR_CLONES
 void add_stresses(const Batches& cells, const CellInertia& inertia, const Fields& fields) {
-  add_fluxes<Stress>(cells.straight, inertia.straight, fields);
-  add_fluxes<Stress>(cells.curved, inertia.curved, fields);
+  add_fluxes(cells.straight, inertia.straight, fields);
+  add_fluxes(cells.curved, inertia.curved, fields);
 }
 MENISCUS_VECTOR_CLONES
 void add_stresses(const Batches& cells, const ConvectedCells& inertia, const Fields& fields) {
-  add_fluxes<Stress>(cells.straight, inertia.straight, fields);
-  add_fluxes<Stress>(cells.curved, inertia.curved, fields);
+  add_fluxes(cells.straight, inertia.straight, fields);
+  add_fluxes(cells.curved, inertia.curved, fields);
 }
 MENISCUS_VECTOR_CLONES
 void add_pressures(std::span<const StraightCells> straight, std::span<const CurvedCells> curved,
@@ -194,6 +201,13 @@ void StokesProduct::add_stress(std::span<const double> v, std::span<const double
                                std::span<double> momentum, std::span<double> continuity) const {
   add_stresses({cells_->straight, cells_->curved},
                {v.data(), p.data(), momentum.data(), continuity.data()});
+}
+
+void StokesProduct::add_stress_of_few(std::span<const double> v, std::span<const double> p,
+                                      std::span<double> momentum,
+                                      std::span<double> continuity) const {
+  add_stresses({cells_->straight, cells_->curved},
+               {v.data(), p.data(), momentum.data(), continuity.data(), true});
 }
 
 void StokesProduct::add_gradient(std::span<const double> p, std::span<double> momentum) const {

@@ -38,6 +38,10 @@ class StokesProduct {
   /// Adds ∫(2μ D(v) − p I):∇φ to `momentum`, and −∫ψ∇·v to `continuity`.
   void add_stress(std::span<const double> v, std::span<const double> p, std::span<double> momentum,
                   std::span<double> continuity) const;
+  /// As `add_stress`. Cells where velocity and pressure are zero are passed over, for those that
+  /// are zero in most.
+  void add_stress_of_few(std::span<const double> v, std::span<const double> p,
+                         std::span<double> momentum, std::span<double> continuity) const;
   /// Adds −∫p∇·φ to `momentum`.
   void add_gradient(std::span<const double> p, std::span<double> momentum) const;
   [[nodiscard]] const CellBatches& cells() const { return *cells_; }

@@ -121,25 +121,43 @@ void add_cell_power(const StokesProblem& problem, const StokesState& state, Elem
   }
 }
 
-/// ∫2μ D:D and ∫f·v, as what viscous stresses and body forces do to the test functions times the
-/// velocity.
-void add_power(const StokesProblem& problem, const StokesState& state, const StokesProduct& product,
-               StokesPower& power) {
-  const std::vector<double> no_pressure(state.p.size(), 0.0);
-  StokesResidual viscous = residual_of_nothing(problem), body = viscous;
-  product.add_stress(numbers(state.v), no_pressure, numbers(viscous.momentum), viscous.continuity);
-  with_element(problem.space, problem.positions,
-               [&](auto& element) { subtract_body_force(problem, element, body); });
-  for (const NodeId i : ids<NodeId>(owned_counts(problem).num_nodes)) {
-    power.dissipation += viscous.momentum[i].dot(state.v[i]);
-    power.body_force -= body.momentum[i].dot(state.v[i]);
+/// K v·v = ∫2μ D:D. Without inertia the residual is K v + G p − F − f, and G p·v = p·(−∫ψ∇·v). So
+/// it follows from the residual. With inertia K v is found anew.
+double dissipation(const StokesProblem& problem, const StokesState& state,
+                   const StokesProduct& product, const StokesResidual& of_state,
+                   const StokesResidual& minus_body_force) {
+  const OwnedCounts owned = owned_counts(problem);
+  double result = 0.0;
+  if (problem.inertia) {
+    const std::vector<double> no_pressure(state.p.size(), 0.0);
+    StokesResidual viscous = residual_of_nothing(problem);
+    product.add_stress(numbers(state.v), no_pressure, numbers(viscous.momentum),
+                       viscous.continuity);
+    for (const NodeId i : ids<NodeId>(owned.num_nodes))
+      result += viscous.momentum[i].dot(state.v[i]);
+    return result;
   }
+  for (const NodeId i : ids<NodeId>(owned.num_nodes))
+    result +=
+        (of_state.momentum[i] - minus_body_force.momentum[i] + problem.force[i]).dot(state.v[i]);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(owned.num_pressures); ++i)
+    result -= state.p[i] * of_state.continuity[i];
+  return result;
 }
 
-}  // namespace
+/// ∫2μ D:D and ∫f·v.
+void add_power(const StokesProblem& problem, const StokesState& state, const StokesProduct& product,
+               const StokesResidual& of_state, StokesPower& power) {
+  StokesResidual minus_body_force = residual_of_nothing(problem);
+  with_element(problem.space, problem.positions,
+               [&](auto& element) { subtract_body_force(problem, element, minus_body_force); });
+  power.dissipation += dissipation(problem, state, product, of_state, minus_body_force);
+  for (const NodeId i : ids<NodeId>(owned_counts(problem).num_nodes))
+    power.body_force -= minus_body_force.momentum[i].dot(state.v[i]);
+}
 
 StokesResidual residual(const StokesProblem& problem, const StokesState& state,
-                        const StokesProduct* product) {
+                        const StokesProduct* product, bool is_near_rest) {
   MENISCUS_ASSERT(
       product != nullptr || !problem.inertia || problem.space.elements == Elements::p1_p1,
       "inertia without a product");
@@ -151,7 +169,10 @@ StokesResidual residual(const StokesProblem& problem, const StokesState& state,
     else
       subtract_body_force(problem, element, result);
   });
-  if (!is_by_cells)
+  if (!is_by_cells && is_near_rest && !problem.inertia)
+    product->add_stress_of_few(numbers(state.v), state.p, numbers(result.momentum),
+                               result.continuity);
+  else if (!is_by_cells)
     product->add(numbers(state.v), state.p, numbers(result.momentum), result.continuity);
   else if (problem.inertia && product != nullptr)
     product->inertia()->add(numbers(state.v), numbers(result.momentum));
@@ -161,6 +182,18 @@ StokesResidual residual(const StokesProblem& problem, const StokesState& state,
     add_tension(*problem.inertia, state.v, result.momentum);
   for (const NodeId i : problem.force.ids()) result.momentum[i] -= problem.force[i];
   return result;
+}
+
+}  // namespace
+
+StokesResidual residual(const StokesProblem& problem, const StokesState& state,
+                        const StokesProduct* product) {
+  return residual(problem, state, product, false);
+}
+
+StokesResidual residual_near_rest(const StokesProblem& problem, const StokesState& state,
+                                  const StokesProduct* product) {
+  return residual(problem, state, product, true);
 }
 
 double free_norm(const StokesResidual& residual, const StokesProblem& problem) {
@@ -185,9 +218,14 @@ StokesPower power(const StokesProblem& problem, const StokesState& state,
     own.convect(numbers(state.v));
     return power(problem, state, &own);
   }
+  return power(problem, state, product, residual(problem, state, product));
+}
+
+StokesPower power(const StokesProblem& problem, const StokesState& state,
+                  const StokesProduct* product, const StokesResidual& of_state) {
   StokesPower power;
   if (product != nullptr && !problem.is_generalised()) {
-    add_power(problem, state, *product, power);
+    add_power(problem, state, *product, of_state, power);
   } else {
     with_element(problem.space, problem.positions,
                  [&](auto& element) { add_cell_power(problem, state, element, power); });
@@ -197,11 +235,10 @@ StokesPower power(const StokesProblem& problem, const StokesState& state,
         product->inertia()->kinetic_rate(numbers(state.v), owned_counts(problem).num_nodes);
   const std::int32_t num_nodes = owned_counts(problem).num_nodes;
   for (const NodeId i : ids<NodeId>(num_nodes)) power.force += problem.force[i].dot(state.v[i]);
-  const StokesResidual reaction = residual(problem, state, product);
   for (const NodeConstraint& constraint : problem.constraints.all())
     if (constraint.node.value < num_nodes)
       power.reaction +=
-          constraint.fixed_part(reaction.momentum[constraint.node]).dot(state.v[constraint.node]);
+          constraint.fixed_part(of_state.momentum[constraint.node]).dot(state.v[constraint.node]);
   if (problem.partition != nullptr)
     for (double* part : {&power.reaction, &power.body_force, &power.force, &power.dissipation,
                          &power.kinetic_rate})

@@ -18,6 +18,10 @@ struct StokesResidual {
 /// state's velocity convects.
 [[nodiscard]] StokesResidual residual(const StokesProblem& problem, const StokesState& state,
                                       const StokesProduct* product = nullptr);
+/// That of a state that is zero in most cells, at less cost.
+[[nodiscard]] StokesResidual residual_near_rest(const StokesProblem& problem,
+                                                const StokesState& state,
+                                                const StokesProduct* product);
 /// Euclidean norm of what a solution must make zero: the residual without its fixed components. The
 /// norm is the global one; collective on the ranks of a partitioned problem.
 [[nodiscard]] double free_norm(const StokesResidual& residual, const StokesProblem& problem);
@@ -35,5 +39,8 @@ struct StokesPower {
 /// problem's own, told that the state's velocity convects, where it is given.
 [[nodiscard]] StokesPower power(const StokesProblem& problem, const StokesState& state,
                                 const StokesProduct* product = nullptr);
+/// The same, where the state's residual is known.
+[[nodiscard]] StokesPower power(const StokesProblem& problem, const StokesState& state,
+                                const StokesProduct* product, const StokesResidual& of_state);
 
 }  // namespace meniscus::fem

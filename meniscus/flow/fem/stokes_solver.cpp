@@ -178,7 +178,6 @@ StokesReport StokesSolver::solve_local(const StokesProblem& problem, StokesState
     report.failed_solvers = before.failed_solvers;
     if (report.ok()) {
       state = std::move(attempt);
-      report.power = fem::power(problem, state, product());
       return report;
     }
     before = report;
@@ -259,7 +258,10 @@ StokesReport StokesSolver::solve_with(LinearSolver which, const StokesProblem& p
     report.residual = free_norm(now, problem);
     // 2: the residual that a Krylov method updates and the true one differ by roundoff. A first
     // guess has no such excuse.
-    if (report.residual <= (report.newton_steps == 0 ? 1.0 : 2.0) * target) return report;
+    if (report.residual <= (report.newton_steps == 0 ? 1.0 : 2.0) * target) {
+      report.power = fem::power(problem, state, product(), now);
+      return report;
+    }
     if (report.newton_steps == most_steps) break;
     if (!system) {
       const PhaseTimer timer(times, "assemble");

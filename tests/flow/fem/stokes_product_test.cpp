@@ -1,10 +1,13 @@
 #include "meniscus/flow/fem/stokes_product.hpp"
 
+#include <algorithm>
+#include <numeric>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "meniscus/flow/fem/stokes_jacobian.hpp"
+#include "meniscus/flow/fem/stokes_residual.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
 #include "tests/flow/fem/sheared_drop.hpp"
 
@@ -75,6 +78,32 @@ TEST_F(StokesProductOfDrop, HasThePressuresPartAlone) {
   StokesProduct(problem_).add_gradient(p_, momentum);
   add_transposed_product(jacobian_.system().B, p_, wanted);
   expect_same(momentum, wanted);
+}
+
+TEST_F(StokesProductOfDrop, PassesOverCellsAtRest) {
+  std::vector<double> v(num_velocities_), p(num_pressures_);
+  std::copy_n(v_.begin(), 30, v.begin());
+  p[7] = 1.0;
+  std::vector<double> momentum(num_velocities_), continuity(num_pressures_), wanted = momentum,
+                                                                             wanted_p = continuity;
+  const StokesProduct product(problem_);
+  product.add_stress_of_few(v, p, momentum, continuity);
+  product.add_stress(v, p, wanted, wanted_p);
+  EXPECT_EQ(momentum, wanted);
+  EXPECT_EQ(continuity, wanted_p);
+}
+
+TEST_F(StokesProductOfDrop, GivesTheDissipationOfAnyStateByItsResidual) {
+  StokesState state = StokesSolver(problem_.space, {}).state_at_rest();
+  for (const NodeId i : state.v.ids())
+    state.v[i] = Vec3::Map(&v_[3 * static_cast<std::size_t>(i.value)]);
+  state.p = p_;
+  ASSERT_TRUE(
+      std::ranges::any_of(problem_.body_force, [](const Vec3& f) { return f.norm() > 0.0; }));
+  std::vector<double> momentum(num_velocities_), continuity(num_pressures_);
+  StokesProduct(problem_).add_stress(v_, std::vector<double>(num_pressures_), momentum, continuity);
+  const double wanted = std::inner_product(v_.begin(), v_.end(), momentum.begin(), 0.0);
+  EXPECT_NEAR(power(problem_, state).dissipation, wanted, 1e-11 * wanted);
 }
 
 }  // namespace
