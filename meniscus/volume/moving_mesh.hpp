@@ -16,8 +16,8 @@ struct MovingMeshOptions {
   VolumeMeshOptions tetrahedra;
   VolumeMotion motion = VolumeMotion::spines;
   /// Whether a new mesh begins with the vertices of the one before, which halves its cost. What is
-  /// interpolated from each mesh to the next then loses two to three times as much (the second
-  /// moments of a spot in shear: 1.2 % instead of 0.5 % after ten meshes).
+  /// interpolated from each mesh to the next then loses two to three times as much. An example is a
+  /// spot in shear: after ten meshes its second moments are off by 1.2 instead of 0.5 %.
   bool takes_over_vertices = true;
 };
 

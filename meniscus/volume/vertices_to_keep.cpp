@@ -4,7 +4,8 @@ namespace meniscus {
 namespace {
 
 /// A vertex nearer than this to a surface, or to another one between the surfaces, is not kept, in
-/// edges wanted there. TetGen's own vertices are as near in 1 and 3 of 100 cases.
+/// edges wanted there. With these the number of cells stays that of meshes from none. With 0.5 and
+/// 0.6 it grows by a tenth over a run.
 constexpr double kFromSurface = 0.6;
 constexpr double kApart = 0.8;
 
