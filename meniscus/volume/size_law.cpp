@@ -264,12 +264,25 @@ double SizeLaw::distance_from_surfaces(Around& around) const {
                       [&](std::size_t position) { return ask_member(position, around).distance; }));
 }
 
-SizeAt SizeLaw::at(const Vec3& x) const {
+SizeLaw::Around SizeLaw::surroundings(const Vec3& x) const {
   const std::size_t enclosing = enclosing_surface(x);
-  Around around{x, enclosing, &inner_[enclosing], ask(enclosing, x), {}};
+  return {x, enclosing, &inner_[enclosing], ask(enclosing, x), {}};
+}
+
+double SizeLaw::size(Around& around) const {
   const double size = least_law(around);
-  return {options_.gap_layers > 0.0 ? size_in_gaps(size, around) : size,
-          distance_from_surfaces(around)};
+  return options_.gap_layers > 0.0 ? size_in_gaps(size, around) : size;
+}
+
+double SizeLaw::operator()(const Vec3& x) const {
+  Around around = surroundings(x);
+  return size(around);
+}
+
+SizeAt SizeLaw::at(const Vec3& x) const {
+  Around around = surroundings(x);
+  const double size_there = size(around);
+  return {size_there, distance_from_surfaces(around)};
 }
 
 }  // namespace meniscus

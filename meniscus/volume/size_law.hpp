@@ -70,7 +70,7 @@ class SizeLaw {
   SizeLaw(const Scene& scene, const VolumeMeshOptions& options);
 
   /// [R0]; a few µs per surface that may set the size there. The scene must outlive the law.
-  [[nodiscard]] double operator()(const Vec3& x) const { return at(x).size; }
+  [[nodiscard]] double operator()(const Vec3& x) const;
   [[nodiscard]] SizeAt at(const Vec3& x) const;
   /// How often the nearest point of a surface has been looked for: what the law costs.
   [[nodiscard]] std::int64_t num_searches() const { return num_searches_; }
@@ -120,6 +120,8 @@ class SizeLaw {
   };
   [[nodiscard]] Sized::Nearest ask(std::size_t surface, const Vec3& x) const;
   const Sized::Nearest& ask_member(std::size_t position, Around& around) const;
+  [[nodiscard]] Around surroundings(const Vec3& x) const;
+  [[nodiscard]] double size(Around& around) const;
   [[nodiscard]] double least_law(Around& around) const;
   /// Asks the members beside which a gap may lie that is no wider than `widest`.
   void ask_sides_of_gaps(double widest, Around& around) const;
