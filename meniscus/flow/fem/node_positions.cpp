@@ -14,33 +14,6 @@ Vec3 straight_middle(const TetMesh& mesh, const std::array<TetVertexId, 2>& edge
   return 0.5 * (mesh.x[edge[0]] + mesh.x[edge[1]]);
 }
 
-/// The mid-edge nodes that are exactly where a straight edge has them.
-std::vector<char> straight_edges(const TetMesh& mesh, const FlowSpace& space,
-                                 const NodePositions& positions) {
-  std::vector<char> is_straight(space.edges.size());
-  for (std::size_t e = 0; e < space.edges.size(); ++e) {
-    const NodeId node{space.num_vertices() + static_cast<std::int32_t>(e)};
-    is_straight[e] = positions.x[node] == straight_middle(mesh, space.edges[e]);
-  }
-  return is_straight;
-}
-
-/// Straightens what is curved of a cell; returns the number of its edges that were.
-int straighten(const TetMesh& mesh, const FlowSpace& space, CellId c,
-               std::vector<char>& is_straight, NodePositions& positions) {
-  int count = 0;
-  for (std::size_t k = 4; k < 10; ++k) {
-    const NodeId node{space.velocity.of(c)[k]};
-    MENISCUS_ASSERT(node.value >= space.num_vertices(), "node {} is a vertex", node.value);
-    const auto e = static_cast<std::size_t>(node.value - space.num_vertices());
-    if (is_straight[e]) continue;
-    is_straight[e] = true;
-    positions.x[node] = straight_middle(mesh, space.edges[e]);
-    ++count;
-  }
-  return count;
-}
-
 /// Whether the maps of cells fold.
 std::vector<char> are_folded(const TetMesh& mesh, const FlowSpace& space,
                              const NodePositions& positions, std::span<const CellId> cells) {
@@ -50,6 +23,143 @@ std::vector<char> are_folded(const TetMesh& mesh, const FlowSpace& space,
     result[n] = static_cast<char>(least[n] < kLeastJacobian * 6.0 * signed_volume(mesh, cells[n]));
   return result;
 }
+
+/// Keeps the maps of cells from folding. Each edge takes these shapes in their order, and each
+/// once. Edges of surfaces begin as `curved`, or as `settled` where they are straight.
+enum class EdgeShape : char {
+  straight,  ///< inside a region
+  bent,      ///< inside a region, beside a curved edge
+  curved,    ///< of a surface
+  settled    ///< straight from now on
+};
+
+class CurvedCells {
+ public:
+  CurvedCells(const TetMesh& mesh, const FlowSpace& space, std::span<const FaceNodeTable> surfaces,
+              NodePositions& positions)
+      : mesh_(mesh), space_(space), positions_(positions), shape_(space.edges.size()) {
+    for (std::size_t e = 0; e < shape_.size(); ++e)
+      if (displacement(e) != Vec3::Zero()) shape_[e] = EdgeShape::curved;
+    for (const FaceNodeTable& surface : surfaces)
+      for (const FaceId f : surface.faces())
+        for (const NodeId node : surface.of(f).subspan(3))
+          if (auto& shape = shape_[edge(node)]; shape == EdgeShape::straight)
+            shape = EdgeShape::settled;
+  }
+
+  void settle() {
+    for (bool has_changed = true; std::exchange(has_changed, false);) {
+      const std::vector<CellId> cells = curved_cells();
+      const std::vector<char> folded = are_folded(mesh_, space_, positions_, cells);
+      for (std::size_t n = 0; n < cells.size(); ++n) {
+        // What was done to others before may have unfolded it.
+        if (folded[n] != 0 && is_folded(cells[n])) has_changed = unfold(cells[n]) || has_changed;
+      }
+    }
+    for (const CellId c : curved_cells()) positions_.is_curved[c] = 1;
+  }
+
+ private:
+  static constexpr std::size_t kEdges = kCellEdges.size();
+
+  [[nodiscard]] NodeId node(std::size_t e) const {
+    return NodeId{space_.num_vertices() + static_cast<std::int32_t>(e)};
+  }
+  [[nodiscard]] std::size_t edge(NodeId node) const {
+    MENISCUS_ASSERT(node.value >= space_.num_vertices(), "node {} is a vertex", node.value);
+    return static_cast<std::size_t>(node.value - space_.num_vertices());
+  }
+  [[nodiscard]] std::array<std::size_t, kEdges> edges(CellId c) const {
+    std::array<std::size_t, kEdges> result{};
+    for (std::size_t k = 0; k < kEdges; ++k) result[k] = edge(NodeId{space_.velocity.of(c)[4 + k]});
+    return result;
+  }
+  [[nodiscard]] Vec3 displacement(std::size_t e) const {
+    return positions_.x[node(e)] - straight_middle(mesh_, space_.edges[e]);
+  }
+  [[nodiscard]] bool is_off_its_middle(std::size_t e) const {
+    return shape_[e] == EdgeShape::bent || shape_[e] == EdgeShape::curved;
+  }
+
+  [[nodiscard]] std::vector<CellId> curved_cells() const {
+    std::vector<CellId> cells;
+    for (const CellId c : mesh_.cells.ids())
+      if (std::ranges::any_of(edges(c), [&](std::size_t e) { return is_off_its_middle(e); }))
+        cells.push_back(c);
+    return cells;
+  }
+
+  /// Bends the straight edges beside curved ones by half of these edges' displacement d. Away from
+  /// a curved edge the displacement 4 Σ λ_i λ_j d_ij is then d(1 − s²), with s from 0 at the edge
+  /// to 1 at the opposite corner. Beside straight edges it is d(1 − s)².
+  bool bend(CellId c) {
+    const auto of_cell = edges(c);
+    bool has_bent = false;
+    for (std::size_t k = 0; k < kEdges; ++k) {
+      if (shape_[of_cell[k]] != EdgeShape::straight) continue;
+      Vec3 sum = Vec3::Zero();
+      int count = 0;
+      for (std::size_t l = 0; l < kEdges; ++l) {
+        if (shape_[of_cell[l]] != EdgeShape::curved || !share_an_end(k, l)) continue;
+        sum += displacement(of_cell[l]);
+        ++count;
+      }
+      if (count == 0) continue;
+      positions_.x[node(of_cell[k])] += 0.5 / count * sum;
+      shape_[of_cell[k]] = EdgeShape::bent;
+      has_bent = true;
+    }
+    return has_bent;
+  }
+
+  /// What bending does not help needs straight edges of surfaces.
+  bool unfold(CellId c) {
+    if (bend(c)) return true;
+    const auto shape = is_folded_without_bends(c) ? EdgeShape::curved : EdgeShape::bent;
+    const int count = settle_edges(c, shape);
+    if (shape == EdgeShape::curved) positions_.num_straightened += count;
+    return count > 0;
+  }
+
+  [[nodiscard]] bool is_folded(CellId c) const {
+    return are_folded(mesh_, space_, positions_, std::span(&c, 1)).front() != 0;
+  }
+  [[nodiscard]] bool is_folded_without_bends(CellId c) {
+    std::array<Vec3, kEdges> bent;
+    const auto of_cell = edges(c);
+    for (std::size_t k = 0; k < kEdges; ++k) {
+      Vec3& x = positions_.x[node(of_cell[k])];
+      bent[k] = x;
+      if (shape_[of_cell[k]] == EdgeShape::bent)
+        x = straight_middle(mesh_, space_.edges[of_cell[k]]);
+    }
+    const bool result = is_folded(c);
+    for (std::size_t k = 0; k < kEdges; ++k) positions_.x[node(of_cell[k])] = bent[k];
+    return result;
+  }
+
+  static bool share_an_end(std::size_t k, std::size_t l) {
+    return std::ranges::any_of(kCellEdges[k], [&](std::size_t end) {
+      return std::ranges::find(kCellEdges[l], end) != kCellEdges[l].end();
+    });
+  }
+  /// Straightens the edges of a cell that have a shape; returns their number.
+  int settle_edges(CellId c, EdgeShape shape) {
+    int count = 0;
+    for (const std::size_t e : edges(c)) {
+      if (shape_[e] != shape) continue;
+      positions_.x[node(e)] = straight_middle(mesh_, space_.edges[e]);
+      shape_[e] = EdgeShape::settled;
+      ++count;
+    }
+    return count;
+  }
+
+  const TetMesh& mesh_;
+  const FlowSpace& space_;
+  NodePositions& positions_;
+  std::vector<EdgeShape> shape_;  // of every edge
+};
 
 /// The middles of the edges of the outer boundary, on the smooth wall of one of the two patches.
 std::vector<Vec3> wall_middles(const OuterBoundary& boundary, const SurfaceTopology& topology) {
@@ -87,32 +197,9 @@ void curve_edges(const SurfaceMesh& surface, const SurfaceTopology& topology,
   }
 }
 
-void settle_curved_cells(const TetMesh& mesh, const FlowSpace& space, NodePositions& positions) {
-  if (space.elements != Elements::p2_p1) return;
-  std::vector<char> is_straight = straight_edges(mesh, space, positions);
-  const auto is_curved = [&](CellId c) {
-    return std::ranges::any_of(space.velocity.of(c).subspan(4), [&](std::int32_t node) {
-      return !is_straight[static_cast<std::size_t>(node - space.num_vertices())];
-    });
-  };
-  std::vector<CellId> curved;
-  for (const CellId c : mesh.cells.ids())
-    if (is_curved(c)) curved.push_back(c);
-  // A straightened edge changes the cells around it, which are looked at again; there are fewer
-  // curved edges each time.
-  for (bool has_changed = true; std::exchange(has_changed, false);) {
-    const std::vector<char> folded = are_folded(mesh, space, positions, curved);
-    for (std::size_t n = 0; n < curved.size(); ++n) {
-      // Others straightened before may have unfolded it.
-      if (folded[n] == 0 ||
-          are_folded(mesh, space, positions, std::span(&curved[n], 1)).front() == 0)
-        continue;
-      const int count = straighten(mesh, space, curved[n], is_straight, positions);
-      positions.num_straightened += count;
-      has_changed = has_changed || count > 0;
-    }
-  }
-  for (const CellId c : curved) positions.is_curved[c] = is_curved(c);
+void settle_curved_cells(const TetMesh& mesh, const FlowSpace& space,
+                         std::span<const FaceNodeTable> surfaces, NodePositions& positions) {
+  if (space.elements == Elements::p2_p1) CurvedCells(mesh, space, surfaces, positions).settle();
 }
 
 NodePositions node_positions(const Scene& scene, const TetMesh& mesh, const FlowSpace& space,
@@ -121,18 +208,19 @@ NodePositions node_positions(const Scene& scene, const TetMesh& mesh, const Flow
   if (space.elements != Elements::p2_p1) return positions;
   KnownSurfaces none_known;
   if (surfaces == nullptr) surfaces = &none_known;
+  std::vector<FaceNodeTable> faces;
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
     const SurfaceMesh& mesh_of_interface = scene.interfaces[i].mesh;
     const auto surface = surfaces->of(mesh_of_interface, SurfaceShape::splined);
-    curve_edges(mesh_of_interface, *surface->topology(),
-                face_nodes(space, mesh, mesh_of_interface, mesh.interfaces[i]), surface->middles(),
+    faces.push_back(face_nodes(space, mesh, mesh_of_interface, mesh.interfaces[i]));
+    curve_edges(mesh_of_interface, *surface->topology(), faces.back(), surface->middles(),
                 positions);
   }
   const SurfaceMesh& wall = scene.boundary.mesh;
   const SurfaceTopology topology(wall);
-  curve_edges(wall, topology, face_nodes(space, mesh, wall, mesh.boundary),
-              wall_middles(scene.boundary, topology), positions);
-  settle_curved_cells(mesh, space, positions);
+  faces.push_back(face_nodes(space, mesh, wall, mesh.boundary));
+  curve_edges(wall, topology, faces.back(), wall_middles(scene.boundary, topology), positions);
+  settle_curved_cells(mesh, space, faces, positions);
   return positions;
 }
 

@@ -12,7 +12,7 @@ namespace meniscus::fem {
 struct NodePositions {
   Field<NodeId, Vec3> x;      ///< [R0]
   CellField<char> is_curved;  ///< whether a mid-edge node of the cell is off its edge's middle
-  int num_straightened = 0;   ///< edges of surfaces that stayed straight: curved ones would fold
+  int num_straightened = 0;   ///< edges of surfaces that stay straight: cells would fold
 };
 
 /// Mid-edge nodes in the middle of straight edges.
@@ -24,13 +24,17 @@ void curve_edges(const SurfaceMesh& surface, const SurfaceTopology& topology,
                  const FaceNodeTable& nodes, std::span<const Vec3> middles,
                  NodePositions& positions);
 
-/// Marks the curved cells, and straightens the edges of those whose map would fold. Its Jacobian
-/// determinant at the quadrature points and at the nodes must stay above a tenth of the straight
-/// cell's.
-void settle_curved_cells(const TetMesh& mesh, const FlowSpace& space, NodePositions& positions);
+/// Marks the curved cells and keeps their maps from folding. The Jacobian determinant at the
+/// quadrature points and at the nodes must stay above a tenth of the straight cell's. Where it does
+/// not, edges inside the regions are bent beside the curved ones; where that does not do, edges
+/// of surfaces are straightened. `surfaces`: the nodes of all interfaces and walls, whose straight
+/// edges stay so.
+void settle_curved_cells(const TetMesh& mesh, const FlowSpace& space,
+                         std::span<const FaceNodeTable> surfaces, NodePositions& positions);
 
 /// The positions of all nodes for a scene. Edges of interfaces are curved through the middles that
-/// belong to the interface, edges of the outer boundary as its patches say; others are straight.
+/// belong to the interface, edges of the outer boundary as its patches say. Others are straight but
+/// for those that `settle_curved_cells` bends.
 /// The interfaces' surfaces are taken from those known, if such are given.
 [[nodiscard]] NodePositions node_positions(const Scene& scene, const TetMesh& mesh,
                                            const FlowSpace& space,

@@ -22,17 +22,14 @@ VertexField<Vec3> velocity_with_middles(const Scene& scene, const Method& method
   std::vector<Vec3> middles;
   for (const SurfaceEdge& edge : topology.edges()) middles.push_back(middle(edge.a, edge.b));
   curve_edges(drop.mesh, topology, faces, middles, positions);
-  settle_curved_cells(mesh, space, positions);
+  const FaceNodeTable wall = face_nodes(space, mesh, scene.boundary.mesh, mesh.boundary);
+  settle_curved_cells(mesh, space, std::vector{faces, wall}, positions);
   StokesProblem problem(mesh, space, positions);
   for (const CellId c : mesh.cells.ids()) {
     problem.viscosity[c] = scene.liquids[mesh.region[c]].viscosity;
     problem.body_force[c] = scene.liquids[mesh.region[c]].body_force;
   }
-  problem.constraints =
-      boundary_conditions(scene.boundary,
-                          face_nodes(space, mesh, scene.boundary.mesh, mesh.boundary), positions,
-                          0.0)
-          .constraints;
+  problem.constraints = boundary_conditions(scene.boundary, wall, positions, 0.0).constraints;
   if (drop.tension != 0.0) add_capillary_force(drop, method.form, faces, positions, problem.force);
   Options options;
   options.elements = method.elements;

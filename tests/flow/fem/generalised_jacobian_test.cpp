@@ -50,7 +50,7 @@ struct RandomProblem {
     for (std::size_t e = 0; e < test.space.edges.size(); e += 3)
       problem.positions.x[NodeId{test.space.num_vertices() + static_cast<std::int32_t>(e)}] +=
           0.05 * draw();
-    settle_curved_cells(box.mesh, test.space, problem.positions);
+    settle_curved_cells(box.mesh, test.space, {}, problem.positions);
   }
   Vec3 draw() {
     std::normal_distribution<double> normal;

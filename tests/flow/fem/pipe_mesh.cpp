@@ -75,7 +75,7 @@ void bend_pipe_wall(const TetMesh& mesh, const FlowSpace& space, NodePositions& 
     const double radius = distance_from_axis(x);
     x = Vec3(x.x(), x.y() / radius, x.z() / radius);
   }
-  settle_curved_cells(mesh, space, positions);
+  settle_curved_cells(mesh, space, {}, positions);
 }
 
 }  // namespace meniscus::fem

@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/flow/fem/curved_maps.hpp"
 #include "meniscus/flow/fem/elements.hpp"
 #include "meniscus/flow/fem/face_elements.hpp"
 #include "meniscus/flow/fem/finite_element_flow.hpp"
 #include "meniscus/flow/fem/straight_quadratic_matrices.hpp"
+#include "meniscus/mesh/surface_measures.hpp"
 #include "tests/flow/fem/lamb_mode.hpp"
 #include "tests/flow/fem/sphere_experiments.hpp"
 #include "tests/flow/fem/straight_space.hpp"
@@ -122,10 +124,56 @@ TEST(QuadraticElements, AFoldedCellIsStraightened) {
   const NodeId node{test.space.velocity.of(c)[4]};
   const Vec3 straight = positions.x[node];
   positions.x[node] += Vec3(1.0, 0.5, -0.3);
-  settle_curved_cells(ball.mesh, test.space, positions);
+  settle_curved_cells(ball.mesh, test.space, {}, positions);
   EXPECT_EQ(positions.num_straightened, 1);
   EXPECT_EQ(positions.x[node], straight);
   EXPECT_FALSE(positions.is_curved[c]);
+}
+
+// A regular triangle bulges by d, at the middles of its edges, into the cell of height H on it.
+// Over that of the straight cell the least Jacobian is 1 − 8d/3H, at the triangle's corners. With
+// the other edges bent by d/2 it is 1 − 2d/H, at the opposite one.
+TEST(QuadraticElements, InnerEdgesBendBeforeThoseOfSurfacesAreStraightened) {
+  TetMesh mesh;
+  const double d = 0.02;
+  for (int k = 0; k < 3; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / 3.0;
+    mesh.x.add({std::cos(angle), std::sin(angle), 0.0});
+  }
+  mesh.x.add(Vec3::Zero());
+  mesh.cells.add({TetVertexId{0}, TetVertexId{1}, TetVertexId{2}, TetVertexId{3}});
+  mesh.region.add(RegionId{0});
+  const CellId c{0};
+  struct Expected {
+    double height;  // over d
+    double least;   // Jacobian, with what is done
+    double bent;    // inner edges, over d
+    int num_straightened;
+  };
+  for (const Expected& expected :
+       {Expected{3.0, 1.0 - 8.0 / 9.0, 0.0, 0}, Expected{2.9, 1.0 - 2.0 / 2.9, 0.5, 0},
+        Expected{2.3, 1.0 - 2.0 / 2.3, 0.5, 0}, Expected{2.1, 1.0, 0.0, 3}}) {
+    mesh.x[TetVertexId{3}] = Vec3(0.0, 0.0, expected.height * d);
+    const FlowSpace space = flow_space(mesh, Elements::p2_p1);
+    const NodePositions straight = straight_positions(mesh, space);
+    NodePositions positions = straight;
+    FaceNodeTable side{6, {NodeId{0}, NodeId{1}, NodeId{2}}};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const NodeId node{space.velocity.of(c)[edge_node(k, (k + 1) % 3)]};
+      side.face_nodes.push_back(node);
+      positions.x[node] += Vec3(0.0, 0.0, d);
+    }
+    settle_curved_cells(mesh, space, std::span(&side, 1), positions);
+    EXPECT_EQ(positions.num_straightened, expected.num_straightened) << expected.height;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const NodeId on_side = side.face_nodes[3 + k], inner{space.velocity.of(c)[edge_node(k, 3)]};
+      EXPECT_DOUBLE_EQ(positions.x[on_side].z(), expected.num_straightened > 0 ? 0.0 : d);
+      EXPECT_NEAR(positions.x[inner].z() - straight.x[inner].z(), expected.bent * d, 1e-15);
+    }
+    EXPECT_NEAR(least_jacobians(positions.x, space.velocity, std::span(&c, 1)).front(),
+                expected.least * 6.0 * signed_volume(mesh, c), 1e-12)
+        << expected.height;
+  }
 }
 
 TEST(QuadraticElements, WhatTheyCannotDoIsRefused) {
