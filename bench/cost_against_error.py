@@ -22,7 +22,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "cases"))
 from curves import COLOURS, Axes  # noqa: E402
 
-NODES = {"P1": (60, 110, 220, 400), "P2": (60, 110, 160, 220), "P2, coarser walls": (60, 110, 160, 220),
+NODES = {"P1": (60, 110, 220, 400), "P2": (60, 110, 160, 220), "P2, coarser walls": (50, 60, 110, 220),
          "boundary integrals": (60, 110, 220, 450)}
 FINE = {"P2": (160, 220, 320), "boundary integrals": (320, 450, 640)}
 METHODS = {
