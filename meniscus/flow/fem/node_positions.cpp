@@ -24,15 +24,16 @@ std::vector<char> are_folded(const TetMesh& mesh, const FlowSpace& space,
   return result;
 }
 
-/// Keeps the maps of cells from folding. Each edge takes these shapes in their order, and each
-/// once. Edges of surfaces begin as `curved`, or as `settled` where they are straight.
+/// What an edge is like. Inside a region it goes from `straight` to `bent` to `settled`, on a
+/// surface from `curved` to `settled`; so the search for folds ends.
 enum class EdgeShape : char {
-  straight,  ///< inside a region
-  bent,      ///< inside a region, beside a curved edge
-  curved,    ///< of a surface
+  straight,  ///< may be bent
+  bent,      ///< beside a curved edge
+  curved,    ///< as its surface is
   settled    ///< straight from now on
 };
 
+/// Keeps the maps of curved cells from folding (`settle_curved_cells`).
 class CurvedCells {
  public:
   CurvedCells(const TetMesh& mesh, const FlowSpace& space, std::span<const FaceNodeTable> surfaces,

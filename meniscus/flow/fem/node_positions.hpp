@@ -34,8 +34,8 @@ void settle_curved_cells(const TetMesh& mesh, const FlowSpace& space,
 
 /// The positions of all nodes for a scene. Edges of interfaces are curved through the middles that
 /// belong to the interface, edges of the outer boundary as its patches say. Others are straight but
-/// for those that `settle_curved_cells` bends.
-/// The interfaces' surfaces are taken from those known, if such are given.
+/// for those that `settle_curved_cells` bends. The interfaces' surfaces are taken from those known,
+/// if such are given.
 [[nodiscard]] NodePositions node_positions(const Scene& scene, const TetMesh& mesh,
                                            const FlowSpace& space,
                                            KnownSurfaces* surfaces = nullptr);

@@ -10,7 +10,6 @@
 #include "meniscus/flow/fem/face_elements.hpp"
 #include "meniscus/flow/fem/finite_element_flow.hpp"
 #include "meniscus/flow/fem/straight_quadratic_matrices.hpp"
-#include "meniscus/mesh/surface_measures.hpp"
 #include "tests/flow/fem/lamb_mode.hpp"
 #include "tests/flow/fem/sphere_experiments.hpp"
 #include "tests/flow/fem/straight_space.hpp"
