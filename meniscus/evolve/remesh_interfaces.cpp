@@ -14,7 +14,7 @@ namespace {
 RemeshOptions remesh_options(const Interface& interface, const EvolutionOptions& run,
                              std::vector<const SurfaceTree*> neighbours) {
   RemeshOptions options = sound_remeshing(interface.C0, run.edge_floor);
-  options.on_splines = run.surface == SurfaceShape::splined;
+  options.on_splines = run.surface != SurfaceShape::faceted;
   options.restores_volume = run.surface == SurfaceShape::faceted;
   if (options.restores_volume) options.volume = interface.volume;
   options.spring_tolerance = run.spring_tolerance;
