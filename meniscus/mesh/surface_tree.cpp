@@ -24,6 +24,12 @@ bool boxes_touch(const Vec3& low, const Vec3& high, const Vec3& other_low, const
 Vec3 low_corner(const Triangle& x) { return x[0].cwiseMin(x[1]).cwiseMin(x[2]); }
 Vec3 high_corner(const Triangle& x) { return x[0].cwiseMax(x[1]).cwiseMax(x[2]); }
 
+float rounded_up(double x) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  if (x >= std::numeric_limits<float>::max()) return kInfinity;
+  return std::nextafter(static_cast<float>(x), kInfinity);
+}
+
 /// A ray along the sides of the boxes is within a slab or far from it. So there is no infinity,
 /// which a distance of zero would make no number.
 Vec3 finite_inverse(const Vec3& direction) {
@@ -63,11 +69,13 @@ void SurfaceTree::build(std::span<Sorted> faces, std::int32_t begin) {
   const auto node = nodes_.size();
   const auto count = static_cast<std::int32_t>(faces.size());
   Vec3 low = faces.front().low, high = faces.front().high;
+  double longest = 0.0;
   for (const Sorted& face : faces) {
     low = low.cwiseMin(face.low);
     high = high.cwiseMax(face.high);
+    longest = std::max(longest, (face.high - face.low).squaredNorm());
   }
-  nodes_.push_back({low, high, begin, begin + count, 0});
+  nodes_.push_back({low, high, rounded_up(longest), begin, begin + count, 0});
   if (count <= kLeafSize) return;
   Eigen::Index axis = 0;
   (high - low).maxCoeff(&axis);
@@ -170,6 +178,7 @@ void SurfaceTree::search_ray(std::int32_t node, RaySearch& search) const {
   if (far_entry < search.best.distance) search_ray(far, search);
 }
 
+/// `is_open` is asked of a box and the squared diagonal of the largest face's box in it.
 template <class IsOpen>
 void SurfaceTree::visit_where(const IsOpen& is_open, const Visit& visit) const {
   std::array<std::int32_t, kMostOpen> open{};
@@ -177,7 +186,7 @@ void SurfaceTree::visit_where(const IsOpen& is_open, const Visit& visit) const {
   while (num_open > 0) {
     const std::int32_t node = open[--num_open];
     const Node& here = nodes_[static_cast<std::size_t>(node)];
-    if (!is_open(here.low, here.high)) continue;
+    if (!is_open(here.low, here.high, here.longest)) continue;
     if (here.right != 0) {
       open[num_open++] = here.right;
       open[num_open++] = node + 1;
@@ -186,22 +195,22 @@ void SurfaceTree::visit_where(const IsOpen& is_open, const Visit& visit) const {
     for (std::int32_t i = here.begin; i < here.end; ++i) {
       const Leaf& leaf = leaves_[static_cast<std::size_t>(i)];
       const auto& x = leaf.corners;
-      if (is_open(low_corner(x), high_corner(x)) && !visit(leaf.face, x)) return;
+      const Vec3 low = low_corner(x), high = high_corner(x);
+      if (is_open(low, high, (high - low).squaredNorm()) && !visit(leaf.face, x)) return;
     }
   }
 }
 
 void SurfaceTree::visit_box(const Vec3& low, const Vec3& high, const Visit& visit) const {
-  visit_where([&](const Vec3& other_low,
-                  const Vec3& other_high) { return boxes_touch(low, high, other_low, other_high); },
+  visit_where([&](const Vec3& other_low, const Vec3& other_high,
+                  double) { return boxes_touch(low, high, other_low, other_high); },
               visit);
 }
 
 void SurfaceTree::visit_near(const Vec3& x, double reach, const Visit& visit) const {
   visit_where(
-      [&](const Vec3& low, const Vec3& high) {
-        const Vec3 apart = (low - x).cwiseMax(x - high).cwiseMax(0.0);
-        return apart.squaredNorm() < reach * reach * (high - low).squaredNorm();
+      [&](const Vec3& low, const Vec3& high, double longest) {
+        return squared_distance_to_box(x, low, high) < reach * reach * longest;
       },
       visit);
 }
@@ -254,7 +263,7 @@ void SurfaceTree::visit_slice(const Vec3& low, const Vec3& high, const Vec3& ori
                               const Vec3& normal, const Visit& visit) const {
   const Vec3 reach = normal.cwiseAbs();
   visit_where(
-      [&](const Vec3& other_low, const Vec3& other_high) {
+      [&](const Vec3& other_low, const Vec3& other_high, double) {
         if (!boxes_touch(low, high, other_low, other_high)) return false;
         const Vec3 half = 0.5 * (other_high - other_low);
         const Vec3 from_origin = other_low + half - origin;

@@ -63,8 +63,10 @@ class SurfaceTree {
     FaceId face;
   };
   /// A box over leaves_[begin, end); its children are the next node and node `right` (0: a leaf).
+  /// `longest` is the squared diagonal of the largest box of a face in it, rounded up.
   struct Node {
     Vec3 low, high;
+    float longest;  // with it a node fills a line of the cache
     std::int32_t begin, end, right;
   };
   struct Sorted;

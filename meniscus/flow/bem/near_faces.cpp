@@ -1,7 +1,6 @@
 #include "meniscus/flow/bem/near_faces.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "meniscus/core/error.hpp"
 
@@ -17,12 +16,12 @@ bool is_turned_away(const Triangle& face, const Vec3& normal) {
   return (face[1] - face[0]).cross(face[2] - face[0]).dot(normal) < 0.0;
 }
 
-/// How far the centre of a face is from x, in its longest edges.
-double edges_away(const Triangle& face, const Vec3& x) {
+/// Whether the centre of a face is nearer to x than `edges` of its longest one.
+bool is_within(const Triangle& face, const Vec3& x, double edges) {
   const double longest =
       std::max({(face[1] - face[0]).squaredNorm(), (face[2] - face[1]).squaredNorm(),
                 (face[0] - face[2]).squaredNorm()});
-  return std::sqrt(((face[0] + face[1] + face[2]) / 3.0 - x).squaredNorm() / longest);
+  return ((face[0] + face[1] + face[2]) / 3.0 - x).squaredNorm() < edges * edges * longest;
 }
 
 }  // namespace
@@ -36,11 +35,9 @@ void find_near_faces(const BoundaryGeometry& geometry, std::size_t m, std::int32
   faces.clear();
   // A face's centre lies in its box, whose diagonal is no shorter than the longest edge.
   surface.tree.visit_near(x, kNearOnOther, [&](FaceId f, const Triangle& face) {
-    const double edges = edges_away(face, x);
-    if (edges >= kNearOnOther) return true;
-    if (reach == NearReach::whole || edges < kNearOnOwn || normal == nullptr ||
-        is_turned_away(face, *normal))
-      faces.push_back(f);
+    const bool is_wide =
+        reach == NearReach::whole || normal == nullptr || is_turned_away(face, *normal);
+    if (is_within(face, x, is_wide ? kNearOnOther : kNearOnOwn)) faces.push_back(f);
     return true;
   });
   std::ranges::sort(faces);
