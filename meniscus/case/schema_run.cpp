@@ -146,7 +146,8 @@ const std::vector<Key> kRunKeys{
      .range = {.min = 0.0, .max = 10.0, .open_min = true},
      .value = 0.5,
      .applies = "with control = \"paper\"",
-     .sentence = "dt = step-factor · min(1, Ca) · (shortest edge), eq. 27."},
+     .sentence =
+         "dt = step-factor · min(1, Ca) · (shortest edge), eq. 27, or the longest stable step."},
     {.path = "time.step-edges",
      .type = word,
      .words = words::list(words::step_edges),

@@ -34,6 +34,7 @@ StepPlan paper_plan(const State& state, const EvolutionOptions& options) {
   const double capillary = tension > 0.0 ? std::min(1.0, 1.0 / tension) : 1.0;
   StepPlan plan{options.max_step, StepBound::max_step};
   shorten(plan, options.step_factor * capillary * shortest, StepBound::step_factor);
+  shorten(plan, longest_stable_step(state.scene, options.scheme), StepBound::stability);
   return plan;
 }
 

@@ -46,8 +46,8 @@ struct StepRecord {
 /// The length with which the step from a state is tried first. It depends on the state alone.
 ///
 /// With StepControl::paper (eq. 27 of hooper2001): Δt = step_factor · min(1, 1/tension) · l_min, at
-/// most `max_step`. Tension is the largest of all interfaces, l_min the shortest edge that the
-/// options look at.
+/// most `max_step` and the longest stable step of the scheme. Tension is the largest of all
+/// interfaces, l_min the shortest edge that the options look at.
 ///
 /// With StepControl::error the shortest of several. One makes the error, ~ Δt², the aimed share
 /// of the tolerance, others each travel what is aimed at. The rest are the scheme's longest
