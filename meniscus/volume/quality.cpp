@@ -13,23 +13,27 @@
 namespace meniscus {
 namespace {
 
-struct CosineRange {
-  double least = 1.0, most = -1.0;
+/// The least and the largest of dihedral angles, as c|c| of their cosines c: no roots are needed.
+struct AngleRange {
+  double least = 1.0, most = -1.0;  // c|c|, which rises with the cosine
 };
 
-/// Cosines of the six dihedral angles: −n_i·n_j of the unit outward normals of the facets.
-CosineRange dihedral_cosines(const TetMesh& mesh, const CellVertices& cell) {
+/// The six dihedral angles: c = −n_i·n_j of the unit outward normals of the facets.
+AngleRange dihedral_angles(const TetMesh& mesh, const CellVertices& cell) {
   std::array<Vec3, 4> n;
+  std::array<double, 4> inverse;  // of |n|²
   for (std::size_t k = 0; k < 4; ++k) {
     const FacetVertices f = facet(cell, k);
-    n[k] = (mesh.x[f[1]] - mesh.x[f[0]]).cross(mesh.x[f[2]] - mesh.x[f[0]]).normalized();
+    n[k] = (mesh.x[f[1]] - mesh.x[f[0]]).cross(mesh.x[f[2]] - mesh.x[f[0]]);
+    inverse[k] = 1.0 / n[k].squaredNorm();
   }
-  CosineRange range;
+  AngleRange range;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = i + 1; j < 4; ++j) {
-      const double cosine = std::clamp(-n[i].dot(n[j]), -1.0, 1.0);
-      range.least = std::min(range.least, cosine);
-      range.most = std::max(range.most, cosine);
+      const double dot = -n[i].dot(n[j]);
+      const double square = dot * std::abs(dot) * inverse[i] * inverse[j];
+      range.least = std::min(range.least, square);
+      range.most = std::max(range.most, square);
     }
   return range;
 }
@@ -48,21 +52,26 @@ double radius_ratio(const TetMesh& mesh, const CellVertices& cell) {
   return product > 0.0 ? 6.0 * six_volumes * std::abs(six_volumes) / product : 0.0;
 }
 
-double degrees(double cosine) { return std::acos(cosine) * 180.0 / std::numbers::pi; }
+/// The angle whose cosine c has this c|c|.
+double degrees(double square) {
+  const double cosine = std::copysign(std::sqrt(std::min(std::abs(square), 1.0)), square);
+  return std::acos(cosine) * 180.0 / std::numbers::pi;
+}
 
 }  // namespace
 
 MeshQuality quality(const TetMesh& mesh) {
   MeshQuality q;
-  CosineRange all;
+  AngleRange all;
   q.min_volume = q.min_radius_ratio = std::numeric_limits<double>::infinity();
-  const double cosine_of_10_deg = std::cos(10.0 * std::numbers::pi / 180.0);
+  const double cosine = std::cos(10.0 * std::numbers::pi / 180.0),
+               square_of_10_deg = cosine * cosine;
   std::int32_t below = 0;
   for (const CellId c : mesh.cells.ids()) {
-    const CosineRange range = dihedral_cosines(mesh, mesh.cells[c]);
+    const AngleRange range = dihedral_angles(mesh, mesh.cells[c]);
     all.least = std::min(all.least, range.least);
     all.most = std::max(all.most, range.most);
-    below += range.most > cosine_of_10_deg ? 1 : 0;
+    below += range.most > square_of_10_deg ? 1 : 0;
     q.min_volume = std::min(q.min_volume, signed_volume(mesh, c));
     q.min_radius_ratio = std::min(q.min_radius_ratio, radius_ratio(mesh, mesh.cells[c]));
   }
@@ -75,14 +84,14 @@ MeshQuality quality(const TetMesh& mesh) {
 double smallest_dihedral_deg(const TetMesh& mesh) {
   double most = -1.0;
   for (const CellVertices& cell : mesh.cells)
-    most = std::max(most, dihedral_cosines(mesh, cell).most);
+    most = std::max(most, dihedral_angles(mesh, cell).most);
   return degrees(most);
 }
 
 CellField<double> min_dihedral_deg(const TetMesh& mesh) {
   CellField<double> result(mesh.num_cells());
   for (const CellId c : mesh.cells.ids())
-    result[c] = degrees(dihedral_cosines(mesh, mesh.cells[c]).most);
+    result[c] = degrees(dihedral_angles(mesh, mesh.cells[c]).most);
   return result;
 }
 
