@@ -46,7 +46,7 @@ void double_layer(benchmark::State& state) {
   const auto count = static_cast<std::int32_t>(state.range(0));
   const SourcePoints points = random_points(count);
   SourceVectors u(count);
-  for (std::int32_t i = 0; i < count; ++i) u.set(i, points.weighted_normal(i));
+  for (std::int32_t i = 0; i < count; ++i) u.set(i, points.point(i));
   for (auto _ : state)
     for (std::int32_t i = 0; i < count; ++i)
       benchmark::DoNotOptimize(double_layer_sum(points, u, points.point(i)));

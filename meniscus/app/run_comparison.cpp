@@ -42,9 +42,10 @@ std::map<double, double> by_step(const RunTables& run, const std::string& column
 }
 
 std::string name_of(const CheckedQuantity& quantity) {
-  std::string name = quantity.column;
+  std::string name = quantity.is_magnitude ? fmt::format("|{}|", quantity.column) : quantity.column;
   if (quantity.event) return fmt::format("{} of event {}", name, *quantity.event);
   if (quantity.minus_drop) name += fmt::format(" of {} − {}", quantity.drop, *quantity.minus_drop);
+  if (quantity.is_of_all_drops) name += " of all drops";
   if (quantity.measure == Measure::largest) return "largest " + name;
   if (quantity.measure == Measure::smallest) return "smallest " + name;
   if (quantity.measure == Measure::last) return "last " + name;
@@ -55,11 +56,12 @@ double deviation_of(const CheckedQuantity& quantity, double measured, double ref
   return quantity.is_absolute ? measured - reference : measured / reference - 1.0;
 }
 
-double extreme(const CheckedQuantity& quantity, const Series& series) {
-  if (series.y.empty()) return std::numeric_limits<double>::quiet_NaN();
-  if (quantity.measure == Measure::largest) return *std::ranges::max_element(series.y);
-  if (quantity.measure == Measure::smallest) return *std::ranges::min_element(series.y);
-  return series.y.back();
+/// The largest, the smallest or the last value; none of none.
+std::optional<double> extreme(const CheckedQuantity& quantity, const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  if (quantity.measure == Measure::largest) return *std::ranges::max_element(values);
+  if (quantity.measure == Measure::smallest) return *std::ranges::min_element(values);
+  return values.back();
 }
 
 /// The value of a column of events.csv in row `event`; none where there were fewer events.
@@ -70,11 +72,17 @@ std::optional<double> event_value(const RunTables& run, const std::string& colum
 
 /// The number of a quantity in one run: the value of an event, an extreme, or the curve's value at
 /// its only abscissa.
-std::optional<double> single_value(const CheckedQuantity& quantity, const RunTables& run) {
+std::optional<double> signed_value(const CheckedQuantity& quantity, const RunTables& run) {
   if (quantity.event) return event_value(run, quantity.column, *quantity.event);
+  if (quantity.is_of_all_drops) return extreme(quantity, run.drops.column(quantity.column));
   const Series series = series_of(run, quantity);
   if (quantity.measure == Measure::curve) return value_at(series, quantity.at.at(0));
-  return series.y.empty() ? std::nullopt : std::optional(extreme(quantity, series));
+  return extreme(quantity, series.y);
+}
+
+std::optional<double> single_value(const CheckedQuantity& quantity, const RunTables& run) {
+  const std::optional<double> value = signed_value(quantity, run);
+  return value && quantity.is_magnitude ? std::abs(*value) : value;
 }
 
 /// The limit a of the least-squares fit a + b N0^−order.

@@ -35,7 +35,12 @@ CheckedQuantity read_quantity(const TableReader& reader) {
   quantity.source = reader.text("source").value_or("");
   quantity.tolerance = reader.number("tolerance");
   quantity.is_absolute = reader.flag("absolute");
+  quantity.is_magnitude = reader.flag("magnitude");
+  quantity.is_of_all_drops = reader.flag("all-drops");
   const bool is_curve = quantity.measure == CheckedQuantity::Measure::curve;
+  if (quantity.is_of_all_drops && quantity.measure != CheckedQuantity::Measure::largest &&
+      quantity.measure != CheckedQuantity::Measure::smallest)
+    reader.reject(reader.table(), "all-drops: only for the measures largest and smallest");
   if (quantity.reference && quantity.source.empty())
     reader.reject(reader.table(), "reference: a source must say where the number is from");
   if (quantity.reference && !quantity.against.empty())
@@ -61,7 +66,7 @@ CheckedRun read_run(const TableReader& reader) {
     reader.reject(reader.table(), "short and once: only one of them");
   for (const TableReader& entry : reader.tables("quantity")) {
     entry.allow({"column", "event", "drop", "minus-drop", "measure", "over", "at", "against",
-                 "reference", "source", "tolerance", "absolute"});
+                 "reference", "source", "tolerance", "absolute", "magnitude", "all-drops"});
     run.quantities.push_back(read_quantity(entry));
   }
   return run;
@@ -69,8 +74,8 @@ CheckedRun read_run(const TableReader& reader) {
 
 CheckedExtrapolation read_extrapolation(const TableReader& reader) {
   reader.allow({"name", "runs", "nodes", "order", "column", "event", "drop", "minus-drop",
-                "measure", "over", "at", "against", "reference", "source", "tolerance",
-                "absolute"});
+                "measure", "over", "at", "against", "reference", "source", "tolerance", "absolute",
+                "magnitude", "all-drops"});
   CheckedExtrapolation result;
   result.name = reader.required_text("name");
   result.runs = reader.list<std::string>("runs", "names of runs");

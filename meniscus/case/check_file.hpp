@@ -14,6 +14,7 @@ struct CheckedQuantity {
   std::string column;             ///< of drops.csv, else of history.csv
   std::optional<int> event;       ///< row of events.csv, from 0; then `column` is one of events.csv
   int drop = 0;                   ///< id of the drop in drops.csv
+  bool is_of_all_drops = false;   ///< the extreme over all drops, whatever their ids
   std::optional<int> minus_drop;  ///< id of a drop whose column is subtracted
   Measure measure = Measure::curve;
   std::string over = "t";  ///< the column of a curve's abscissa
@@ -22,7 +23,8 @@ struct CheckedQuantity {
   std::optional<double> reference;  ///< a number, else the column of that name in reference.csv
   std::string source;               ///< where `reference` is from
   std::optional<double> tolerance;  ///< largest deviation; none: the deviation is reported only
-  bool is_absolute = false;         ///< deviation and tolerance are differences, not ratios
+  bool is_magnitude = false;  ///< |value|: where mirror images are as good, as in a symmetric case
+  bool is_absolute = false;   ///< deviation and tolerance are differences, not ratios
 };
 
 struct CheckedRun {

@@ -93,6 +93,22 @@ TEST(RunComparison, TakesADifferenceOfDropsAndAnExtreme) {
   EXPECT_DOUBLE_EQ(row.worst->measured, 4.0);
 }
 
+TEST(RunComparison, TakesTheExtremeOverAllDropsAndTheMagnitude) {
+  CheckedQuantity q = quantity("y");
+  q.is_of_all_drops = true;
+  q.measure = Measure::smallest;
+  q.reference = -2.0;
+  const CheckRow row = only_row(q);
+  EXPECT_EQ(row.quantity, "smallest y of all drops");
+  ASSERT_TRUE(row.worst);
+  EXPECT_DOUBLE_EQ(row.worst->measured, -2.0);
+  q.is_magnitude = true;
+  const CheckRow magnitude = only_row(q);
+  EXPECT_EQ(magnitude.quantity, "smallest |y| of all drops");
+  ASSERT_TRUE(magnitude.worst);
+  EXPECT_DOUBLE_EQ(magnitude.worst->measured, 2.0);
+}
+
 TEST(RunComparison, ReadsTheHistoryWhereDropsHaveNoSuchColumn) {
   CheckedQuantity q = quantity("min_gap");
   q.measure = Measure::smallest;

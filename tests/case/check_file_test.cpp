@@ -75,6 +75,17 @@ once = true
   measure = "largest"
   against = "N0 = 200"
   absolute = true
+  [[run.quantity]]
+  column = "x"
+  event = 0
+  magnitude = true
+  reference = 2.8
+  source = "a page"
+  [[run.quantity]]
+  column = "volume"
+  all-drops = true
+  measure = "smallest"
+  against = "N0 = 200"
 [[extrapolation]]
 name = "limit"
 runs = ["N0 = 200", "N0 = 400"]
@@ -94,6 +105,9 @@ source = "axisymmetric"
   EXPECT_EQ(y.measure, CheckedQuantity::Measure::largest);
   EXPECT_EQ(y.minus_drop, 0);
   EXPECT_TRUE(y.is_absolute);
+  EXPECT_FALSE(y.is_magnitude);
+  EXPECT_TRUE(check.runs[1].quantities.at(1).is_magnitude);
+  EXPECT_TRUE(check.runs[1].quantities.at(2).is_of_all_drops);
   ASSERT_EQ(check.extrapolations.size(), 1U);
   EXPECT_EQ(check.extrapolations[0].order, 1.4);
   EXPECT_EQ(check.extrapolations[0].quantity.at, std::vector<double>{3.25});
@@ -106,6 +120,9 @@ TEST_F(CheckFileTest, NamesTheLineOfAFault) {
   EXPECT_THAT(
       refusal("[[run]]\nname = \"a\"\n[[run.quantity]]\ncolumn = \"D\"\nmeasure = \"mean\"\n"),
       HasSubstr("allowed are curve, largest, smallest, last"));
+  EXPECT_THAT(
+      refusal("[[run]]\nname = \"a\"\n[[run.quantity]]\ncolumn = \"D\"\nall-drops = true\n"),
+      HasSubstr("all-drops: only for the measures largest and smallest"));
   EXPECT_THAT(refusal("[run]\n"), HasSubstr("write [[run]]"));
   EXPECT_THAT(refusal("[[run]\n"), HasSubstr(":1: "));
   EXPECT_THAT(refusal(""), HasSubstr("no [[run]]"));

@@ -7,6 +7,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/flow/bem/marangoni_layer.hpp"
+#include "meniscus/flow/bem/tension_balance.hpp"
 #include "meniscus/linear/collective.hpp"
 #include "meniscus/scene/interface_tension.hpp"
 
@@ -19,6 +20,7 @@ constexpr double kDoubleFactor = -6.0 / (4.0 * kPi);
 
 /// The jump of traction along n, less its mean over each interface, which drives no flow.
 std::vector<double> traction_jump(const Scene& scene, const BoundaryGeometry& geometry) {
+  const std::vector<double> tension = tension_at_points(scene);
   std::vector<double> q;
   for (std::size_t m = 0; m < scene.interfaces.size(); ++m) {
     const Interface& interface = scene.interfaces[m];
@@ -26,9 +28,8 @@ std::vector<double> traction_jump(const Scene& scene, const BoundaryGeometry& ge
     const Vec3 buoyancy =
         scene.liquids[interface.inside].body_force - scene.liquids[interface.outside].body_force;
     double total = 0.0, area = 0.0;
-    const VertexField<double> tension = vertex_tension(interface);
     for (const VertexId v : elements.x.ids()) {
-      q.push_back(tension[v] * elements.kappa[v] - buoyancy.dot(elements.x[v]));
+      q.push_back(tension[q.size()] * elements.kappa[v] - buoyancy.dot(elements.x[v]));
       total += elements.weight[v] * q.back();
       area += elements.weight[v];
     }
@@ -50,8 +51,7 @@ std::vector<bool> nonzero(const std::vector<double>& values) {
 IntegralEquation::IntegralEquation(const Scene& scene, double t, const Options& options)
     : geometry_(make_geometry(scene)),
       shared_(geometry_.size(), linear::Communicator::of(options.processes), options.threads) {
-  for (const std::vector<double>* x :
-       {&geometry_.points.x, &geometry_.points.y, &geometry_.points.z})
+  for (const std::vector<double>* x : {&geometry_.nodes.x, &geometry_.nodes.y, &geometry_.nodes.z})
     if (!linear::agree(shared_.communicator(), std::span<const double>(*x)))
       throw RunFailure("the ranks have made different interfaces: do their machines differ?");
   std::vector<double> differences;
@@ -62,7 +62,7 @@ IntegralEquation::IntegralEquation(const Scene& scene, double t, const Options& 
     differences.push_back(contrast_.back().difference);
     rigid_.emplace_back(interface.mesh);
   }
-  const std::vector<double> q = traction_jump(scene, geometry_);
+  const std::vector<double> q = geometry_.at_nodes(traction_jump(scene, geometry_));
   rows_ = near_rows(geometry_, q, nonzero(differences), shared_);
   set_right_hand_side(scene, t, q);
 }
@@ -75,14 +75,15 @@ void IntegralEquation::set_right_hand_side(const Scene& scene, double t,
                                            const std::vector<double>& q) {
   const double matrix_viscosity = scene.liquids[RegionId{0}].viscosity;
   const Mat3 gradient = scene.flow.gradient(t);
+  const TensionBalance balance(scene, geometry_);
   std::optional<MarangoniLayer> marangoni;
   if (has_surfactant(scene)) marangoni.emplace(scene, geometry_);
   right_hand_side_.resize(num_unknowns());
   shared_.for_own([&](std::int32_t begin, std::int32_t end) {
     for (std::int32_t i = begin; i < end; ++i) {
-      const Vec3 x = geometry_.points.point(i);
-      Vec3 layer =
-          single_layer_sum(geometry_.points, q, x) + rows_[static_cast<std::size_t>(i)].single;
+      const Vec3 x = geometry_.nodes.point(i);
+      Vec3 layer = single_layer_sum(geometry_.nodes, q, x) +
+                   rows_[static_cast<std::size_t>(i)].single + balance(x);
       if (marangoni) layer -= (*marangoni)(i);
       set(right_hand_side_, i,
           (matrix_viscosity * (gradient * x) - layer / (8.0 * kPi)) /
@@ -117,7 +118,7 @@ SourceVectors IntegralEquation::deformation(std::span<const double> w) const {
   const std::vector<RigidMotion> rigid = rigid_parts(w);
   SourceVectors rest(geometry_.size());
   for (std::int32_t j = 0; j < geometry_.size(); ++j)
-    rest.set(j, at(w, j) - rigid[surface_of(j)].at(geometry_.points.point(j)));
+    rest.set(j, at(w, j) - rigid[surface_of(j)].at(geometry_.nodes.point(j)));
   return rest;
 }
 
@@ -135,7 +136,7 @@ double IntegralEquation::mean_normal_component(std::size_t m, const SourceVector
 /// Σ_m d_m K_m of a velocity without rigid parts, `density` being d times it at all nodes, at point
 /// i.
 Vec3 IntegralEquation::double_layer(const SourceVectors& density, std::int32_t i) const {
-  Vec3 sum = double_layer_sum(geometry_.points, density, geometry_.points.point(i));
+  Vec3 sum = double_layer_sum(geometry_.nodes, density, geometry_.nodes.point(i));
   const NearRow& near = rows_[static_cast<std::size_t>(i)];
   for (std::size_t c = 0; c < near.columns.size(); ++c)
     sum += near.double_layer[c] * density.at(near.columns[c]);
@@ -205,7 +206,7 @@ std::vector<double> IntegralEquation::unknowns(std::span<const VertexField<Vec3>
   for (std::size_t k = 0; k < rigid.size(); ++k)
     for (const VertexId v : u[k].ids()) {
       const std::int32_t i = geometry_.index(k, v);
-      const Vec3 x = geometry_.points.point(i);
+      const Vec3 x = geometry_.nodes.point(i);
       Vec3 sum = contrast_[k].difference * rigid[k].at(x);
       for (std::size_t m = 0; m < rigid.size(); ++m)
         if (geometry_.surfaces[k].is_inside_of[m])

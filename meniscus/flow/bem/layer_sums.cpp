@@ -46,6 +46,24 @@ Sum3 single_layer(Arrays s, const double* __restrict__ q, std::size_t n, Point p
 }
 
 MENISCUS_VECTOR_CLONES
+Sum3 spread_forces(Arrays s, const double* __restrict__ spread, std::size_t n, Point p) {
+  double x = 0.0, y = 0.0, z = 0.0;
+#pragma omp simd reduction(+ : x, y, z)
+  for (std::size_t j = 0; j < n; ++j) {
+    const double rx = s.x[j] - p.x, ry = s.y[j] - p.y, rz = s.z[j] - p.z;
+    const double squared = rx * rx + ry * ry + rz * rz + spread[j];
+    const double inverse = 1.0 / std::sqrt(squared);
+    const double inverse3 = inverse * inverse * inverse;
+    const double along = (rx * s.ax[j] + ry * s.ay[j] + rz * s.az[j]) * inverse3;
+    const double across = (squared + spread[j]) * inverse3;
+    x += across * s.ax[j] + along * rx;
+    y += across * s.ay[j] + along * ry;
+    z += across * s.az[j] + along * rz;
+  }
+  return {x, y, z};
+}
+
+MENISCUS_VECTOR_CLONES
 Sum3 double_layer(Arrays s, const double* __restrict__ ux, const double* __restrict__ uy,
                   const double* __restrict__ uz, std::size_t n, Point p) {
   double x = 0.0, y = 0.0, z = 0.0;
@@ -91,13 +109,13 @@ void constant_layers(Arrays s, std::size_t n, Point p, double* sums) {
 
 }  // namespace
 
-void SourcePoints::add(const Vec3& at, const Vec3& weighted_normal) {
+void SourcePoints::add(const Vec3& at, const Vec3& a) {
   x.push_back(at.x());
   y.push_back(at.y());
   z.push_back(at.z());
-  ax.push_back(weighted_normal.x());
-  ay.push_back(weighted_normal.y());
-  az.push_back(weighted_normal.z());
+  ax.push_back(a.x());
+  ay.push_back(a.y());
+  az.push_back(a.z());
 }
 
 Vec3 single_layer_sum(const SourcePoints& points, const std::vector<double>& q, const Vec3& p) {
@@ -110,6 +128,15 @@ Vec3 single_layer_sum(const SourcePoints& points, SourceRange range, const std::
                   "{} densities of {} points", q.size(), range.end - range.begin);
   const Sum3 sum = single_layer(arrays(points, static_cast<std::size_t>(range.begin)), q.data(),
                                 q.size(), {p.x(), p.y(), p.z()});
+  return {sum.x, sum.y, sum.z};
+}
+
+Vec3 spread_forces_sum(const SourcePoints& points, const std::vector<double>& spread,
+                       const Vec3& p) {
+  MENISCUS_ASSERT(spread.size() == points.x.size(), "{} lengths of {} points", spread.size(),
+                  points.x.size());
+  const Sum3 sum =
+      spread_forces(arrays(points, 0), spread.data(), spread.size(), {p.x(), p.y(), p.z()});
   return {sum.x, sum.y, sum.z};
 }
 

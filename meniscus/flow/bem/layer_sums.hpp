@@ -8,20 +8,16 @@
 
 namespace meniscus::bem {
 
-/// Points with vectors a_j = (weight × normal), one array per component so that sums vectorise.
+/// Points with vectors a_j, areas or forces, one array per component so that sums vectorise.
 struct SourcePoints {
   std::vector<double> x, y, z;
   std::vector<double> ax, ay, az;
 
-  void add(const Vec3& at, const Vec3& weighted_normal);
+  void add(const Vec3& at, const Vec3& a);
   [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(x.size()); }
   [[nodiscard]] Vec3 point(std::int32_t j) const {
     const auto k = static_cast<std::size_t>(j);
     return {x[k], y[k], z[k]};
-  }
-  [[nodiscard]] Vec3 weighted_normal(std::int32_t j) const {
-    const auto k = static_cast<std::size_t>(j);
-    return {ax[k], ay[k], az[k]};
   }
 };
 
@@ -64,6 +60,10 @@ using Symmetric = std::array<double, 6>;
 /// The same over a range of the points, with a q for each of the range.
 [[nodiscard]] Vec3 single_layer_sum(const SourcePoints& points, SourceRange range,
                                     const std::vector<double>& q, const Vec3& p);
+/// Σ_j [a_j (r² + 2 ε_j²) + r (r·a_j)]/(r² + ε_j²)^{3/2}, r = x_j − p: forces spread over the
+/// radius ε, `spread` being ε².
+[[nodiscard]] Vec3 spread_forces_sum(const SourcePoints& points, const std::vector<double>& spread,
+                                     const Vec3& p);
 /// Σ_j r (r·u_j)(r·a_j)/r⁵: the double layer of u, times −4π/6 when the kernel is −6 rrr/r⁵. What
 /// u has beyond the points does not count.
 [[nodiscard]] Vec3 double_layer_sum(const SourcePoints& points, const SourceVectors& u,

@@ -7,14 +7,7 @@
 namespace meniscus::bem {
 namespace {
 
-constexpr double kNearOnOwn = 2.0, kNearOnOther = 4.0;
-
-/// Whether a face looks the other way than a point of the same interface. An edge of a resolved
-/// surface turns by less than 20°, so that the way along the surface is longer than four edges. A
-/// face nearer in space is of another sheet, across a film or a neck.
-bool is_turned_away(const Triangle& face, const Vec3& normal) {
-  return (face[1] - face[0]).cross(face[2] - face[0]).dot(normal) < 0.0;
-}
+constexpr double kNear = 2.0;  // longest edges
 
 /// Whether the centre of a face is nearer to x than `edges` of its longest one.
 bool is_within(const Triangle& face, const Vec3& x, double edges) {
@@ -27,17 +20,12 @@ bool is_within(const Triangle& face, const Vec3& x, double edges) {
 }  // namespace
 
 void find_near_faces(const BoundaryGeometry& geometry, std::size_t m, std::int32_t i,
-                     std::vector<FaceId>& faces, NearReach reach) {
-  const BoundaryGeometry::Surface& surface = geometry.surfaces[m];
-  const auto own = static_cast<std::size_t>(geometry.surface_of[static_cast<std::size_t>(i)]);
-  const Vec3 x = geometry.points.point(i);
-  const Vec3* normal = own == m ? &surface.elements.n[VertexId{i - surface.range.begin}] : nullptr;
+                     std::vector<FaceId>& faces) {
+  const Vec3 x = geometry.nodes.point(i);
   faces.clear();
   // A face's centre lies in its box, whose diagonal is no shorter than the longest edge.
-  surface.tree.visit_near(x, kNearOnOther, [&](FaceId f, const Triangle& face) {
-    const bool is_wide =
-        reach == NearReach::whole || normal == nullptr || is_turned_away(face, *normal);
-    if (is_within(face, x, is_wide ? kNearOnOther : kNearOnOwn)) faces.push_back(f);
+  geometry.surfaces[m].tree.visit_near(x, kNear, [&](FaceId f, const Triangle& face) {
+    if (is_within(face, x, kNear)) faces.push_back(f);
     return true;
   });
   std::ranges::sort(faces);

@@ -25,37 +25,22 @@ void add_identity(Symmetric& m, double factor) {
   for (std::size_t k = 0; k < 3; ++k) m[k] += factor;
 }
 
-/// The density of the single layer at the nodes of all faces, by surface.
-using NodeDensity = std::vector<FaceField<NodeValues>>;
-
-NodeDensity node_density(const BoundaryGeometry& geometry, const std::vector<double>& q) {
-  NodeDensity density;
-  for (const Surface& surface : geometry.surfaces) {
-    VertexField<double> at_vertices;
-    for (std::int32_t j = surface.range.begin; j < surface.range.end; ++j)
-      at_vertices.add(q[static_cast<std::size_t>(j)]);
-    FaceField<NodeValues>& at_nodes = density.emplace_back();
-    for (const Face& face : surface.elements.faces) at_nodes.add(node_values(face, at_vertices));
-  }
-  return density;
-}
-
 /// Builds one row after another; keeps an array over all nodes for the columns of the row at hand.
 class RowBuilder {
  public:
+  /// `q` is given at the nodes.
   RowBuilder(const BoundaryGeometry& geometry, const std::vector<double>& q,
-             const NodeDensity& node_density, const std::vector<bool>& has_double_layer)
+             const std::vector<bool>& has_double_layer)
       : geometry_(geometry),
         q_(q),
-        node_density_(node_density),
         has_double_layer_(has_double_layer),
-        dense_(static_cast<std::size_t>(geometry.num_nodes())),
-        share_(static_cast<std::size_t>(geometry.size()), 0.0),
-        is_touched_(dense_.size(), false) {}
+        dense_(q.size()),
+        is_touched_(q.size(), false),
+        area_(q.size(), Vec3::Zero()) {}
 
   NearRow row(std::int32_t i) {
     row_ = {};
-    x_ = geometry_.points.point(i);
+    x_ = geometry_.nodes.point(i);
     for (std::size_t m = 0; m < geometry_.surfaces.size(); ++m) add_surface(m, i);
     std::ranges::sort(row_.columns);
     for (const std::int32_t c : row_.columns) {
@@ -77,56 +62,61 @@ class RowBuilder {
     // subtraction removes.
     constant_ = constant_layers(m);
     for (const FaceId f : near_) add_face(m, f, i);
-    remove_vertex_rule(m, i);
+    remove_node_rule(m, i);
     if (own == m) {
-      subtract(m, i, q_[static_cast<std::size_t>(i)], 1.0, kOnSurface);
+      subtract(m, i, 1.0, kOnSurface);
       return;
     }
     const SurfaceTree::Hit nearest = surface.tree.closest(x_);
     const Vec3& b = nearest.weights;
     const NodeValues weights = quadratic_values({b[0], b[1], b[2]});
-    const auto nodes = geometry_.nodes(m, nearest.face);
+    const auto nodes = geometry_.nodes_of(m, nearest.face);
     const bool is_inside = geometry_.surfaces[own].is_inside_of[m];
     for (std::size_t a = 0; a < weights.size(); ++a)
-      subtract(m, nodes[a], node_density_[m][nearest.face][a], weights[a],
-               is_inside ? kInside : 0.0);
+      subtract(m, nodes[a], weights[a], is_inside ? kInside : 0.0);
   }
 
   [[nodiscard]] ConstantLayers constant_layers(std::size_t m) {
-    const SourceRange range = geometry_.surfaces[m].range;
-    if (has_double_layer_[m]) return constant_layer_sums(geometry_.points, range, x_);
-    ones_.resize(static_cast<std::size_t>(range.end - range.begin), 1.0);
-    return {.single = single_layer_sum(geometry_.points, range, ones_, x_), .double_layer = {}};
+    const Surface& surface = geometry_.surfaces[m];
+    ConstantLayers sums;
+    for (const SourceRange& range : {surface.range, surface.middles}) {
+      if (has_double_layer_[m]) {
+        const ConstantLayers part = constant_layer_sums(geometry_.nodes, range, x_);
+        sums.single += part.single;
+        add(sums.double_layer, 1.0, part.double_layer);
+      } else {
+        ones_.resize(static_cast<std::size_t>(range.end - range.begin), 1.0);
+        sums.single += single_layer_sum(geometry_.nodes, range, ones_, x_);
+      }
+    }
+    return sums;
   }
 
   void add_face(std::size_t m, FaceId f, std::int32_t i) {
     const Face& face = geometry_.surfaces[m].elements.faces[f];
     const FaceMoments moments = face_moments(face, corner_at(geometry_, m, f, i), x_,
-                                             node_density_[m][f], has_double_layer_[m]);
+                                             geometry_.on_face(m, f, q_), has_double_layer_[m]);
     row_.single += moments.single;
     constant_.single += moments.constant;
-    if (has_double_layer_[m]) {
-      const auto nodes = geometry_.nodes(m, f);
-      for (std::size_t a = 0; a < nodes.size(); ++a) add_double(nodes[a], moments.double_layer[a]);
+    const auto nodes = geometry_.nodes_of(m, f);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      if (has_double_layer_[m]) add_double(nodes[a], moments.double_layer[a]);
+      add_area(nodes[a], face.area[a]);
     }
-    for (std::size_t c = 0; c < face.columns.size(); ++c)
-      add_share(geometry_.index(m, face.columns[c]), face.share[c]);
   }
 
-  void add_share(std::int32_t j, double share) {
-    double& sum = share_[static_cast<std::size_t>(j)];
-    if (sum == 0.0) with_share_.push_back(j);
-    sum += share;
+  void add_area(std::int32_t node, const Vec3& area) {
+    Vec3& sum = area_[static_cast<std::size_t>(node)];
+    if (sum == Vec3::Zero()) with_area_.push_back(node);
+    sum += area;
   }
 
-  /// Takes away what the weights of the vertices gave for the near faces.
-  void remove_vertex_rule(std::size_t m, std::int32_t i) {
-    const Surface& surface = geometry_.surfaces[m];
-    for (const std::int32_t j : with_share_) {
-      const double share = std::exchange(share_[static_cast<std::size_t>(j)], 0.0);
-      if (j == i) continue;
-      const VertexId v{j - surface.range.begin};
-      const Vec3 r = surface.elements.x[v] - x_, area = -share * surface.elements.n[v];
+  /// Takes away what the areas of the near faces gave at their nodes.
+  void remove_node_rule(std::size_t m, std::int32_t i) {
+    for (const std::int32_t j : with_area_) {
+      const Vec3 area = -std::exchange(area_[static_cast<std::size_t>(j)], Vec3::Zero());
+      if (j == i || area == Vec3::Zero()) continue;
+      const Vec3 r = geometry_.nodes.point(j) - x_;
       if (has_double_layer_[m]) {
         const LayerKernels kernels = layer_kernels(r, area);
         add_single(j, kernels.single);
@@ -135,11 +125,11 @@ class RowBuilder {
         add_single(j, single_layer_kernel(r, area));
       }
     }
-    with_share_.clear();
+    with_area_.clear();
   }
 
-  void add_single(std::int32_t j, const Vec3& kernel) {
-    row_.single += q_[static_cast<std::size_t>(j)] * kernel;
+  void add_single(std::int32_t node, const Vec3& kernel) {
+    row_.single += q_[static_cast<std::size_t>(node)] * kernel;
     constant_.single += kernel;
   }
 
@@ -148,10 +138,9 @@ class RowBuilder {
     add(constant_.double_layer, 1.0, kernel);
   }
 
-  /// Replaces the rule's integral of the constant weight × (value at node j) by the exact one; q is
-  /// the single layer's density there.
-  void subtract(std::size_t m, std::int32_t j, double q, double weight, double exact) {
-    row_.single -= weight * q * constant_.single;
+  /// Replaces the rule's integral of the constant weight × (value at node j) by the exact one.
+  void subtract(std::size_t m, std::int32_t j, double weight, double exact) {
+    row_.single -= weight * q_[static_cast<std::size_t>(j)] * constant_.single;
     if (!has_double_layer_[m]) return;
     add(at(j), -weight, constant_.double_layer);
     add_identity(at(j), weight * exact);
@@ -166,12 +155,11 @@ class RowBuilder {
 
   const BoundaryGeometry& geometry_;
   const std::vector<double>& q_;
-  const NodeDensity& node_density_;
   const std::vector<bool>& has_double_layer_;
   std::vector<Symmetric> dense_;
-  std::vector<double> share_;  // weights of the vertices in the rule on the near faces
-  std::vector<std::int32_t> with_share_;
   std::vector<bool> is_touched_;
+  std::vector<Vec3> area_;  // of the near faces at their nodes
+  std::vector<std::int32_t> with_area_;
   Vec3 x_ = Vec3::Zero();
   NearRow row_;
   ConstantLayers constant_;
@@ -184,14 +172,13 @@ class RowBuilder {
 std::vector<NearRow> near_rows(const BoundaryGeometry& geometry, const std::vector<double>& q,
                                const std::vector<bool>& has_double_layer,
                                const SharedPoints& shared) {
-  MENISCUS_ASSERT(q.size() == static_cast<std::size_t>(geometry.size()),
-                  "{} densities of {} points", q.size(), geometry.size());
+  MENISCUS_ASSERT(q.size() == geometry.nodes.x.size(), "{} densities of {} nodes", q.size(),
+                  geometry.num_nodes());
   MENISCUS_ASSERT(has_double_layer.size() == geometry.surfaces.size(), "{} marks of {} surfaces",
                   has_double_layer.size(), geometry.surfaces.size());
   std::vector<NearRow> rows(static_cast<std::size_t>(geometry.size()));
-  const NodeDensity at_nodes = node_density(geometry, q);
   shared.for_own([&](std::int32_t begin, std::int32_t end) {
-    RowBuilder builder(geometry, q, at_nodes, has_double_layer);
+    RowBuilder builder(geometry, q, has_double_layer);
     for (std::int32_t i = begin; i < end; ++i) rows[static_cast<std::size_t>(i)] = builder.row(i);
   });
   return rows;

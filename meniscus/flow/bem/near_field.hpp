@@ -7,8 +7,8 @@
 
 namespace meniscus::bem {
 
-/// What the plain sums over all points miss at one point. Faces near it are integrated over their
-/// curved triangles instead of their vertices. The density's value at the point, or at the nearest
+/// What the plain sums over all nodes miss at one point. Faces near it are integrated over their
+/// curved triangles instead of their nodes. The density's value at the point, or at the nearest
 /// point of another surface close by, is subtracted under the integral. Its known integral is
 /// added. Linear in the densities.
 struct NearRow {
@@ -18,7 +18,7 @@ struct NearRow {
 };
 
 /// Rows of this process's own points, the others' being empty. `q` is the density of the single
-/// layer by point; the double layer is left out of surfaces where `has_double_layer` is false.
+/// layer at the nodes; the double layer is left out of surfaces where `has_double_layer` is false.
 [[nodiscard]] std::vector<NearRow> near_rows(const BoundaryGeometry& geometry,
                                              const std::vector<double>& q,
                                              const std::vector<bool>& has_double_layer,

@@ -40,13 +40,17 @@ TEST(SingleDrop, TurnsWithARotatingLiquid) {
   }
 }
 
-// The curvature fit is exact on spheres of any coarseness, and a constant jump drives nothing.
-TEST(SingleDrop, StaticSphereHasNoSpuriousVelocity) {
-  for (const int count : {60, 250})
-    for (const double lambda : kRatios) {
-      const auto u = solved(drop_in(Mat3::Zero(), sphere(count), lambda, 1.0)).u[0];
-      EXPECT_LT(test::largest_norm(u), 1e-11) << count << ' ' << lambda;
-    }
+// Parabolic faces are O(h⁴) off the sphere, so that their tension is not quite in balance.
+// Measured: 1e-5 and 1.2e-6 at 250 and 1000 vertices for λ = 0.01, less for others.
+TEST(SingleDrop, StaticSphereRestsWithinTheErrorOfItsFaces) {
+  const auto spurious = [](int count, double lambda) {
+    return test::largest_norm(solved(drop_in(Mat3::Zero(), sphere(count), lambda, 1.0)).u[0]);
+  };
+  for (const double lambda : kRatios) {
+    const double coarse = spurious(250, lambda), fine = spurious(1000, lambda);
+    EXPECT_LT(coarse, 2e-5) << lambda;
+    EXPECT_GT(order(250, coarse, 1000, fine), 2.5) << lambda << ' ' << coarse << ' ' << fine;
+  }
 }
 
 // Exact: n·u = 5/(2λ + 3) x·E·x on the unit sphere (taylor1932).
@@ -107,14 +111,15 @@ double rate_error(int count, int l, double lambda) {
   return std::abs(rate / exact_rate(l, lambda) - 1.0);
 }
 
-// Measured: 9e-4, 2.3e-4, 5.6e-5 for l = 2 at N = 500, 1000, 2000 and any λ; l = 3 is as good.
+// Measured: 1.2e-4, 2.9e-5, 9e-6 for l = 2 at N = 500, 1000, 2000 and λ = 0.1; 6.5e-4 for l = 3 at
+// 500.
 TEST(SingleDrop, ModesRelaxAtTheExactRates) {
   for (const int l : {2, 3})
-    for (const double lambda : {0.1, 1.0, 10.0}) EXPECT_LT(rate_error(500, l, lambda), 2e-3);
+    for (const double lambda : {0.1, 1.0, 10.0}) EXPECT_LT(rate_error(500, l, lambda), 1.3e-3);
 }
 TEST(SingleDrop, RelaxationConvergesBetterThanWithTheCubeOfTheEdges) {
   const double coarse = rate_error(250, 2, 0.1), fine = rate_error(2000, 2, 0.1);
-  EXPECT_LT(fine, 2e-4);
+  EXPECT_LT(fine, 2e-5);
   EXPECT_GT(order(250, coarse, 2000, fine), 3.0) << coarse << ' ' << fine;
 }
 
