@@ -5,6 +5,9 @@ namespace {
 
 using Face = InterfaceElements::Face;
 
+/// ε over the root of a vertex's area, about an edge: where nodes are the sources of the far field.
+constexpr double kSpread = 2.0;
+
 /// ∫ ∇_s(σ φ_a) dS at the nodes of a face: the pull of tension, and that of its gradient, which the
 /// Marangoni layer takes away, added again.
 NodeVectors pulls(const Face& face, const NodeValues& tension) {
@@ -64,7 +67,8 @@ TensionBalance::TensionBalance(const Scene& scene, const BoundaryGeometry& geome
     const auto m = static_cast<std::size_t>(geometry.surface_of[static_cast<std::size_t>(i)]);
     const BoundaryGeometry::Surface& surface = geometry.surfaces[m];
     forces_.add(geometry.nodes.point(i), forces.at(i));
-    spread_.push_back(surface.elements.weight[VertexId{i - surface.range.begin}]);
+    spread_.push_back(kSpread * kSpread *
+                      surface.elements.weight[VertexId{i - surface.range.begin}]);
   }
 }
 
