@@ -1,5 +1,7 @@
 #include "meniscus/flow/bem/tension_balance.hpp"
 
+#include "meniscus/mesh/surface_measures.hpp"
+
 namespace meniscus::bem {
 namespace {
 
@@ -63,13 +65,11 @@ SourceVectors imbalance(const Scene& scene, const BoundaryGeometry& geometry) {
 
 TensionBalance::TensionBalance(const Scene& scene, const BoundaryGeometry& geometry) {
   const SourceVectors forces = geometry.to_points(imbalance(scene, geometry));
-  for (std::int32_t i = 0; i < geometry.size(); ++i) {
-    const auto m = static_cast<std::size_t>(geometry.surface_of[static_cast<std::size_t>(i)]);
-    const BoundaryGeometry::Surface& surface = geometry.surfaces[m];
+  for (std::int32_t i = 0; i < geometry.size(); ++i)
     forces_.add(geometry.nodes.point(i), forces.at(i));
-    spread_.push_back(kSpread * kSpread *
-                      surface.elements.weight[VertexId{i - surface.range.begin}]);
-  }
+  for (const Interface& interface : scene.interfaces)
+    for (const double area : vertex_areas(interface.mesh))
+      spread_.push_back(kSpread * kSpread * area);
 }
 
 Vec3 TensionBalance::operator()(const Vec3& x) const {
