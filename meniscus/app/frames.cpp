@@ -185,7 +185,8 @@ io::CurvedEdges curved_edges_in_volume(const Evolution& evolution) {
   if (evolution.surface_shape() != SurfaceShape::splined) return {};
   const TetMesh& mesh = evolution.state().mesh->tetrahedra();
   const fem::FlowSpace space = fem::flow_space(mesh, fem::Elements::p2_p1);
-  const Field<fem::NodeId, Vec3> x = fem::node_positions(evolution.scene(), mesh, space).x;
+  const Field<fem::NodeId, Vec3> x =
+      fem::node_positions(evolution.scene(), mesh, space, evolution.state().surfaces.get()).x;
   const BulkFlow flow = evolution.flow().bulk.value_or(BulkFlow());
   MENISCUS_ASSERT(flow.v_at_edges.empty() || flow.v_at_edges.size() == space.edges.size(),
                   "{} velocities of {} edges", flow.v_at_edges.size(), space.edges.size());

@@ -31,6 +31,14 @@ std::string outcome_of(const std::function<void()>& action) {
   }
 }
 
+/// Throws on all ranks what the outcome of an action on one of them says.
+void throw_outcome(std::string outcome, int rank) {
+  linear::broadcast(world(), outcome, rank);
+  if (outcome.empty()) return;
+  if (outcome[0] == 'i') throw InvalidInput(outcome.substr(1));
+  throw RunFailure(outcome.substr(1));
+}
+
 int exit_status(const std::exception& failure) {
   return dynamic_cast<const InvalidInput*>(&failure) != nullptr ? 2 : 1;
 }
@@ -44,11 +52,25 @@ bool any_rank(bool local) { return linear::any(world(), local); }
 void on_first_rank(const std::function<void()>& action) {
   if (num_ranks() == 1) return action();
   linear::barrier(world());
-  std::string outcome = is_first_rank() ? outcome_of(action) : std::string();
-  linear::broadcast(world(), outcome);
-  if (outcome.empty()) return;
-  if (outcome[0] == 'i') throw InvalidInput(outcome.substr(1));
-  throw RunFailure(outcome.substr(1));
+  throw_outcome(is_first_rank() ? outcome_of(action) : std::string(), 0);
+}
+
+void on_first_and_last_rank(const std::function<void()>& first, const std::function<void()>& last) {
+  const int last_rank = num_ranks() - 1;
+  if (last_rank == 0) {
+    first();
+    return last();
+  }
+  std::string outcome;
+  if (is_first_rank()) outcome = outcome_of(first);
+  if (world().rank() == last_rank) outcome = outcome_of(last);
+  throw_outcome(outcome, 0);
+  throw_outcome(outcome, last_rank);
+}
+
+std::string text_of_first_rank(std::string text) {
+  linear::broadcast(world(), text);
+  return text;
 }
 
 void require_all_failed(const std::exception& failure) {

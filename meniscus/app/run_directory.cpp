@@ -39,6 +39,10 @@ std::set<std::int64_t> steps_around_events(const fs::path& events) {
   return steps;
 }
 
+std::string volume_file(const Evolution& evolution) {
+  return fmt::format("{0}/{0}-{1:06}.vtu", RunFiles::volume_folder, evolution.step());
+}
+
 io::TableWriter table(const fs::path& path, const std::vector<std::string>& columns,
                       std::optional<std::int64_t> first_step) {
   return first_step && fs::exists(path) ? io::TableWriter(path, columns, *first_step)
@@ -109,13 +113,13 @@ void RunDirectory::add_surface_frame(const Evolution& evolution) {
   io::write_pvd(path_ / RunFiles::surface_frames, surface_frames_);
 }
 
-void RunDirectory::add_volume_frame(const Evolution& evolution) {
-  if (!evolution.state().mesh) return;
+fs::path RunDirectory::begin_volume_frame(const Evolution& evolution) {
   fs::create_directories(path_ / RunFiles::volume_folder);
-  const std::string file =
-      fmt::format("{0}/{0}-{1:06}.vtu", RunFiles::volume_folder, evolution.step());
-  write_volume_frame(path_ / file, evolution);
-  volume_frames_.push_back({evolution.t(), file});
+  return path_ / volume_file(evolution);
+}
+
+void RunDirectory::list_volume_frame(const Evolution& evolution) {
+  volume_frames_.push_back({evolution.t(), volume_file(evolution)});
   io::write_pvd(path_ / RunFiles::volume_frames, volume_frames_);
 }
 

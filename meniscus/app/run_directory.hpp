@@ -38,7 +38,10 @@ class RunDirectory {
   void add_events(const HistoryRow& history, const std::vector<TopologyEvent>& events);
   void add_timing(std::int64_t step, double t, const PhaseSeconds& seconds);
   void add_surface_frame(const Evolution& evolution);
-  void add_volume_frame(const Evolution& evolution);
+  /// The file that the state's frame of the volume is to be written to, in a folder that is there.
+  [[nodiscard]] std::filesystem::path begin_volume_frame(const Evolution& evolution);
+  /// Lists that frame, once it is written.
+  void list_volume_frame(const Evolution& evolution);
   /// Writes checkpoint-<step>.h5. Keeps the last two checkpoints and those around events (the steps
   /// in events.csv and the steps before them); removes all others.
   void write_checkpoint(const Archive& archive, std::int64_t step);

@@ -78,7 +78,16 @@ void Simulation::record_state(const RowObserver& show) {
     write_checkpoint();
   is_begun_ = true;
   solve();
-  on_first_rank([&] { record(show); });
+  std::optional<Evolution::Rows> rows;  // rank 0 only
+  const std::string volume_frame = begin_volume_frame();
+  on_first_and_last_rank(
+      [&] {
+        rows = evolution_.rows();
+        judge(*rows);
+        write_surface_frame();
+      },
+      [&] { write_volume_frame(volume_frame); });
+  on_first_rank([&] { record(*rows, !volume_frame.empty(), show); });
   has_ended_ = evolution_.is_finished();
   if (!judge_ || has_ended_) return;
   has_ended_ = any_rank(end_.has_value());
@@ -143,24 +152,53 @@ void Simulation::stop_when(const StopRules& rules) {
   });
 }
 
-void Simulation::record(const RowObserver& show) {
-  const auto [history, drops] = evolution_.rows();
+/// The file of the frame of the volume that is due; empty where none is. Collective.
+std::string Simulation::begin_volume_frame() {
+  std::string file;
+  on_first_rank([&] {
+    const bool is_due = evolution_.t() >= next_volume_frame_ || evolution_.is_finished();
+    if (directory_ && evolution_.state().mesh && is_due)
+      file = directory_->begin_volume_frame(evolution_).string();
+  });
+  return text_of_first_rank(std::move(file));
+}
+
+void Simulation::judge(const Evolution::Rows& rows) {
   if (judge_)
-    end_ = judge_->judge(history.t, drops, evolution_.events(), evolution_.scene(),
+    end_ = judge_->judge(rows.history.t, rows.drops, evolution_.events(), evolution_.scene(),
                          {evolution_.step_length(), evolution_.motion()});
   if (evolution_.is_finished() && !end_) end_ = RunEnd{Ending::time, ""};
+}
+
+void Simulation::write_surface_frame() {
+  const double t = evolution_.t();
+  if (t < next_surface_frame_ && !end_) return;
+  const PhaseTimer timer(output_times_, "output");
+  if (directory_) directory_->add_surface_frame(evolution_);
+  next_surface_frame_ = next_multiple(output_.interval, t);
+}
+
+void Simulation::write_volume_frame(const std::string& file) {
+  if (file.empty()) return;
+  const PhaseTimer timer(output_times_, "output");
+  meniscus::write_volume_frame(file, evolution_);
+}
+
+/// Lists the frames and adds the rows, when the frames are complete.
+void Simulation::record(const Evolution::Rows& rows, bool has_volume_frame,
+                        const RowObserver& show) {
+  const auto& [history, drops] = rows;
+  const double t = evolution_.t();
+  const bool is_last = end_.has_value(), has_mesh = evolution_.state().mesh.has_value();
+  if (is_last && directory_ && has_mesh && !has_volume_frame) {  // that a rule ends here
+    write_volume_frame(directory_->begin_volume_frame(evolution_).string());
+    has_volume_frame = true;
+  }
   {
     const PhaseTimer timer(output_times_, "output");
-    const double t = evolution_.t();
-    const bool is_last = end_.has_value();
-    if (t >= next_surface_frame_ || is_last) {
-      if (directory_) directory_->add_surface_frame(evolution_);
-      next_surface_frame_ = next_multiple(output_.interval, t);
-    }
-    if (t >= next_volume_frame_ || is_last) {
-      if (directory_) directory_->add_volume_frame(evolution_);
+    if (has_volume_frame) directory_->list_volume_frame(evolution_);
+    if (t >= next_volume_frame_ || is_last)
       next_volume_frame_ = output_.volume ? next_multiple(output_.volume_interval, t) : HUGE_VAL;
-    }
     if (directory_) directory_->add_rows(history, drops);
     if (directory_) directory_->add_events(history, evolution_.events());
   }

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "meniscus/app/progress.hpp"
 #include "meniscus/app/run_directory.hpp"
@@ -71,7 +72,11 @@ class Simulation {
  private:
   void keep_state();
   void solve();
-  void record(const RowObserver& show);
+  [[nodiscard]] std::string begin_volume_frame();
+  void judge(const Evolution::Rows& rows);
+  void write_surface_frame();
+  void write_volume_frame(const std::string& file);
+  void record(const Evolution::Rows& rows, bool has_volume_frame, const RowObserver& show);
   [[nodiscard]] double seconds_in(const std::string& phase) const;
 
   Evolution evolution_;

@@ -10,7 +10,6 @@
 #include "meniscus/scene/interface_tension.hpp"
 #include "meniscus/scene/scene_gap.hpp"
 #include "meniscus/topology/necks.hpp"
-#include "meniscus/volume/quality.hpp"
 
 namespace meniscus {
 namespace {
@@ -90,7 +89,7 @@ HistoryRow history_row(const State& state, const FlowSolution& flow, const Inter
     const TetMesh& mesh = state.mesh->tetrahedra();
     row.nodes = mesh.num_vertices();
     row.tetrahedra = mesh.num_cells();
-    row.min_dihedral_deg = smallest_dihedral_deg(mesh);
+    row.min_dihedral_deg = state.mesh->smallest_angle_deg();
   }
   row.min_gap = smallest_gap(scene);
   row.linear_iterations = state.iterations;

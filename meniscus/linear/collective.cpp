@@ -85,12 +85,12 @@ void barrier(Communicator communicator) {
   if (communicator.size() > 1) MPI_Barrier(handle_of(communicator));
 }
 
-void broadcast(Communicator communicator, std::string& text) {
+void broadcast(Communicator communicator, std::string& text, int root) {
   if (communicator.size() == 1) return;
   auto length = static_cast<std::int64_t>(text.size());
-  MPI_Bcast(&length, 1, MPI_INT64_T, 0, handle_of(communicator));
+  MPI_Bcast(&length, 1, MPI_INT64_T, root, handle_of(communicator));
   text.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(text.data(), static_cast<int>(length), MPI_CHAR, 0, handle_of(communicator));
+  MPI_Bcast(text.data(), static_cast<int>(length), MPI_CHAR, root, handle_of(communicator));
 }
 
 void broadcast(Communicator communicator, std::span<std::int32_t> numbers) {

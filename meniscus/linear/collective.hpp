@@ -26,9 +26,9 @@ void sum(Communicator communicator, std::span<double> numbers);
 [[nodiscard]] bool agree(Communicator communicator, std::span<const std::int32_t> local);
 [[nodiscard]] bool agree(Communicator communicator, std::span<const double> local);
 void barrier(Communicator communicator);
-/// Sends the value of rank 0 to all ranks. A text is resized; a span must have the length of rank
-/// 0.
-void broadcast(Communicator communicator, std::string& text);
+/// Sends the value of rank 0, or of rank `root`, to all ranks. A text is resized; a span must have
+/// the length of rank 0.
+void broadcast(Communicator communicator, std::string& text, int root = 0);
 void broadcast(Communicator communicator, std::span<std::int32_t> numbers);
 /// Gathers the ranks' parts in `all`, in the order of ranks, on every rank. `counts` are the
 /// lengths of the parts.

@@ -66,6 +66,7 @@ Report MovingMesh::move(const Scene& start, std::span<const VertexField<Vec3>> i
   for (const TetVertexId v : moved.x.ids()) moved.x[v] += dt * velocity[v];
   if (auto fault = find_inverted_cell(moved)) return {std::move(fault)};
   mesh_ = std::move(moved);
+  angle_deg_.reset();
   velocity_ = std::move(velocity);
   if (fields_.empty()) return {};
   fields_ = start_fields_;
@@ -74,14 +75,20 @@ Report MovingMesh::move(const Scene& start, std::span<const VertexField<Vec3>> i
   return {};
 }
 
+double MovingMesh::smallest_angle_deg() const {
+  if (!angle_deg_) angle_deg_ = smallest_dihedral_deg(mesh_);
+  return *angle_deg_;
+}
+
 bool MovingMesh::is_fit() const {
   const PhaseTimer timer(times_, "move mesh");
-  return smallest_dihedral_deg(mesh_) >= kLeastAngleKept * made_angle_deg_;
+  return smallest_angle_deg() >= kLeastAngleKept * made_angle_deg_;
 }
 
 void MovingMesh::undo() {
   const PhaseTimer timer(times_, "move mesh");
   mesh_ = start_;
+  angle_deg_.reset();
   fields_ = start_fields_;
   excess_ = {};
 }
@@ -98,7 +105,11 @@ void MovingMesh::place_interfaces(const Scene& scene) {
     const SurfaceMesh& surface = scene.interfaces[i].mesh;
     MENISCUS_ASSERT(mesh_.interfaces[i].num_vertices == surface.num_vertices(), "{} {}",
                     mesh_.interfaces[i].num_vertices, surface.num_vertices());
-    for (const VertexId v : surface.x.ids()) mesh_.x[mesh_.interfaces[i].vertex(v)] = surface.x[v];
+    for (const VertexId v : surface.x.ids()) {
+      Vec3& x = mesh_.x[mesh_.interfaces[i].vertex(v)];
+      if (x != surface.x[v]) angle_deg_.reset();
+      x = surface.x[v];
+    }
   }
 }
 
@@ -130,6 +141,7 @@ MeshChange MovingMesh::follow(const Scene& scene, const RegionSources& sources) 
   change.before = std::exchange(mesh_, std::move(fitted));
   change.sources = sources;
   made_angle_deg_ = angle_deg;
+  angle_deg_ = angle_deg;
   velocity_ = {};
   mover_.forget_mesh();
   return change;
@@ -143,6 +155,7 @@ void MovingMesh::save(Archive& archive) const {
 
 void MovingMesh::load(const Archive& archive, const Scene& scene) {
   mesh_ = load_mesh(archive, "mesh");
+  angle_deg_.reset();
   velocity_ = {};
   mover_.forget_mesh();
   if (mesh_.interfaces.size() != scene.interfaces.size())

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "meniscus/core/archive.hpp"
 #include "meniscus/core/fault.hpp"
@@ -56,6 +57,8 @@ class MovingMesh {
   /// would be inverted.
   Report move(const Scene& start, std::span<const VertexField<Vec3>> interface_velocity,
               const Field<TetVertexId, Vec3>& liquid_velocity, double dt);
+  /// The smallest dihedral angle of the cells as they stand; found once for each of their places.
+  [[nodiscard]] double smallest_angle_deg() const;
   /// Whether the cells are still as good as when the mesh was made: their smallest dihedral angle
   /// is at least 0.7 of what it was.
   [[nodiscard]] bool is_fit() const;
@@ -93,6 +96,7 @@ class MovingMesh {
   bool takes_over_vertices_;
   TetMesh mesh_, start_;
   double made_angle_deg_ = 0.0;  // the smallest dihedral angle of the mesh when it was made
+  mutable std::optional<double> angle_deg_;  // that of the mesh as it stands, once asked for
   Field<TetVertexId, Vec3> velocity_;
   VolumeFields fields_, start_fields_;
   FieldExcess excess_;

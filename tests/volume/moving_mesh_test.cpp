@@ -98,6 +98,7 @@ TEST(MovingMesh, IsFitUntilItsAnglesAreSmall) {
     if (!moved.ok()) break;
     EXPECT_EQ(mesh.is_fit(), quality(mesh.tetrahedra()).min_dihedral_deg >= 0.7 * angle) << dt;
     was_unfit |= !mesh.is_fit();
+    EXPECT_EQ(mesh.smallest_angle_deg(), smallest_dihedral_deg(mesh.tetrahedra()));
     Archive archive;
     mesh.save(archive);
     Scene there = start;
@@ -106,6 +107,11 @@ TEST(MovingMesh, IsFitUntilItsAnglesAreSmall) {
     loaded.load(archive, there);
     EXPECT_EQ(loaded.is_fit(), mesh.is_fit()) << dt;
     mesh.undo();
+    EXPECT_EQ(mesh.smallest_angle_deg(), smallest_dihedral_deg(mesh.tetrahedra()));
+    mesh.place_interfaces(there);
+    EXPECT_EQ(mesh.smallest_angle_deg(), smallest_dihedral_deg(mesh.tetrahedra()));
+    mesh.place_interfaces(start);
+    EXPECT_EQ(mesh.smallest_angle_deg(), smallest_dihedral_deg(mesh.tetrahedra()));
   }
   EXPECT_TRUE(was_unfit);
 }
