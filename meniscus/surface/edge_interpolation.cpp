@@ -9,8 +9,7 @@ namespace meniscus {
 namespace {
 
 /// Least relative pivot of a fit. It is larger than elsewhere, so that a second ring takes over
-/// sooner. One ring at the usual 1e-3 makes layers in the film of a folded drop of 500 vertices
-/// wrong by 7.7e-3 instead of 4.2e-3.
+/// sooner.
 constexpr double kLeastStencilPivot = 1e-2;
 constexpr std::size_t kLeastRing = 6;  // five unknowns; a ring of five would leave noise undamped
 

@@ -20,6 +20,10 @@ TEST(OneRank, CallsWhatItIsGivenAndPassesOnWhatThatThrows) {
   int calls = 0;
   on_first_rank([&] { ++calls; });
   EXPECT_EQ(calls, 1);
+  on_first_and_last_rank([&] { calls *= 2; }, [&] { calls += 5; });
+  EXPECT_EQ(calls, 7);
+  EXPECT_THROW(on_first_and_last_rank([] {}, [] { throw RunFailure("no"); }), RunFailure);
+  EXPECT_EQ(text_of_first_rank("frame"), "frame");
   EXPECT_EQ(on_all_ranks([] { return 7; }), 7);
   EXPECT_THROW(on_first_rank([] { throw InvalidInput("no"); }), InvalidInput);
   EXPECT_THROW((void)on_all_ranks([]() -> int { throw RunFailure("no"); }), RunFailure);
