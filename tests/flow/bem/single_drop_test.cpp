@@ -121,7 +121,7 @@ double rate_error(int count, int l, double lambda) {
   return std::abs(rate / exact_rate(l, lambda) - 1.0);
 }
 
-// Measured: 1.8e-4, 3.8e-5, 1e-5 for l = 2 at N = 500, 1000, 2000 and λ = 0.1; 5.1e-4 for l = 3 at
+// Measured: 1.7e-4, 3.5e-5, 9e-6 for l = 2 at N = 500, 1000, 2000 and λ = 0.1; 5.0e-4 for l = 3 at
 // 500.
 TEST(SingleDrop, ModesRelaxAtTheExactRates) {
   for (const int l : {2, 3})
