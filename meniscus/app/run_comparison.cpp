@@ -74,12 +74,17 @@ std::optional<double> event_value(const RunTables& run, const std::string& colum
 /// its only abscissa.
 std::optional<double> signed_value(const CheckedQuantity& quantity, const RunTables& run) {
   if (quantity.event) return event_value(run, quantity.column, *quantity.event);
-  if (quantity.is_of_all_drops) return extreme(quantity, run.drops.column(quantity.column));
+  if (quantity.is_of_all_drops) {
+    std::vector<double> values = run.drops.column(quantity.column);
+    std::erase_if(values, [](double value) { return !std::isfinite(value); });
+    return extreme(quantity, values);
+  }
   const Series series = series_of(run, quantity);
   if (quantity.measure == Measure::curve) return value_at(series, quantity.at.at(0));
   return extreme(quantity, series.y);
 }
 
+/// The same, or its magnitude where that is asked for.
 std::optional<double> single_value(const CheckedQuantity& quantity, const RunTables& run) {
   const std::optional<double> value = signed_value(quantity, run);
   return value && quantity.is_magnitude ? std::abs(*value) : value;

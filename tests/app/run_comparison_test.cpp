@@ -109,6 +109,20 @@ TEST(RunComparison, TakesTheExtremeOverAllDropsAndTheMagnitude) {
   EXPECT_DOUBLE_EQ(magnitude.worst->measured, 2.0);
 }
 
+TEST(RunComparison, LeavesEmptyCellsOutOfTheExtremeOverAllDrops) {
+  RunTables run = made_run([](double t) { return 1.0 + t; });
+  for (std::size_t row : {0U, 7U}) run.drops.rows[row].back() = "";
+  CheckedQuantity q = quantity("D");
+  q.is_of_all_drops = true;
+  q.measure = Measure::largest;
+  q.reference = 4.0;
+  CheckFile check;
+  check.runs.assign(1, {"one", {}, false, {q}});
+  const CheckRow row = compare("a case", check, {{"one", run}}, std::nullopt).at(0);
+  ASSERT_TRUE(row.worst);
+  EXPECT_DOUBLE_EQ(row.worst->measured, 4.0);  // of drop 1 at t = 2
+}
+
 TEST(RunComparison, ReadsTheHistoryWhereDropsHaveNoSuchColumn) {
   CheckedQuantity q = quantity("min_gap");
   q.measure = Measure::smallest;
