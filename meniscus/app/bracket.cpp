@@ -24,26 +24,25 @@ bool Bracket::has(Verdict verdict) const {
 }
 
 std::optional<double> Bracket::nearest(Verdict verdict) const {
-  const auto is_at = [&](double value) {
-    const auto found = verdicts_.find(value);
-    return found != verdicts_.end() && found->second == verdict;
-  };
-  const bool is_at_from = is_at(bisection_.from), is_at_to = is_at(bisection_.to);
-  if (!is_at_from && !is_at_to) return std::nullopt;
-  if (is_at_from && is_at_to) return bisection_.to;
-  const double end = is_at_from ? bisection_.from : bisection_.to;
-  double nearest = end;
+  const auto near_end = verdicts_.find(bisection_.from);
+  if (near_end == verdicts_.end()) return std::nullopt;
+  const bool is_of_near_end = verdict == near_end->second;
+  const auto distance = [&](double value) { return std::abs(value - bisection_.from); };
+  std::optional<double> nearest;
   for (const auto& [value, each] : verdicts_)
-    if (each == verdict && std::abs(value - end) > std::abs(nearest - end)) nearest = value;
+    if (each == verdict && (!nearest || (distance(value) > distance(*nearest)) == is_of_near_end))
+      nearest = value;
   return nearest;
+}
+
+double Bracket::between(double a, double b) const {
+  return rounded(bisection_.is_logarithmic ? std::copysign(std::sqrt(a * b), a) : 0.5 * (a + b));
 }
 
 std::optional<double> Bracket::middle() const {
   const auto a = steady(), b = broken();
   if (!a || !b) return std::nullopt;
-  const double middle =
-      bisection_.is_logarithmic ? std::copysign(std::sqrt(*a * *b), *a) : 0.5 * (*a + *b);
-  return rounded(middle);
+  return between(*a, *b);
 }
 
 std::optional<double> Bracket::relative_width() const {
@@ -52,23 +51,29 @@ std::optional<double> Bracket::relative_width() const {
   return std::abs(*a - *b) / std::max(std::abs(*a), std::abs(*b));
 }
 
-std::vector<double> Bracket::wanted() const {
-  std::vector<double> wanted;
-  for (const double end : {bisection_.from, bisection_.to})
-    if (!verdicts_.contains(end)) wanted.push_back(end);
-  if (!wanted.empty() || result() != Result::open) return wanted;
-  return {*middle()};
+bool Bracket::is_far_end_due() const {
+  constexpr std::size_t kMostMiddles = 3;
+  return verdicts_.size() > kMostMiddles && (!steady() || !broken());
+}
+
+std::optional<double> Bracket::wanted() const {
+  if (result() != Result::open) return std::nullopt;
+  if (!verdicts_.contains(bisection_.from)) return bisection_.from;
+  if (is_far_end_due()) return bisection_.to;
+  const auto a = steady(), b = broken();
+  const double middle = between(a.value_or(bisection_.to), b.value_or(bisection_.to));
+  return verdicts_.contains(middle) ? bisection_.to : middle;
 }
 
 Bracket::Result Bracket::result() const {
   if (has(Verdict::failed)) return Result::failed;
-  if (!verdicts_.contains(bisection_.from) || !verdicts_.contains(bisection_.to))
-    return Result::open;
   if (has(Verdict::undecided)) return Result::undecided;
-  if (!broken()) return Result::all_steady;
-  if (!steady()) return Result::all_broken;
-  const bool is_narrow = *relative_width() <= bisection_.tolerance || verdicts_.contains(*middle());
-  return is_narrow ? Result::critical : Result::open;
+  if (const auto middle = this->middle()) {
+    const bool is_narrow = *relative_width() <= bisection_.tolerance || verdicts_.contains(*middle);
+    return is_narrow ? Result::critical : Result::open;
+  }
+  if (!verdicts_.contains(bisection_.to)) return Result::open;
+  return steady() ? Result::all_steady : Result::all_broken;
 }
 
 }  // namespace meniscus

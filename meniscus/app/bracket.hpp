@@ -19,27 +19,31 @@ enum class Verdict {
 
 /// The bracket of a critical value: the value nearest to it where drops become steady, and the one
 /// where they break. It follows from the verdicts alone, in whatever order they come.
+///
+/// The end `from` runs first and tells which verdict is on its side. The end `to` is often the
+/// costliest run of all, so it is taken to have the other one. It runs only where the first three
+/// middles agree with `from`.
 class Bracket {
  public:
   explicit Bracket(const StudyBisection& bisection) : bisection_(bisection) {}
 
   void add(double value, Verdict verdict) { verdicts_[value] = verdict; }
   [[nodiscard]] const std::map<double, Verdict>& verdicts() const { return verdicts_; }
-  /// The values to try next: the ends, then the middle of the bracket. Empty when the search ends.
-  [[nodiscard]] std::vector<double> wanted() const;
+  /// The value to try next: `from`, the middle of the bracket or `to`. None when the search ends.
+  [[nodiscard]] std::optional<double> wanted() const;
 
   enum class Result {
     open,        ///< values are still wanted
     critical,    ///< the bracket is narrow enough
-    all_steady,  ///< at both ends: there is no critical value between
+    all_steady,  ///< wherever tried, at both ends too: there is no critical value between
     all_broken,
     undecided,  ///< a run was undecided, which ends the search
     failed      ///< a run failed
   };
   [[nodiscard]] Result result() const;
 
-  /// The ends of the bracket, the values of each verdict nearest to the other. None where the
-  /// verdict is on neither end of the search; the end `to` where it is on both.
+  /// The ends of the bracket, the values of each verdict nearest to the other. None where none was
+  /// found; the end `to` where it has the verdict of `from`.
   [[nodiscard]] std::optional<double> steady() const { return nearest(Verdict::steady); }
   [[nodiscard]] std::optional<double> broken() const { return nearest(Verdict::broken); }
   /// The middle of a bracket with two ends.
@@ -50,6 +54,9 @@ class Bracket {
  private:
   [[nodiscard]] std::optional<double> nearest(Verdict verdict) const;
   [[nodiscard]] bool has(Verdict verdict) const;
+  /// Whether `to` is to run before the bracket is halved again.
+  [[nodiscard]] bool is_far_end_due() const;
+  [[nodiscard]] double between(double a, double b) const;
 
   StudyBisection bisection_;
   std::map<double, Verdict> verdicts_;

@@ -119,8 +119,8 @@ std::vector<StudyRun> Study::wanted() const {
       if (results_[i].runs.empty()) runs.push_back(folders_.run_at(i));
       continue;
     }
-    for (const double value : results_[i].bracket->wanted())
-      runs.push_back(folders_.run_at(i, value));
+    if (const auto value = results_[i].bracket->wanted())
+      runs.push_back(folders_.run_at(i, *value));
   }
   return runs;
 }

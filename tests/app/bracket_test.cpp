@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +12,6 @@ namespace {
 
 using Result = Bracket::Result;
 using testing::ElementsAre;
-using testing::IsEmpty;
 
 StudyBisection search(double from, double to, double tolerance = 0.01,
                       bool is_logarithmic = false) {
@@ -26,8 +26,7 @@ StudyBisection search(double from, double to, double tolerance = 0.01,
 /// Tries what is wanted until nothing is.
 Bracket finished(const StudyBisection& bisection, const std::function<Verdict(double)>& verdict) {
   Bracket bracket(bisection);
-  while (!bracket.wanted().empty())
-    for (const double value : bracket.wanted()) bracket.add(value, verdict(value));
+  while (const auto value = bracket.wanted()) bracket.add(*value, verdict(*value));
   return bracket;
 }
 
@@ -35,16 +34,36 @@ std::function<Verdict(double)> critical_at(double critical) {
   return [critical](double value) { return value < critical ? Verdict::steady : Verdict::broken; };
 }
 
-TEST(Bracket, BeginsWithBothEndsAndHalves) {
+std::vector<double> tried(const Bracket& bracket) {
+  std::vector<double> values;
+  for (const auto& [value, verdict] : bracket.verdicts()) values.push_back(value);
+  return values;
+}
+
+TEST(Bracket, BeginsWithTheEndFromAndHalves) {
   Bracket bracket(search(0.1, 0.2));
-  EXPECT_THAT(bracket.wanted(), ElementsAre(0.1, 0.2));
-  bracket.add(0.2, Verdict::broken);
-  EXPECT_THAT(bracket.wanted(), ElementsAre(0.1));
+  EXPECT_EQ(bracket.wanted(), 0.1);
   bracket.add(0.1, Verdict::steady);
-  EXPECT_THAT(bracket.wanted(), ElementsAre(0.15));
+  EXPECT_EQ(bracket.wanted(), 0.15);
+  EXPECT_FALSE(bracket.middle());  // none is known to break
   bracket.add(0.15, Verdict::broken);
-  EXPECT_THAT(bracket.wanted(), ElementsAre(0.125));
+  EXPECT_EQ(bracket.middle(), 0.125);
+  EXPECT_EQ(bracket.wanted(), 0.125);
   EXPECT_EQ(bracket.result(), Result::open);
+}
+
+TEST(Bracket, TriesTheEndToOnlyWhereThreeMiddlesAgreeWithFrom) {
+  EXPECT_THAT(tried(finished(search(0.0, 16.0, 0.2), critical_at(13.0))),
+              ElementsAre(0.0, 8.0, 12.0, 14.0));
+  EXPECT_THAT(tried(finished(search(0.0, 16.0, 0.2), critical_at(15.5))),
+              ElementsAre(0.0, 8.0, 12.0, 14.0, 16.0));
+  EXPECT_THAT(tried(finished(search(0.0, 16.0, 0.2), critical_at(17.0))),
+              ElementsAre(0.0, 8.0, 12.0, 14.0, 16.0));
+}
+
+TEST(Bracket, EndsAlsoWhereNoNumberOfSixDigitsLiesBetween) {
+  const Bracket bracket = finished(search(0.1, 0.1000001, 1e-4), critical_at(0.2));
+  EXPECT_EQ(bracket.result(), Result::all_steady);
 }
 
 TEST(Bracket, ClosesInOnTheCriticalValueFromEitherSide) {
@@ -70,7 +89,7 @@ TEST(Bracket, TheSearchOfRatiosHalvesThem) {
   Bracket bracket(search(0.01, 1.0, 0.01, true));
   bracket.add(0.01, Verdict::steady);
   bracket.add(1.0, Verdict::broken);
-  EXPECT_THAT(bracket.wanted(), ElementsAre(0.1));
+  EXPECT_EQ(bracket.wanted(), 0.1);
 }
 
 TEST(Bracket, EndsThatAgreeHaveNoCriticalValueBetween) {
@@ -93,17 +112,20 @@ TEST(Bracket, AnUndecidedOrFailedRunEndsTheSearchWithTheBracketSoFar) {
     EXPECT_EQ(bracket.result(), result);
     EXPECT_EQ(bracket.steady(), 0.1);
     EXPECT_EQ(bracket.broken(), 0.15);
-    EXPECT_THAT(bracket.wanted(), IsEmpty());
+    EXPECT_FALSE(bracket.wanted());
   }
 }
 
-TEST(Bracket, AFailedEndDoesNotKeepTheOtherFromItsRun) {
-  Bracket bracket(search(0.1, 0.2));
-  bracket.add(0.1, Verdict::failed);
-  EXPECT_THAT(bracket.wanted(), ElementsAre(0.2));
-  bracket.add(0.2, Verdict::broken);
-  EXPECT_THAT(bracket.wanted(), IsEmpty());
-  EXPECT_EQ(bracket.result(), Result::failed);
+TEST(Bracket, AnEndThatFailedOrIsUndecidedEndsTheSearch) {
+  for (const auto& [verdict, result] : {std::pair(Verdict::undecided, Result::undecided),
+                                        std::pair(Verdict::failed, Result::failed)}) {
+    Bracket bracket(search(0.1, 0.2));
+    bracket.add(0.1, verdict);
+    EXPECT_FALSE(bracket.wanted());
+    EXPECT_EQ(bracket.result(), result);
+    EXPECT_FALSE(bracket.steady());
+    EXPECT_FALSE(bracket.broken());
+  }
 }
 
 // The verdicts decide, not the order in which runs end.
