@@ -8,16 +8,7 @@
 #include "meniscus/surface/trust.hpp"
 
 namespace meniscus {
-namespace {
 
-double spline(const Eigen::Vector2d& d) {
-  const double squared = d.squaredNorm();
-  return squared * squared * squared * std::sqrt(squared);
-}
-
-}  // namespace
-
-/// Sets up [Φ P; Pᵀ 0], whose solutions are the weights of the vertices' levels at a point.
 SplinePatch::SplinePatch(const HeightPatch& axes, double half_sum, std::span<const Vec3> points,
                          Coordinates coordinates)
     : half_sum_(half_sum), coordinates_(coordinates) {
@@ -29,46 +20,28 @@ SplinePatch::SplinePatch(const HeightPatch& axes, double half_sum, std::span<con
     const Vec3 here(d.dot(axes.t1), d.dot(axes.t2), d.dot(axes.n));
     if (can_see(here)) local[seen++] = here;
   }
-  if (seen < kTerms) return;
+  if (seen < SplineEquations::kLeast) return;
   unit_ = local[seen - 1].norm();
   if (!(unit_ > 0.0)) return;  // all points in one place
   count_ = seen;
+  std::array<SplineEquations::Place, kMostPoints> places;
   for (std::size_t i = 0; i < count_; ++i) {
     const Vec3 flat = this->coordinates(local[i]);
-    at_[i] = flat.head<2>() / unit_;
+    places[i] = flat.head<2>() / unit_;
     levels_[i] = flat.z();
   }
-  equations_.reset(count_ + kTerms);
-  for (std::size_t i = 0; i < count_; ++i) {
-    for (std::size_t j = 0; j < i; ++j)
-      equations_(i, j) = equations_(j, i) = spline(at_[i] - at_[j]);
-    const std::array<double, kTerms> terms = terms_at(at_[i]);
-    for (std::size_t k = 0; k < kTerms; ++k)
-      equations_(i, count_ + k) = equations_(count_ + k, i) = terms[k];
-  }
-  equations_.factorize();
-}
-
-std::array<double, SplinePatch::kTerms> SplinePatch::terms_at(const Vec2& place) {
-  std::array<double, kTerms> terms{1.0};
-  const auto others = monomials<4>(place.x(), place.y());
-  std::ranges::copy(others, terms.begin() + 1);
-  return terms;
+  equations_.set(std::span(places).first(count_));
 }
 
 SplinePatch::Level SplinePatch::level(double u, double v) const {
   if (count_ == 0) return {};
-  const Vec2 here(u / unit_, v / unit_);
-  std::array<double, kMostPoints + kTerms> weights;
-  for (std::size_t i = 0; i < count_; ++i) weights[i] = spline(here - at_[i]);
-  std::ranges::copy(terms_at(here), weights.begin() + static_cast<std::ptrdiff_t>(count_));
-  equations_.solve(std::span(weights).first(count_ + kTerms));
+  std::array<double, kMostPoints> weights;
+  equations_.weights({u / unit_, v / unit_}, std::span(weights).first(count_));
   double amplification = 0.0, g = 0.0;
   for (std::size_t i = 0; i < count_; ++i) {
     amplification += std::abs(weights[i]);
     g += weights[i] * levels_[i];
   }
-  // A singular matrix leaves weights that are large or not numbers.
   if (!(amplification < 2.0 * kMostAmplification)) return {};
   return {g, trust(amplification, kMostAmplification)};
 }

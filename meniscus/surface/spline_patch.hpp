@@ -4,9 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "meniscus/surface/dense_equations.hpp"
 #include "meniscus/surface/height_patch.hpp"
-#include "meniscus/surface/polynomial_fit.hpp"
+#include "meniscus/surface/spline_equations.hpp"
 
 namespace meniscus {
 
@@ -47,13 +46,8 @@ class SplinePatch {
 
  private:
   // Vertices are taken in the order of their distance; more cost time and add nothing.
-  static constexpr std::size_t kMostPoints = 32;
-  static constexpr std::size_t kTerms = 1 + num_monomials(4);
-  static_assert(kMostPoints + kTerms <= DenseEquations::kMost);
-  using Vec2 = Eigen::Vector2d;
+  static constexpr std::size_t kMostPoints = SplineEquations::kMost;
 
-  /// 1 and the monomials up to degree four.
-  [[nodiscard]] static std::array<double, kTerms> terms_at(const Vec2& place);
   [[nodiscard]] double scale(double z) const;
   [[nodiscard]] bool can_see(const Vec3& point) const;
 
@@ -61,9 +55,8 @@ class SplinePatch {
   Coordinates coordinates_;
   double unit_ = 0.0;      // of length: the distance of the farthest vertex
   std::size_t count_ = 0;  // of the vertices
-  std::array<Vec2, kMostPoints> at_;
   std::array<double, kMostPoints> levels_;
-  DenseEquations equations_;
+  SplineEquations equations_;
 };
 
 /// The point above or below x, along the unit normal n there, of the spline through the vertices
