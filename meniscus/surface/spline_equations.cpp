@@ -97,8 +97,8 @@ MENISCUS_INLINE std::size_t largest(const Row& row, std::size_t from, std::size_
   return best;
 }
 
-/// P = L U. Row k of `terms` has monomial k at the places, and takes U_jk of the columns j ≤ k and
-/// column k of L from there on. Each column's largest entry comes to the diagonal.
+/// P = L U. Row k of `terms` has monomial k at the places. It takes U_jk, j ≤ k, up to the diagonal
+/// and L_ik, i > k, beyond. Each column's largest entry comes to the diagonal.
 MENISCUS_VECTOR_CLONES void eliminate(Row* terms, std::size_t count, std::size_t* order) {
   for (std::size_t k = 0; k < kFirst; ++k) {
     const std::size_t best = largest(terms[k], k, count);

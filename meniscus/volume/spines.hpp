@@ -28,9 +28,9 @@ class Spines {
   /// about the drop's centroid (decided by exact predicates).
   [[nodiscard]] bool exist() const { return exist_; }
 
-  /// The motion of the drop where the ray through x leaves it, at distance a from the centre, times
-  /// r/a inside and (b − r)/(b − a) outside. r is the distance of x and b that of the boundary:
-  /// whole at the drop, zero at the centre and at the boundary. (The printed ratio, (r − a)/(b −
+  /// The motion of the drop where the ray through x leaves it, times r/a inside and (b − r)/(b − a)
+  /// outside. Distances from the centre are a of the drop there, r of x and b of the boundary. The
+  /// factor is 1 at the drop, 0 at the centre and at the boundary. (The printed ratio, (r − a)/(b −
   /// a), is zero at the drop.)
   [[nodiscard]] Spine through(const Vec3& x) const;
 

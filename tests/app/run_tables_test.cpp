@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <regex>
 #include <sstream>
 #include <string>
 
@@ -54,20 +55,18 @@ io::Cell cell_of(const Columns& columns, const Row& row, const std::string& name
   return {};
 }
 
-/// The cells "| `name` | unit |" of the table under the heading of a file in docs/notation.md.
+/// The items "- `name`, `name` [unit]: meaning" below the heading of a file in docs/notation.md.
 NamesAndUnits explained(const std::string& file) {
   const std::string page = test::get(std::filesystem::path(MENISCUS_DOCS) / "notation.md");
   const std::size_t begin = page.find("### `" + file + "`");
   EXPECT_NE(begin, std::string::npos) << file;
   const std::string part = page.substr(begin, page.find("\n##", begin + 3) - begin);
+  const std::regex item("\n- (`[^`]+`(?:, `[^`]+`)*)(?: \\[([^\\]]+)\\])?"), name("`([^`]+)`");
   NamesAndUnits list;
-  for (std::size_t at = part.find("\n| `"); at != std::string::npos;
-       at = part.find("\n| `", at + 1)) {
-    const std::size_t name = at + 4, name_end = part.find('`', name), unit = name_end + 4,
-                      unit_end = part.find('|', unit);
-    std::string text = part.substr(unit, unit_end - unit);
-    text.erase(text.find_last_not_of(' ') + 1);
-    list.emplace_back(part.substr(name, name_end - name), text);
+  for (std::sregex_iterator at(part.begin(), part.end(), item), end; at != end; ++at) {
+    const std::string names = (*at)[1], unit = (*at)[2];
+    for (std::sregex_iterator each(names.begin(), names.end(), name); each != end; ++each)
+      list.emplace_back((*each)[1], unit);
   }
   return list;
 }
@@ -81,7 +80,7 @@ TEST(RunTables, AreExplainedColumnByColumnInTheNotation) {
   std::vector<std::string> names;
   for (const auto& [name, unit] : explained("timing.csv")) names.push_back(name);
   EXPECT_EQ(names, timing_columns(false));
-  names.emplace_back("scalars");  // explained below the table
+  names.emplace_back("scalars");  // explained below the list
   EXPECT_EQ(names, timing_columns(true));
 }
 

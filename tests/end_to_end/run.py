@@ -30,15 +30,16 @@ OF_INERTIA = {"kinetic_energy", "kinetic_rate", "transfer_momentum_lost", "trans
 
 
 def documented_columns(root):
-    """The columns of each file in docs/notation.md: first cells of the table below its heading."""
+    """The columns of each file in docs/notation.md: names that begin the items below its heading."""
     columns, file = {}, None
     for line in (root / "docs/notation.md").read_text(encoding="utf-8").splitlines():
         heading = re.match(r"#+ (?:`(\w+\.csv)`)?", line)
         if heading:
             file = heading[1]
-        name = re.match(r"\| `(\w+)`", line)
-        if file and name and name[1] not in OF_INERTIA:
-            columns.setdefault(file, []).append(name[1])
+        names = re.match(r"- (`\w+`(?:, `\w+`)*)", line)
+        if file and names:
+            columns.setdefault(file, []).extend(
+                name for name in re.findall(r"\w+", names[1]) if name not in OF_INERTIA)
     return columns
 
 

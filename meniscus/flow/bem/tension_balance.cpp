@@ -10,8 +10,8 @@ using Face = InterfaceElements::Face;
 /// ε over the root of a vertex's area, about an edge: where nodes are the sources of the far field.
 constexpr double kSpread = 2.0;
 
-/// ∫ ∇_s(σ φ_a) dS at the nodes of a face: the pull of tension, and that of its gradient, which the
-/// Marangoni layer takes away, added again.
+/// ∫ ∇_s(σ φ_a) dS at the nodes of a face: the pull of tension and that of its gradient. The
+/// Marangoni layer takes the latter away.
 NodeVectors pulls(const Face& face, const NodeValues& tension) {
   NodeVectors pulls;
   pulls.fill(Vec3::Zero());

@@ -23,7 +23,7 @@ struct Range {
   std::size_t begin, end;
 };
 
-/// Has matrices made of a few batches at a time, so that they stay in the cache, and used: calls
+/// Makes and uses the matrices of a few batches at a time, so that they stay in the cache. Calls
 /// `set(range, matrices)`, then `use(cell, matrices, lane)` for each of these cells.
 template <class Matrices, class Set, class Use>
 void with_matrices(std::size_t num_batches, const std::vector<CellId>& cells, Set set, Use use) {

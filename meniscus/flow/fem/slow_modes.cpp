@@ -98,7 +98,7 @@ void add_pressure_slopes(const StokesProblem& problem, RegionId region,
 }
 
 /// Whether the matrix's viscosity holds a region in a long implicit stage: ρR²/τ ≤ 10 μ_out for the
-/// region and the matrix, R being the radius of the sphere of the region's volume.
+/// region and the matrix. R is the radius of the sphere of the region's volume.
 bool is_held_by_matrix(const StokesProblem& problem, RegionId region) {
   constexpr double kOutweighs = 10.0;
   if (!problem.inertia) return false;
