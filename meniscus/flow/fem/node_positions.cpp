@@ -90,9 +90,9 @@ class CurvedCells {
     return cells;
   }
 
-  /// Bends the straight edges beside curved ones by half of these edges' displacement d. Away from
-  /// a curved edge the displacement 4 Σ λ_i λ_j d_ij is then d(1 − s²), s rising from 0 at the edge
-  /// to 1 at the opposite corner. Beside straight edges it is d(1 − s)².
+  /// Bends the straight edges beside curved ones by half of these edges' displacement d. Let s rise
+  /// from 0 at a curved edge to 1 at the opposite corner. Then the displacement 4 Σ λ_i λ_j d_ij is
+  /// d(1 − s²); beside straight edges it is d(1 − s)².
   bool bend(CellId c) {
     const auto of_cell = edges(c);
     bool has_bent = false;
