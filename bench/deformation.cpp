@@ -1,4 +1,4 @@
-// The deformation test of leveque1996 and enright2002 at full length (docs/surface-remeshing.md).
+// The deformation test of leveque1996 and enright2002 (docs/surface-remeshing.md).
 //
 //     deformation PERIOD N0 [EDGE_FLOOR [STEP [EQUILIBRIUM]]]
 #include "tests/surface/deformation.hpp"

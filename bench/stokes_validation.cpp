@@ -1,5 +1,5 @@
-// Prints the tables of docs/validation-stokes.md: a few minutes on one core. With the argument
-// P2-P1 and values of N0 (110 200 400), that of the quadratic elements alone.
+// Prints what the tables of docs/validation-stokes.md are made of: a few minutes on one core. With
+// the argument P2-P1 and values of N0 (110 200 400), that of the quadratic elements alone.
 
 #include <array>
 #include <cstdlib>

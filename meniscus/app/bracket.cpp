@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "meniscus/core/error.hpp"
-
 namespace meniscus {
 
 const char* word_for(Verdict verdict) {
@@ -45,24 +43,27 @@ std::optional<double> Bracket::middle() const {
   return between(*a, *b);
 }
 
+double Bracket::width(double a, double b) {
+  return std::abs(a - b) / std::max(std::abs(a), std::abs(b));
+}
+
 std::optional<double> Bracket::relative_width() const {
   const auto a = steady(), b = broken();
   if (!a || !b) return std::nullopt;
-  return std::abs(*a - *b) / std::max(std::abs(*a), std::abs(*b));
-}
-
-bool Bracket::is_far_end_due() const {
-  constexpr std::size_t kMostMiddles = 3;
-  return verdicts_.size() > kMostMiddles && (!steady() || !broken());
+  return width(*a, *b);
 }
 
 std::optional<double> Bracket::wanted() const {
+  constexpr std::size_t kMostMiddles = 3;
   if (result() != Result::open) return std::nullopt;
   if (!verdicts_.contains(bisection_.from)) return bisection_.from;
-  if (is_far_end_due()) return bisection_.to;
-  const auto a = steady(), b = broken();
-  const double middle = between(a.value_or(bisection_.to), b.value_or(bisection_.to));
-  return verdicts_.contains(middle) ? bisection_.to : middle;
+  if (const auto middle = this->middle()) return middle;
+  // All agree with `from` so far.
+  const double last = steady() ? *steady() : *broken(), middle = between(last, bisection_.to);
+  const bool is_far_end_due = verdicts_.size() > kMostMiddles ||
+                              width(last, bisection_.to) <= bisection_.tolerance ||
+                              verdicts_.contains(middle);
+  return is_far_end_due ? bisection_.to : middle;
 }
 
 Bracket::Result Bracket::result() const {

@@ -3,7 +3,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "meniscus/case/study_file.hpp"
 
@@ -22,7 +21,7 @@ enum class Verdict {
 ///
 /// The end `from` runs first and tells which verdict is on its side. The end `to` is often the
 /// costliest run of all, so it is taken to have the other one. It runs only where the first three
-/// middles agree with `from`.
+/// middles agree with `from`, or where none is left to try.
 class Bracket {
  public:
   explicit Bracket(const StudyBisection& bisection) : bisection_(bisection) {}
@@ -54,9 +53,8 @@ class Bracket {
  private:
   [[nodiscard]] std::optional<double> nearest(Verdict verdict) const;
   [[nodiscard]] bool has(Verdict verdict) const;
-  /// Whether `to` is to run before the bracket is halved again.
-  [[nodiscard]] bool is_far_end_due() const;
   [[nodiscard]] double between(double a, double b) const;
+  [[nodiscard]] static double width(double a, double b);
 
   StudyBisection bisection_;
   std::map<double, Verdict> verdicts_;

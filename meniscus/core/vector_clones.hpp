@@ -12,8 +12,3 @@
 
 /// A function that is compiled into each clone of its caller.
 #define MENISCUS_INLINE [[gnu::always_inline]] inline
-
-// GCC 12 takes elements of vectors that are set one by one for uninitialised.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif

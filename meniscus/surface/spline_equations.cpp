@@ -20,6 +20,7 @@ constexpr std::size_t kFirst = SplineEquations::kLeast;  // position of the firs
 constexpr std::size_t kLanes = 4;
 using Lanes [[gnu::vector_size(8 * kLanes), gnu::may_alias]] = double;
 constexpr std::size_t kBlocks = kMost / kLanes;
+static_assert(kMost % kLanes == 0 && alignof(Row) >= alignof(Lanes));
 constexpr std::size_t block_of(std::size_t position) { return position / kLanes; }
 constexpr std::size_t kFirstBlock = block_of(kFirst);
 
@@ -53,9 +54,13 @@ MENISCUS_INLINE double product(const Row& a, const Row& b, std::size_t from, std
 }
 
 /// φ(r) = r⁷ − q(r²) at the distances of x from all places, from a block on. Here q(s) is the
-/// polynomial of degree four through s^(7/2) at Chebyshev's nodes of 0 < s < 4, r_k². Monomials of
-/// places x and y in q(|x − y|²) have degree four or less in one of them, so that Zᵀ annihilates
-/// them. While r⁷ comes to 128, φ is below 0.035; its factors keep its last digits.
+/// polynomial of degree four through s^(7/2) at Chebyshev's nodes of 0 < s < 4, r_k². While r⁷
+/// comes to 128 in the unit disc, φ is below 0.035, and its factors lose no digits to cancellation.
+///
+/// The weights do not depend on q. A monomial of places x, y in q(|x − y|²) has degree four or less
+/// in one of them. Of Zᵀ q Z it is annihilated from that side. On the right side, Zᵀ(φ(x) − Φ w)
+/// for dependent weights w, degrees above four in the place come with three or less in x, where w
+/// is exact.
 MENISCUS_INLINE void set_kernel(double x_u, double x_v, const Row& u, const Row& v,
                                 std::size_t from, Row& kernel) {
   constexpr double k1 = 1.9753766811902754, k2 = 1.7820130483767357, k3 = 1.4142135623730950,
@@ -144,30 +149,36 @@ MENISCUS_VECTOR_CLONES void reduce(const Row& u, const Row& v, const Row* depend
   }
 }
 
+/// What `SplineEquations` holds.
+struct Factors {
+  const Row &u, &v;
+  const Row *eliminated, *dependence, *reduced;
+  std::size_t count;
+};
+
 /// Weights by position. `terms`: p(x).
-MENISCUS_VECTOR_CLONES void solve(double x_u, double x_v, const double* terms, const Row& u,
-                                  const Row& v, const Row* eliminated, const Row* dependence,
-                                  const Row* reduced, std::size_t count, Row& weights) {
+MENISCUS_VECTOR_CLONES void solve(const Factors& of, double x_u, double x_v, const double* terms,
+                                  Row& weights) {
   Row right, q{}, fixed{}, y{};
   weights = {};
-  set_kernel(x_u, x_v, u, v, 0, right);
+  set_kernel(x_u, x_v, of.u, of.v, 0, right);
   // The dependent weights where all others are zero: Uᵀ q = p, L1ᵀ w = q.
   for (std::size_t k = 0; k < kFirst; ++k)
-    q.at[k] = (terms[k] - product(eliminated[k], q, 0, k)) / eliminated[k].at[k];
+    q.at[k] = (terms[k] - product(of.eliminated[k], q, 0, k)) / of.eliminated[k].at[k];
   for (std::size_t k = kFirst; k-- > 0;)
-    fixed.at[k] = q.at[k] - product(eliminated[k], fixed, k, kFirst - 1);
+    fixed.at[k] = q.at[k] - product(of.eliminated[k], fixed, k, kFirst - 1);
   subtract_all<kFirstBlock>(
-      right, [&](std::size_t k) { return right.at[k]; }, dependence);
-  for (std::size_t i = kFirst; i < count; ++i)
-    right.at[i] -= product(reduced[i], fixed, 0, kFirst - 1);
-  for (std::size_t k = kFirst; k < count; ++k) {
+      right, [&](std::size_t k) { return right.at[k]; }, of.dependence);
+  for (std::size_t i = kFirst; i < of.count; ++i)
+    right.at[i] -= product(of.reduced[i], fixed, 0, kFirst - 1);
+  for (std::size_t k = kFirst; k < of.count; ++k) {
     y.at[k] = right.at[k];
-    subtract(right, y.at[k] / reduced[k].at[k], reduced[k], block_of(k));
+    subtract(right, y.at[k] / of.reduced[k].at[k], of.reduced[k], block_of(k));
   }
-  for (std::size_t i = count; i-- > kFirst;)
-    weights.at[i] = (y.at[i] - product(reduced[i], weights, i, kMost - 1)) / reduced[i].at[i];
+  for (std::size_t i = of.count; i-- > kFirst;)
+    weights.at[i] = (y.at[i] - product(of.reduced[i], weights, i, kMost - 1)) / of.reduced[i].at[i];
   for (std::size_t k = 0; k < kFirst; ++k)
-    weights.at[k] = fixed.at[k] - product(dependence[k], weights, kFirst, kMost - 1);
+    weights.at[k] = fixed.at[k] - product(of.dependence[k], weights, kFirst, kMost - 1);
 }
 
 }  // namespace
@@ -176,16 +187,20 @@ void SplineEquations::set(std::span<const Place> places) {
   MENISCUS_ASSERT(kLeast <= places.size() && places.size() <= kMost, "{} places", places.size());
   count_ = places.size();
   std::iota(order_.begin(), order_.end(), std::size_t{0});
+  double largest = 0.0;
+  for (const Place& place : places) largest = std::max(largest, place.norm());
+  scale_ = largest > 0.0 ? 1.0 / largest : 1.0;
   eliminated_ = {};
   for (std::size_t i = 0; i < count_; ++i) {
-    const std::array<double, kFirst> terms = terms_at(places[i].x(), places[i].y());
+    const std::array<double, kFirst> terms =
+        terms_at(scale_ * places[i].x(), scale_ * places[i].y());
     for (std::size_t k = 0; k < kFirst; ++k) eliminated_[k].at[i] = terms[k];
   }
   eliminate(eliminated_.data(), count_, order_.data());
   u_ = v_ = {};
   for (std::size_t i = 0; i < count_; ++i) {
-    u_.at[i] = places[order_[i]].x();
-    v_.at[i] = places[order_[i]].y();
+    u_.at[i] = scale_ * places[order_[i]].x();
+    v_.at[i] = scale_ * places[order_[i]].y();
   }
   set_dependence(eliminated_.data(), dependence_.data());
   reduced_ = {};
@@ -194,9 +209,10 @@ void SplineEquations::set(std::span<const Place> places) {
 
 void SplineEquations::weights(const Place& x, std::span<double> weights) const {
   MENISCUS_ASSERT(weights.size() == count_, "{} weights of {} places", weights.size(), count_);
+  const double u = scale_ * x.x(), v = scale_ * x.y();
   Row found;
-  solve(x.x(), x.y(), terms_at(x.x(), x.y()).data(), u_, v_, eliminated_.data(), dependence_.data(),
-        reduced_.data(), count_, found);
+  solve({u_, v_, eliminated_.data(), dependence_.data(), reduced_.data(), count_}, u, v,
+        terms_at(u, v).data(), found);
   for (std::size_t i = 0; i < count_; ++i) weights[order_[i]] = found.at[i];
 }
 

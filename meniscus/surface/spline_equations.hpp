@@ -17,12 +17,14 @@ namespace meniscus {
 ///
 ///   [Φ P; Pᵀ 0] [w; λ] = [φ(x); p(x)],   Φ_ij = |x_i − x_j|⁷,  φ_i = |x − x_i|⁷,
 ///
-/// P having the 15 monomials at the places. They are found in the null space of Pᵀ (Benzi, Golub &
-/// Liesen 2005, §6). Elimination with pivoting takes 15 places whose weights follow from those of
-/// the others. There Φ is positive definite, since r⁷ is conditionally so of order four. Splines
-/// set up thousands of such systems in a step; this takes 0.6 of the time of eliminating the whole
-/// matrix. Places that do not determine the polynomial, or coincide, leave weights that are large
-/// or not numbers.
+/// P having the 15 monomials at the places. They are found in the null space of Pᵀ (§6 of
+/// benzi2005): elimination with pivoting takes 15 places whose weights follow from those of the
+/// others. On the null space Φ is positive definite, since r⁷ is conditionally so of order four.
+/// Splines set up thousands of such systems in a step; this takes 0.6 of the time of eliminating
+/// the whole matrix.
+///
+/// Where places do not determine the polynomial at x, or coincide, weights are large or not
+/// numbers.
 class SplineEquations {
  public:
   using Place = Eigen::Vector2d;
@@ -40,6 +42,7 @@ class SplineEquations {
 
  private:
   std::size_t count_ = 0;
+  double scale_ = 1.0;                      // takes the places into the unit disc
   std::array<std::size_t, kMost> order_{};  // number of the place in each position
   Row u_, v_;
   std::array<Row, kLeast> eliminated_;  // P = L U: Uᵀ up to the diagonal, Lᵀ beyond

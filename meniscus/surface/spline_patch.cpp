@@ -27,7 +27,7 @@ SplinePatch::SplinePatch(const HeightPatch& axes, double half_sum, std::span<con
   std::array<SplineEquations::Place, kMostPoints> places;
   for (std::size_t i = 0; i < count_; ++i) {
     const Vec3 flat = this->coordinates(local[i]);
-    places[i] = flat.head<2>() / unit_;
+    places[i] = flat.head<2>();
     levels_[i] = flat.z();
   }
   equations_.set(std::span(places).first(count_));
@@ -36,7 +36,7 @@ SplinePatch::SplinePatch(const HeightPatch& axes, double half_sum, std::span<con
 SplinePatch::Level SplinePatch::level(double u, double v) const {
   if (count_ == 0) return {};
   std::array<double, kMostPoints> weights;
-  equations_.weights({u / unit_, v / unit_}, std::span(weights).first(count_));
+  equations_.weights({u, v}, std::span(weights).first(count_));
   double amplification = 0.0, g = 0.0;
   for (std::size_t i = 0; i < count_; ++i) {
     amplification += std::abs(weights[i]);

@@ -59,6 +59,16 @@ TEST(Bracket, TriesTheEndToOnlyWhereThreeMiddlesAgreeWithFrom) {
               ElementsAre(0.0, 8.0, 12.0, 14.0, 16.0));
   EXPECT_THAT(tried(finished(search(0.0, 16.0, 0.2), critical_at(17.0))),
               ElementsAre(0.0, 8.0, 12.0, 14.0, 16.0));
+  // From large values down to small ones.
+  EXPECT_THAT(tried(finished(search(16.0, 0.5, 0.1), critical_at(0.1))),
+              ElementsAre(0.5, 2.4375, 4.375, 8.25, 16.0));
+}
+
+TEST(Bracket, TriesTheEndToOnceTheBracketIsNarrow) {
+  EXPECT_THAT(tried(finished(search(0.05, 0.2, 0.3), critical_at(0.19))),
+              ElementsAre(0.05, 0.125, 0.1625, 0.2));
+  EXPECT_THAT(tried(finished(search(0.12, 0.121, 0.01), critical_at(0.1205))),
+              ElementsAre(0.12, 0.121));
 }
 
 TEST(Bracket, EndsAlsoWhereNoNumberOfSixDigitsLiesBetween) {

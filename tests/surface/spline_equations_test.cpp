@@ -35,7 +35,8 @@ Eigen::VectorXd terms_at(const Place& x) {
   return terms;
 }
 
-/// The weights by elimination of the whole matrix with full pivoting, in numbers of 64 bits.
+/// The weights by elimination of the whole matrix with full pivoting, in numbers with 64 bits of
+/// significand.
 Eigen::VectorXd weights_of_the_whole_matrix(const Place& x, std::span<const Place> places) {
   using Real = long double;
   using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
@@ -71,6 +72,18 @@ TEST(SplineEquations, HaveTheWeightsOfTheWholeMatrix) {
   }
 }
 
+TEST(SplineEquations, HaveTheSameWeightsAtAnyScale) {
+  const std::vector<Place> places = random_places(SplineEquations::kMost, 5);
+  const Place x(0.1, 0.2);
+  const std::vector<double> expected = weights_at(x, places);
+  for (const double scale : {1e-6, 0.1, 3.0, 1e6}) {
+    std::vector<Place> scaled = places;
+    for (Place& place : scaled) place *= scale;
+    const std::vector<double> found = weights_at(scale * x, scaled);
+    for (std::size_t i = 0; i < places.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-9);
+  }
+}
+
 TEST(SplineEquations, ReproducePolynomialsOfDegreeFour) {
   const std::vector<Place> places = random_places(SplineEquations::kMost, 1);
   const Place x(0.2, -0.35);
@@ -99,6 +112,9 @@ TEST(SplineEquations, GiveUpOnPlacesThatDoNotDetermineThem) {
   std::vector<Place> on_a_circle = random_places(30, 4);
   for (Place& place : on_a_circle) place.normalize();
   EXPECT_TRUE(is_given_up(on_a_circle));
+  std::vector<Place> twice = random_places(30, 5);
+  twice[3] = twice[17];
+  EXPECT_TRUE(is_given_up(twice));
 }
 
 }  // namespace

@@ -8,6 +8,11 @@
 #include "meniscus/core/vector_clones.hpp"
 #include "meniscus/geometry/quadrature.hpp"
 
+// GCC 12 takes elements of vectors that are set one by one for uninitialised.
+#ifndef __clang__
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+
 namespace meniscus::fem::lanes {
 
 /// As many as AVX2 has room for. Vectors of eight would go through memory there, at half the speed.
