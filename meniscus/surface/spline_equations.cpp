@@ -58,9 +58,9 @@ MENISCUS_INLINE double product(const Row& a, const Row& b, std::size_t from, std
 /// comes to 128 in the unit disc, φ is below 0.035, and its factors lose no digits to cancellation.
 ///
 /// The weights do not depend on q. A monomial of places x, y in q(|x − y|²) has degree four or less
-/// in one of them. Of Zᵀ q Z it is annihilated from that side. On the right side, Zᵀ(φ(x) − Φ w)
-/// for dependent weights w, degrees above four in the place come with three or less in x, where w
-/// is exact.
+/// in one of them. Of Zᵀ q Z it is annihilated from that side. The right side is Zᵀ(φ(x) − Φ w), w
+/// the dependent weights. There degrees above four in the place come with three or less in x, where
+/// w is exact.
 MENISCUS_INLINE void set_kernel(double x_u, double x_v, const Row& u, const Row& v,
                                 std::size_t from, Row& kernel) {
   constexpr double k1 = 1.9753766811902754, k2 = 1.7820130483767357, k3 = 1.4142135623730950,

@@ -18,7 +18,7 @@ namespace meniscus {
 ///   [Φ P; Pᵀ 0] [w; λ] = [φ(x); p(x)],   Φ_ij = |x_i − x_j|⁷,  φ_i = |x − x_i|⁷,
 ///
 /// P having the 15 monomials at the places. They are found in the null space of Pᵀ (§6 of
-/// benzi2005): elimination with pivoting takes 15 places whose weights follow from those of the
+/// benzi2005). Elimination with pivoting takes 15 places; their weights follow from those of the
 /// others. On the null space Φ is positive definite, since r⁷ is conditionally so of order four.
 /// Splines set up thousands of such systems in a step; this takes 0.6 of the time of eliminating
 /// the whole matrix.
