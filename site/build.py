@@ -2,7 +2,8 @@
 """Builds the site: the pages of the repository by MkDocs, the C++ interface by Doxygen.
 
     site/build.py OUTPUT
-    site/build.py --check     only looks whether every link of a page leads somewhere
+    site/build.py --check [ROOT]   only looks whether every link of a page leads somewhere, in the
+                                   repository or in pages that are installed
 
 Every page keeps its place, so that links between pages stay as they are. A file that a page links
 to is copied beside it. Nothing is fetched, and the site loads nothing from elsewhere.
@@ -35,11 +36,11 @@ TABS = {
 }
 
 
-def pages():
+def pages(root=ROOT):
     """All pages, by their paths from the root."""
     patterns = ["*.md", "docs/*.md", "docs/tutorial/*.md", "cases/*.md", "cases/*/*.md",
                 "benchmark/*.md"]
-    return sorted({p.relative_to(ROOT) for pattern in patterns for p in ROOT.glob(pattern)})
+    return sorted({p.relative_to(root) for pattern in patterns for p in root.glob(pattern)})
 
 
 def title_of(page):
@@ -61,23 +62,23 @@ def slug(heading):
 
 
 def places(page):
-    text = re.sub(r"^```.*?^```", "", (ROOT / page).read_text(), flags=re.S | re.M)
+    text = re.sub(r"^```.*?^```", "", page.read_text(), flags=re.S | re.M)
     return {slug(heading) for heading in re.findall(r"^#+ (.*)$", text, flags=re.M)}
 
 
-def dead_links():
+def dead_links(root):
     """One line for each link of a page that leads nowhere."""
     dead = []
-    for page in pages():
-        text = re.sub(r"^```.*?^```|`[^`\n]*`", "", (ROOT / page).read_text(), flags=re.S | re.M)
+    for page in pages(root):
+        text = re.sub(r"^```.*?^```|`[^`\n]*`", "", (root / page).read_text(), flags=re.S | re.M)
         for _, _, to, anchor in re.findall(r"(!?)\[([^\]]*)\]\(([^)\s#]*)(#[^)\s]*)?\)", text):
             if re.match(r"[a-z]+:", to):
                 continue
-            linked = (ROOT / page.parent / to).resolve() if to else ROOT / page
-            if not linked.is_relative_to(ROOT) or not linked.exists():
+            linked = (root / page.parent / to).resolve() if to else root / page
+            if not linked.is_relative_to(root) or not linked.exists():
                 dead.append(f"{page}: {to} does not exist")
             elif anchor and linked.suffix == ".md" and \
-                    anchor[1:] not in places(linked.relative_to(ROOT)):
+                    anchor[1:] not in places(linked):
                 dead.append(f"{page}: {to}{anchor}: no such heading")
     return dead
 
@@ -206,10 +207,13 @@ def build(output):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
+    if len(sys.argv) != 2 and sys.argv[1:2] != ["--check"]:
         sys.exit(__doc__)
     if sys.argv[1] == "--check":
-        dead = dead_links()
-        print("\n".join(dead) if dead else f"{len(pages())} pages: every link leads somewhere")
+        root = pathlib.Path(sys.argv[2]).resolve() if len(sys.argv) > 2 else ROOT
+        dead = dead_links(root)
+        if not pages(root):
+            sys.exit(f"{root}: no pages")
+        print("\n".join(dead) if dead else f"{len(pages(root))} pages: every link leads somewhere")
         sys.exit(1 if dead else 0)
     build(pathlib.Path(sys.argv[1]).resolve())

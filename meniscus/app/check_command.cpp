@@ -9,6 +9,7 @@
 #include "meniscus/app/commands.hpp"
 #include "meniscus/app/output_file.hpp"
 #include "meniscus/app/run_comparison.hpp"
+#include "meniscus/app/shipped_docs.hpp"
 #include "meniscus/case/case.hpp"
 #include "meniscus/case/check_file.hpp"
 #include "meniscus/core/error.hpp"
@@ -54,11 +55,18 @@ fs::path case_folder(const std::string& name, const fs::path& cases) {
                is_benchmark(name) ? "; to use the benchmark, give --against FILE.csv" : "");
 }
 
+/// The folder of the cases: the one given, else cases/ here, else the one shipped with the program.
+fs::path cases_of(const CheckArguments& arguments) {
+  if (!arguments.cases.empty()) return arguments.cases;
+  const fs::path here = "cases", shipped = shipped_docs() / here;
+  return !fs::exists(here) && fs::exists(shipped) ? shipped : here;
+}
+
 std::vector<fs::path> chosen_cases(const CheckArguments& arguments) {
-  if (arguments.is_all) return all_cases(arguments.cases);
+  const fs::path cases = cases_of(arguments);
+  if (arguments.is_all) return all_cases(cases);
   std::vector<fs::path> folders;
-  for (const std::string& name : arguments.directories)
-    folders.push_back(case_folder(name, arguments.cases));
+  for (const std::string& name : arguments.directories) folders.push_back(case_folder(name, cases));
   if (folders.empty()) reject_input("check: name the folder of a case, or give --all");
   return folders;
 }

@@ -157,7 +157,8 @@ void add_check(CLI::App& app, Action& action) {
                           "Folder of a case (case.toml and check.toml), or its name in --cases, "
                           "or, with --against, the name of a benchmark");
   command->add_flag("--all", arguments->is_all, "Every case below --cases")->excludes(directories);
-  command->add_option("--cases", arguments->cases, "Folder of the cases [cases]");
+  command->add_option("--cases", arguments->cases,
+                      "Folder of the cases [cases, else those installed]");
   command->add_option("-o,--output", arguments->output,
                       "Folder for the runs and check.html [out/check]; with --against, a .csv for "
                       "the differences [none]");

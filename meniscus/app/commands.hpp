@@ -79,8 +79,8 @@ int compare_command(const CompareArguments& arguments);
 
 struct CheckArguments {
   std::vector<std::string> directories;
-  std::string cases = "cases";  ///< where --all and bare names look
-  std::string output;           ///< runs, and check.html [out/check]; with `against` a table [none]
+  std::string cases;   ///< where --all and bare names look [cases/ here, else those shipped]
+  std::string output;  ///< runs, and check.html [out/check]; with `against` a table [none]
   bool is_all = false;
   bool is_short = false;          ///< only the runs marked short
   bool is_once = false;           ///< also the runs marked once

@@ -47,6 +47,8 @@ class Study {
 
 /// study.csv: one row for each point whose runs are done, in the order of the axes.
 [[nodiscard]] std::string study_table(const Study& study);
+/// What the bisections of a study came to, one line for each point that is complete.
+[[nodiscard]] std::vector<std::string> study_outcomes(const Study& study);
 /// The page of a study: curves against the axes, shapes at the end, links to the runs.
 [[nodiscard]] report::StudyPage study_page(const Study& study);
 

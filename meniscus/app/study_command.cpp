@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "meniscus/app/folder_lock.hpp"
+#include "meniscus/app/shipped_docs.hpp"
 #include "meniscus/app/slurm_workers.hpp"
 #include "meniscus/app/study.hpp"
 #include "meniscus/case/study_file.hpp"
@@ -24,6 +25,14 @@ constexpr const char *kTable = "study.csv", *kPage = "study.html";
 fs::path output_of(const StudyArguments& arguments) {
   return arguments.output.empty() ? fs::path(arguments.study_file).stem()
                                   : fs::path(arguments.output);
+}
+
+/// Throws InvalidInput where there is no such file, with the place of the shipped one.
+void require_study_file(const fs::path& file) {
+  if (fs::exists(file)) return;
+  const fs::path shipped = shipped_docs() / file;
+  reject_input("{}: no such file{}", file.string(),
+               fs::exists(shipped) ? "; there is " + shipped.string() : "");
 }
 
 std::unique_ptr<StudyWorkers> make_workers(const StudyArguments& arguments,
@@ -44,6 +53,7 @@ void write_results(const Study& study) {
 }  // namespace
 
 int study_command(const StudyArguments& arguments) {
+  require_study_file(arguments.study_file);
   if (arguments.jobs && *arguments.jobs < 1)
     reject_input("--jobs {}: must be 1 or more", *arguments.jobs);
   const StudyFile file = read_study_file(arguments.study_file);
@@ -69,6 +79,8 @@ int study_command(const StudyArguments& arguments) {
   write_results(study);
   report::write_study_page(study_page(study), output / kPage);
   const int failed = study.num_failed();
+  if (is_done)
+    for (const std::string& line : study_outcomes(study)) say(line);
   if (!is_done)
     say(stopping_words(*workers));
   else

@@ -123,6 +123,33 @@ Cells row_of(const Study& study, std::size_t i) {
   return row;
 }
 
+/// "viscosity-ratio = 0.5, nodes = 60", without the axis `left_out`.
+std::string label_of(const Study& study, std::size_t point, std::optional<std::size_t> left_out) {
+  std::vector<std::string> parts;
+  const StudyFile& file = study.folders().study();
+  for (std::size_t k = 0; k < file.axes.size(); ++k)
+    if (k != left_out)
+      parts.push_back(fmt::format("{} = {}", schema::leaf(file.axes[k].key),
+                                  plain(study.folders().points()[point][k])));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// What a bisection came to: "critical capillary-number 0.41445: steady at 0.4107, broken at
+/// 0.4182".
+std::string outcome_of(const StudyPointResult& point, const std::string& key) {
+  const Bracket& bracket = *point.bracket;
+  if (bracket.result() != Bracket::Result::critical)
+    return fmt::format("{}: {}", word_for(bracket.result()), reason_of(point));
+  return fmt::format("critical {} {:.5g}: steady at {}, broken at {}", schema::leaf(key),
+                     *bracket.middle(), *bracket.steady(), *bracket.broken());
+}
+
+std::string line_of(const Study& study, std::size_t point) {
+  const std::string label = label_of(study, point, std::nullopt);
+  return fmt::format("{}{}{}", label, label.empty() ? "" : ": ",
+                     outcome_of(study.results()[point], study.folders().study().bisection->key));
+}
+
 std::string head_of(const Study& study) {
   const StudyFile& file = study.folders().study();
   std::string key;
@@ -192,7 +219,7 @@ class PointCurves {
     is_log_ = file.axes[axis].is_logarithmic;
     x_label_ = is_log_ ? fmt::format("log₁₀ {}", file.axes[axis].key) : file.axes[axis].key;
     for (std::size_t i = 0; i < study.results().size(); ++i) {
-      const std::string label = label_of(i);
+      const std::string label = label_of(study, i, axis);
       auto group = std::ranges::find(groups_, label, &Group::label);
       if (group == groups_.end()) group = groups_.insert(groups_.end(), {label, {}});
       group->points.push_back(i);
@@ -230,15 +257,6 @@ class PointCurves {
   [[nodiscard]] double x_of(std::size_t i) const {
     const double x = *number(study_.folders().points()[i][axis_]);
     return is_log_ ? std::log10(x) : x;
-  }
-  [[nodiscard]] std::string label_of(std::size_t i) const {
-    std::vector<std::string> parts;
-    const StudyFile& file = study_.folders().study();
-    for (std::size_t k = 0; k < file.axes.size(); ++k)
-      if (k != axis_)
-        parts.push_back(fmt::format("{} = {}", schema::leaf(file.axes[k].key),
-                                    plain(study_.folders().points()[i][k])));
-    return fmt::format("{}", fmt::join(parts, ", "));
   }
 
   const Study& study_;
@@ -312,6 +330,14 @@ std::string study_table(const Study& study) {
   for (std::size_t i = 0; i < study.results().size(); ++i)
     if (is_complete(study.results()[i])) text += io::csv_line(row_of(study, i));
   return text;
+}
+
+std::vector<std::string> study_outcomes(const Study& study) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < study.results().size(); ++i)
+    if (const StudyPointResult& point = study.results()[i]; point.bracket && is_complete(point))
+      lines.push_back(line_of(study, i));
+  return lines;
 }
 
 report::StudyPage study_page(const Study& study) {

@@ -11,6 +11,15 @@ namespace {
 using Shape = DomainCase::Shape;
 using Condition = PatchCase::Condition;
 
+/// [R0] With [scale]: ten times the farthest walls that have a use.
+constexpr double kLargestDomain = 1000.0;
+
+double read_length(Settings& settings, const std::string& path) {
+  const double length = settings.number(path);
+  settings.require_metres(path, length, kLargestDomain);
+  return length;
+}
+
 void read_size(Settings& settings, DomainCase& domain) {
   switch (domain.shape) {
     case Shape::file:
@@ -20,13 +29,13 @@ void read_size(Settings& settings, DomainCase& domain) {
     case Shape::box:
       domain.half_widths = settings.is_given("domain.half-widths")
                                ? settings.vector("domain.half-widths")
-                               : Vec3::Constant(settings.number("domain.half-width")).eval();
+                               : Vec3::Constant(read_length(settings, "domain.half-width")).eval();
       break;
     case Shape::cylinder:
-      domain.half_length = settings.number("domain.half-length");
+      domain.half_length = read_length(settings, "domain.half-length");
       [[fallthrough]];
     case Shape::sphere:
-      domain.radius = settings.number("domain.radius");
+      domain.radius = read_length(settings, "domain.radius");
       break;
     case Shape::unbounded:
       return;

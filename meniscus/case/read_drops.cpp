@@ -8,8 +8,18 @@
 namespace meniscus {
 namespace {
 
+/// [R0] With [scale]: R0 is the size of a drop.
+constexpr double kLargestDrop = 100.0;
+
+double read_radius(Settings& settings, const std::string& path) {
+  const double radius = settings.number(path);
+  settings.require_metres(path, radius, kLargestDrop);
+  return radius;
+}
+
 Vec3 read_axes(Settings& settings, const std::string& path) {
   Vec3 axes = settings.vector(path);
+  settings.require_metres(path, axes.minCoeff(), kLargestDrop);
   // The number of vertices grows as N0 times the ratio of axes. Threads in experiments are up to
   // some 300 times longer than wide.
   constexpr double kLargestRatio = 1000.0;
@@ -36,7 +46,7 @@ DropShapeCase read_shape(Settings& settings, const std::string& table) {
     reject_input("{}: {} needs one of radius, axes, surface, from-run", settings.source(table),
                  schema::without_indices(table));
   const std::string_view kind = schema::leaf(found);
-  if (kind == "radius") return BallShape{settings.number(found)};
+  if (kind == "radius") return BallShape{read_radius(settings, found)};
   if (kind == "axes") return EllipsoidShape{read_axes(settings, found)};
   if (kind == "surface") return FileShape{settings.file(found), settings.flag(table + ".repair")};
   RunShape shape{settings.file(found), std::nullopt};

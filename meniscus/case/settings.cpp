@@ -80,6 +80,12 @@ std::string Settings::text(const std::string& path) {
 Vec3 Settings::vector(const std::string& path) { return std::get<Vec3>(dimensionless_value(path)); }
 Mat3 Settings::matrix(const std::string& path) { return std::get<Mat3>(dimensionless_value(path)); }
 
+void Settings::require_metres(const std::string& path, double largest, double most) const {
+  if (scale_ && largest > most)
+    reject(path, "must be at most {} times scale.length = {}: with [scale] lengths are in metres",
+           most, scale_->length);
+}
+
 std::optional<std::string> Settings::word_or_vector(const std::string& path) {
   const Value& own = own_value(path);
   if (const auto* word = std::get_if<std::string>(&own)) return *word;

@@ -63,6 +63,10 @@ class Settings {
     if (!is_given(path)) used_[path] = value;
   }
 
+  /// Throws InvalidInput, with [scale], where a length of `largest` R0 is above `most`: it was not
+  /// given in metres.
+  void require_metres(const std::string& path, double largest, double most) const;
+
   void set_scale(const Scale& scale) { scale_ = scale; }
   [[nodiscard]] const std::optional<Scale>& scale() const { return scale_; }
 

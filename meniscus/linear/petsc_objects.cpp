@@ -1,7 +1,11 @@
 #include "meniscus/linear/petsc_objects.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -30,6 +34,40 @@ void petsc_check(PetscErrorCode code, const char* function) {
                                  specific != nullptr ? specific : ""));
 }
 
+namespace {
+
+/// Whether mpirun, or another launcher, started this process as one of its ranks.
+bool is_launched() {
+  return std::ranges::any_of(std::array{"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"},
+                             [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
+/// Open MPI's settings for a process without a launcher, while MPI starts. No daemon is started,
+/// no network is probed: 0.3 s, and 5 s where the host's name is not known. What the user has set
+/// stays; processes started from here inherit nothing.
+class SettingsAlone {
+ public:
+  SettingsAlone() {
+    if (is_launched()) return;
+    for (const auto& [name, value] :
+         {std::pair{"OMPI_MCA_ess_singleton_isolated", "1"}, std::pair{"OMPI_MCA_pml", "ob1"}})
+      if (std::getenv(name) == nullptr) {
+        setenv(name, value, 0);
+        names_.push_back(name);
+      }
+  }
+  ~SettingsAlone() {
+    for (const char* name : names_) unsetenv(name);
+  }
+  SettingsAlone(const SettingsAlone&) = delete;
+  SettingsAlone& operator=(const SettingsAlone&) = delete;
+
+ private:
+  std::vector<const char*> names_;
+};
+
+}  // namespace
+
 void start_petsc() {
   PetscBool is_running = PETSC_FALSE;
   petsc_check(PetscInitialized(&is_running), "PetscInitialized");
@@ -41,11 +79,16 @@ void start_petsc() {
   setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
   // Most messages of one multigrid level are then sent eagerly, without a handshake.
   setenv("OMPI_MCA_btl_vader_eager_limit", "65536", 0);
+  // Where /sys is not mounted, hwloc says so; nothing depends on it.
+  setenv("HWLOC_HIDE_ERRORS", "2", 0);
   // With threads Scotch's partitions are not reproducible.
   setenv("SCOTCH_PTHREAD_NUMBER", "1", 1);
   petsc_check(PetscOptionsSetValue(nullptr, "-no_signal_handler", "true"), "PetscOptionsSetValue");
   petsc_check(PetscOptionsSetValue(nullptr, "-skip_petscrc", "true"), "PetscOptionsSetValue");
-  petsc_check(PetscInitializeNoArguments(), "PetscInitializeNoArguments");
+  {
+    const SettingsAlone alone;
+    petsc_check(PetscInitializeNoArguments(), "PetscInitializeNoArguments");
+  }
   petsc_check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr), "PetscPushErrorHandler");
   if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
   std::atexit(stop_petsc);

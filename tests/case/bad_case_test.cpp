@@ -261,8 +261,18 @@ const std::vector<BadCase> kMeaning{
      "case.toml:8: domain.patch.tag has no effect here: it applies with domain.surface"},
     {"incomplete scale", shear_with("[scale]\nlength = 1e-3\n"),
      "case.toml:6: scale.viscosity is missing"},
+    {"a radius in R0 with a scale",
+     "[flow]\nkind = \"simple-shear\"\n[scale]\nlength = 1e-3\nviscosity = 1.0\n"
+     "surface-tension = 0.01\nrate = 1.0\n[[drop]]\nradius = 1.0\n",
+     "case.toml:9: drop.radius = 1.0 must be at most 100 times scale.length = 0.001: with [scale] "
+     "lengths are in metres"},
+    {"a domain in R0 with a scale",
+     "[flow]\nkind = \"simple-shear\"\n[scale]\nlength = 1e-4\nviscosity = 1.0\n"
+     "surface-tension = 0.01\nrate = 1.0\n[domain]\nhalf-width = 10.0\n[[drop]]\nradius = 1e-4\n",
+     "case.toml:9: domain.half-width = 10.0 must be at most 1000 times scale.length = 0.0001: with "
+     "[scale] lengths are in metres"},
     {"scale and Ca",
-     shear_with("[scale]\nlength = 1e-3\nviscosity = 1.0\nsurface-tension = 0.01\nrate = 1.0\n"),
+     shear_with("[scale]\nlength = 1\nviscosity = 1.0\nsurface-tension = 0.01\nrate = 1.0\n"),
      "case.toml:3: flow.capillary-number has no effect here: it applies without [scale]"},
     {"missing surface file", "[flow]\nkind = \"quiescent\"\n[[drop]]\nsurface = \"none.stl\"\n",
      "case.toml:4: drop.surface = \"none.stl\" does not exist"},

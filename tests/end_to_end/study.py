@@ -181,13 +181,14 @@ def check_bisection(program, work):
     process = study(program, file, one)
     kill_when(process, lambda: len(checkpoints(one)) > 3, "the bisection")
     check_that_runs_ended(one)
-    finish(study(program, file, one), "a bisection, killed", 0)
+    said = finish(study(program, file, one), "a bisection, killed", 0)
     finish(study(program, file, two, "--jobs", "2"), "a bisection, two jobs", 0)
     same_bytes(one, two, "a bisection")
     row = rows(one)[0]
     check(row["outcome"] == "critical" and row["ended"] == "steady", f"not a bracket: {row}")
     steady, broken = (float(row[f"{side} flow.capillary-number"]) for side in ("steady", "broken"))
     check(0.05 <= steady < broken <= 0.2 and float(row["width"]) <= 0.3, f"not a bracket: {row}")
+    check(f": steady at {steady}, broken at {broken}\n" in said, f"it does not say what it found\n{said}")
 
 
 def check_interrupt(program, work):

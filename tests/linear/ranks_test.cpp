@@ -1,4 +1,6 @@
 // Run under mpirun too, on two and three ranks (tests/CMakeLists.txt): every rank does every test.
+#include <cstdlib>
+
 #include <gtest/gtest.h>
 
 #include "meniscus/linear/collective.hpp"
@@ -11,6 +13,11 @@ namespace meniscus::linear {
 namespace {
 
 Communicator world() { return Communicator::world(); }
+
+TEST(RanksStart, LeavesNoSettingOfOneProcessInTheEnvironment) {
+  (void)world();
+  EXPECT_EQ(std::getenv("OMPI_MCA_ess_singleton_isolated"), nullptr);
+}
 
 /// The nodes of a chain that a rank has: as even as they can be.
 struct Stretch {

@@ -1,6 +1,7 @@
 # Installs the build into a folder of its own, then configures, builds and runs the consumer against it,
 # and of the lessons of examples/programs, which are a project as well, the one that links most rooms.
 #   cmake -DBUILD=<build tree> -DWORK=<folder to use> -DSOURCE=<this folder>
+#     -DPYTHON3=<any interpreter>
 #     [-DPYTHON=<interpreter> -DPYTHON_DIR=<where the package lies below the prefix>] -P run.cmake
 function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
@@ -17,6 +18,8 @@ file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 build(${SOURCE} ${WORK}/build consumer)
 run(${WORK}/prefix/bin/meniscus --version)
+run(${WORK}/prefix/bin/meniscus check uniaxial-extension --recorded)
+run(${PYTHON3} -B ${SOURCE}/../../site/build.py --check ${WORK}/prefix/share/doc/meniscus)
 if(PYTHON)
   run(${CMAKE_COMMAND} -E env PYTHONPATH=${WORK}/prefix/${PYTHON_DIR} PYTHONDONTWRITEBYTECODE=1 ${PYTHON} -c
       "import meniscus; print(meniscus.__file__, meniscus.explain('drop.nodes'))")
