@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numeric>
+#include <optional>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -88,17 +88,61 @@ vtkNew<vtkPolyData> to_poly_data(std::span<const SurfaceMesh* const> surfaces,
   return poly;
 }
 
-/// Values at the vertices, given to every corner of every cell.
-NamedArray spread_to_corners(const TetMesh& mesh, const NamedArray& array) {
-  MENISCUS_ASSERT(array.values.size() == static_cast<std::size_t>(mesh.num_vertices()) *
-                                             static_cast<std::size_t>(array.components),
-                  "array {} has {} values", array.name, array.values.size());
-  NamedArray result{.name = array.name, .components = array.components, .values = {}};
-  for (const CellVertices& cell : mesh.cells) {
+/// The points of a volume mesh's file: its vertices, then one for each further set of values that
+/// the corners at a vertex have, such as the pressures on the two sides of an interface.
+struct CornerPoints {
+  std::vector<TetVertexId> vertex;      ///< of every point
+  std::vector<std::size_t> corner;      ///< 4 c + k of one of its corners
+  std::vector<std::int32_t> of_corner;  ///< the point of corner 4 c + k
+};
+
+bool has_same_values(std::span<const NamedArray> on_corners, std::size_t a, std::size_t b) {
+  return std::ranges::all_of(on_corners, [&](const NamedArray& array) {
+    const auto size = static_cast<std::size_t>(array.components);
+    return std::equal(array.values.begin() + std::ptrdiff_t(size * a),
+                      array.values.begin() + std::ptrdiff_t(size * (a + 1)),
+                      array.values.begin() + std::ptrdiff_t(size * b));
+  });
+}
+
+CornerPoints corner_points(const TetMesh& mesh, std::span<const NamedArray> on_corners) {
+  constexpr std::int32_t kNone = -1;
+  const auto vertices = mesh.x.ids();
+  CornerPoints points{.vertex{vertices.begin(), vertices.end()}, .corner{}, .of_corner{}};
+  std::vector<std::optional<std::size_t>> corner(points.vertex.size());
+  std::vector<std::int32_t> next(points.vertex.size(), kNone);  // point of the same vertex
+  for (const CellVertices& cell : mesh.cells)
     for (const TetVertexId v : cell) {
-      const auto first = array.values.begin() + std::ptrdiff_t{v.value} * array.components;
-      result.values.insert(result.values.end(), first, first + array.components);
+      const std::size_t own = points.of_corner.size();
+      auto point = static_cast<std::size_t>(v.value);
+      while (corner[point] && !has_same_values(on_corners, *corner[point], own)) {
+        if (next[point] == kNone) {
+          next[point] = static_cast<std::int32_t>(corner.size());
+          points.vertex.push_back(v);
+          corner.emplace_back();
+          next.push_back(kNone);
+        }
+        point = static_cast<std::size_t>(next[point]);
+      }
+      if (!corner[point]) corner[point] = own;
+      points.of_corner.push_back(static_cast<std::int32_t>(point));
     }
+  for (const std::optional<std::size_t>& each : corner) points.corner.push_back(each.value_or(0));
+  return points;
+}
+
+/// The values at points of an array on `num_elements` vertices or corners.
+template <class ElementOfPoint>
+NamedArray at_points(const NamedArray& array, std::size_t num_elements, std::size_t num_points,
+                     const ElementOfPoint& element_of) {
+  const auto size = static_cast<std::size_t>(array.components);
+  MENISCUS_ASSERT(array.values.size() == num_elements * size, "array {} has {} values for {}",
+                  array.name, array.values.size(), num_elements);
+  NamedArray result{.name = array.name, .components = array.components, .values = {}};
+  result.values.reserve(size * num_points);
+  for (std::size_t point = 0; point < num_points; ++point) {
+    const auto from = array.values.begin() + std::ptrdiff_t(size * element_of(point));
+    result.values.insert(result.values.end(), from, from + array.components);
   }
   return result;
 }
@@ -127,20 +171,13 @@ GridBuilder grid_of(std::span<const SurfaceMesh* const> surfaces, const CurvedEd
   return grid;
 }
 
-/// The cells; with corners of their own, point 4 c + k is corner k of cell c.
-GridBuilder grid_of(const TetMesh& mesh, bool has_own_corners, const CurvedEdges& curved) {
-  GridBuilder grid(curved, static_cast<std::size_t>(has_own_corners ? 4 * mesh.num_cells()
-                                                                    : mesh.num_vertices()));
-  if (!has_own_corners)
-    for (const Vec3& x : mesh.x) grid.add_point(x);
+GridBuilder grid_of(const TetMesh& mesh, const CornerPoints& points, const CurvedEdges& curved) {
+  GridBuilder grid(curved, points.vertex.size());
+  for (const TetVertexId v : points.vertex) grid.add_point(mesh.x[v]);
   for (const CellId c : mesh.cells.ids()) {
-    const auto vertices = numbers(mesh.cells[c]);
-    std::array<vtkIdType, 4> corners{vertices[0], vertices[1], vertices[2], vertices[3]};
-    if (has_own_corners) {
-      for (const TetVertexId v : mesh.cells[c]) grid.add_point(mesh.x[v]);
-      std::iota(corners.begin(), corners.end(), vtkIdType{4} * c.value);
-    }
-    grid.add_cell(vertices, corners);
+    std::array<vtkIdType, 4> corners{};
+    std::copy_n(points.of_corner.begin() + std::ptrdiff_t{4} * c.value, 4, corners.begin());
+    grid.add_cell(numbers(mesh.cells[c]), corners);
   }
   return grid;
 }
@@ -174,13 +211,17 @@ void write_surface_vtu(const fs::path& path, std::span<const SurfaceMesh* const>
 
 void write_vtu(const fs::path& path, const TetMesh& mesh, const MeshData& data, double t,
                std::span<const NamedArray> on_corners, const CurvedEdges& curved) {
-  const bool has_own_corners = !on_corners.empty();
-  std::vector<NamedArray> at_corner_points = data.on_vertices;
-  if (has_own_corners) {
-    for (NamedArray& array : at_corner_points) array = spread_to_corners(mesh, array);
-    at_corner_points.insert(at_corner_points.end(), on_corners.begin(), on_corners.end());
-  }
-  write_grid(path, grid_of(mesh, has_own_corners, curved), at_corner_points, data.on_cells, t);
+  const CornerPoints points = corner_points(mesh, on_corners);
+  const std::size_t num_points = points.vertex.size();
+  std::vector<NamedArray> arrays;
+  for (const NamedArray& array : data.on_vertices)
+    arrays.push_back(at_points(array, mesh.x.span().size(), num_points, [&](std::size_t i) {
+      return static_cast<std::size_t>(points.vertex[i].value);
+    }));
+  for (const NamedArray& array : on_corners)
+    arrays.push_back(at_points(array, points.of_corner.size(), num_points,
+                               [&](std::size_t i) { return points.corner[i]; }));
+  write_grid(path, grid_of(mesh, points, curved), arrays, data.on_cells, t);
 }
 
 }  // namespace meniscus::io

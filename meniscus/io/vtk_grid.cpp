@@ -7,9 +7,10 @@
 namespace meniscus::io {
 namespace {
 
-template <class T>
-std::pair<T, T> ascending(T a, T b) {
-  return {std::min(a, b), std::max(a, b)};
+/// One number for two points, in whatever order.
+std::uint64_t key(vtkIdType a, vtkIdType b) {
+  return (static_cast<std::uint64_t>(std::min(a, b)) << 32) |
+         static_cast<std::uint64_t>(std::max(a, b));
 }
 
 }  // namespace
@@ -19,19 +20,19 @@ GridBuilder::GridBuilder(const CurvedEdges& curved, std::size_t num_corner_point
   MENISCUS_ASSERT(curved.middles.size() == curved.ends.size(), "{} middles of {} edges",
                   curved.middles.size(), curved.ends.size());
   for (std::size_t e = 0; e < curved.ends.size(); ++e)
-    edges_.emplace(ascending(curved.ends[e][0], curved.ends[e][1]), e);
+    edges_.emplace(key(curved.ends[e][0], curved.ends[e][1]), e);
   points_.reserve(num_corner_points);
   cells_->Use32BitStorage();  // ids of ours have 32 bits
 }
 
 std::optional<std::size_t> GridBuilder::curved_edge(std::int32_t a, std::int32_t b) const {
-  const auto found = edges_.find(ascending(a, b));
+  const auto found = edges_.find(key(a, b));
   return found == edges_.end() ? std::nullopt : std::optional(found->second);
 }
 
 vtkIdType GridBuilder::middle(vtkIdType a, vtkIdType b, std::optional<std::size_t> edge) {
   const auto next = static_cast<vtkIdType>(num_corner_points_ + middles_.size());
-  const auto [found, is_new] = middle_points_.try_emplace(ascending(a, b), next);
+  const auto [found, is_new] = middle_points_.try_emplace(key(a, b), next);
   if (is_new) middles_.push_back({a, b, edge});
   return found->second;
 }

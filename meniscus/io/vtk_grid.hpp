@@ -2,9 +2,8 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
-#include <utility>
+#include <unordered_map>
 #include <vector>
 
 #include <vtkCellArray.h>
@@ -62,10 +61,10 @@ class GridBuilder {
 
   const CurvedEdges& curved_;
   std::size_t num_corner_points_;
-  std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> edges_;  // by ascending vertices
-  std::vector<Vec3> points_;                                            // of corners
+  std::unordered_map<std::uint64_t, std::size_t> edges_;  // by vertices
+  std::vector<Vec3> points_;                              // of corners
   std::vector<Middle> middles_;
-  std::map<std::pair<vtkIdType, vtkIdType>, vtkIdType> middle_points_;  // by ascending ends
+  std::unordered_map<std::uint64_t, vtkIdType> middle_points_;  // by the points at the ends
   vtkNew<vtkCellArray> cells_;
   vtkNew<vtkUnsignedCharArray> types_;
 };

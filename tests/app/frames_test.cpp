@@ -145,7 +145,7 @@ TEST(SurfaceFrame, FieldsOpenInVtksOwnReader) {
                 values(a.on_faces[0], b.on_faces[0]));
 }
 
-// Points are corners of cells there: the pressure jumps.
+// The two sides of an interface have points of their own there: the pressure jumps.
 TEST(VolumeFrame, FieldsOpenInVtksOwnReader) {
   Evolution evolution = at_rest(kTwoDrops + kLinear);
   put_numbers(evolution);
@@ -157,10 +157,21 @@ TEST(VolumeFrame, FieldsOpenInVtksOwnReader) {
   const VolumeFields& fields = evolution.state().mesh->fields();
   const auto& dye = fields.on_cells[0].values;
   expect_values(reader->GetOutput()->GetCellData()->GetArray("dye"), {dye.begin(), dye.end()});
-  std::vector<double> at_corners;
-  for (const CellVertices& cell : evolution.state().mesh->tetrahedra().cells)
-    for (const TetVertexId v : cell) at_corners.push_back(fields.on_vertices[0].values[v]);
-  expect_values(reader->GetOutput()->GetPointData()->GetArray("warmth"), at_corners);
+  const TetMesh& mesh = evolution.state().mesh->tetrahedra();
+  const std::vector<double>& pressure = evolution.flow().bulk->corner_pressure;
+  vtkUnstructuredGrid& grid = *reader->GetOutput();
+  std::int32_t on_interfaces = 0;
+  for (const Interface& interface : evolution.scene().interfaces)
+    on_interfaces += interface.mesh.num_vertices();
+  EXPECT_EQ(grid.GetNumberOfPoints(), mesh.num_vertices() + on_interfaces);
+  for (const CellId c : mesh.cells.ids())
+    for (int k = 0; k < 4; ++k) {
+      const vtkIdType point = grid.GetCell(c.value)->GetPointId(k);
+      EXPECT_EQ(grid.GetPointData()->GetArray("warmth")->GetComponent(point, 0),
+                fields.on_vertices[0].values[mesh.cells[c][static_cast<std::size_t>(k)]]);
+      EXPECT_EQ(grid.GetPointData()->GetArray("pressure")->GetComponent(point, 0),
+                pressure[static_cast<std::size_t>(4 * c.value + k)]);
+    }
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> grid_of(const std::filesystem::path& file) {
