@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdlib>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -42,27 +42,35 @@ bool is_launched() {
                              [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
-/// Open MPI's settings for a process without a launcher, while MPI starts. No daemon is started,
-/// no network is probed: 0.3 s, and 5 s where the host's name is not known. What the user has set
-/// stays; processes started from here inherit nothing.
-class SettingsAlone {
+/// Whether mpirun says that all ranks share this machine.
+bool is_on_one_machine() {
+  const char *all = std::getenv("OMPI_COMM_WORLD_SIZE"),
+             *here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+  return all != nullptr && here != nullptr && std::string_view(all) == here;
+}
+
+/// Settings of Open MPI while it starts. Where no other machine takes part no network is probed,
+/// and a process without a launcher starts no daemon. This saves 0.3 s, and 5 s where the host's
+/// name is not known. What the user has set stays; processes started from here inherit nothing.
+class StartSettings {
  public:
-  SettingsAlone() {
-    if (is_launched()) return;
-    for (const auto& [name, value] :
-         {std::pair{"OMPI_MCA_ess_singleton_isolated", "1"}, std::pair{"OMPI_MCA_pml", "ob1"}})
-      if (std::getenv(name) == nullptr) {
-        setenv(name, value, 0);
-        names_.push_back(name);
-      }
+  StartSettings() {
+    if (!is_launched()) set("OMPI_MCA_ess_singleton_isolated", "1");
+    if (!is_launched() || is_on_one_machine()) set("OMPI_MCA_pml", "ob1");
   }
-  ~SettingsAlone() {
+  ~StartSettings() {
     for (const char* name : names_) unsetenv(name);
   }
-  SettingsAlone(const SettingsAlone&) = delete;
-  SettingsAlone& operator=(const SettingsAlone&) = delete;
+  StartSettings(const StartSettings&) = delete;
+  StartSettings& operator=(const StartSettings&) = delete;
 
  private:
+  void set(const char* name, const char* value) {
+    if (std::getenv(name) != nullptr) return;
+    setenv(name, value, 0);
+    names_.push_back(name);
+  }
+
   std::vector<const char*> names_;
 };
 
@@ -86,7 +94,7 @@ void start_petsc() {
   petsc_check(PetscOptionsSetValue(nullptr, "-no_signal_handler", "true"), "PetscOptionsSetValue");
   petsc_check(PetscOptionsSetValue(nullptr, "-skip_petscrc", "true"), "PetscOptionsSetValue");
   {
-    const SettingsAlone alone;
+    const StartSettings settings;
     petsc_check(PetscInitializeNoArguments(), "PetscInitializeNoArguments");
   }
   petsc_check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr), "PetscPushErrorHandler");
