@@ -65,10 +65,11 @@ def unbounded_length(case, run):
 
 
 def gap(case, run):
-    """Smallest gap less its limit: with 1/N0² from the two finest runs of boundary integrals, which make no marks."""
+    """Smallest gap less its limit: with 1/N0² from the two finest runs of boundary integrals with layers in the gap."""
+    layers = "boundary-integral-two-layers-in-the-gap-n0-"
     smallest, coarse, fine = (min(float(row["min_gap"]) for row in rows(f"{case}/results/{name}-history.csv"))
-                              for name in (run, "boundary-integral-n0-260", "boundary-integral-n0-400"))
-    return smallest - (fine + (fine - coarse) / ((400 / 260)**2 - 1.0))
+                              for name in (run, f"{layers}162", f"{layers}260"))
+    return smallest - (fine + (fine - coarse) / ((260 / 162)**2 - 1.0))
 
 
 def mean_radius(case, run):
@@ -106,7 +107,7 @@ FIGURES = {
         (QUADRATIC, WIDTH, runs("p2-p1-n0-*", 110)),
         (WEAK, WIDTH, runs("weak-n0-*", 110, 220))]),
     "two-drops": ("error of the smallest gap [% of R0]", [
-        (BOUNDARY, gap, runs("boundary-integral-n0-*", 59, 162)),
+        (BOUNDARY, gap, runs("boundary-integral-two-layers-in-the-gap-n0-*", 110, 162, 260)),
         (QUADRATIC, gap, runs("p2-p1-walls-at-100-n0-*", 59, 110, 162)),
         (NODAL, gap, runs("walls-at-100-n0-*", 162))]),
     "small-deformation": ("error of D from second moments [%]", [
