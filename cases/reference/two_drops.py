@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The table of benchmark/two-drops.csv, without its header: t,dx,dy,min_gap of the recorded run of cases/two-drops by boundary
-integrals with N0 = 400, and how far that with N0 = 260 is from it.
+integrals with N0 = 400 and two layers in the gap, and how far that with N0 = 260 is from it.
 
     two_drops.py            # the table to standard output, the largest differences to standard error
 """
@@ -20,10 +20,10 @@ def rows(name):
 def curves(nodes):
     """Rows (t, dx, dy, min_gap): offset of the centroid of drop 0 from that of drop 1, and the gap, by time."""
     centres = {}
-    for row in rows(f"boundary-integral-n0-{nodes}-drops.csv"):
+    for row in rows(f"boundary-integral-two-layers-in-the-gap-n0-{nodes}-drops.csv"):
         centres[row["step"], row["drop"]] = float(row["x"]), float(row["y"])
     table = []
-    for row in rows(f"boundary-integral-n0-{nodes}-history.csv"):
+    for row in rows(f"boundary-integral-two-layers-in-the-gap-n0-{nodes}-history.csv"):
         one, other = centres[row["step"], "0"], centres[row["step"], "1"]
         table.append((float(row["t"]), one[0] - other[0], one[1] - other[1], float(row["min_gap"])))
     return table

@@ -29,6 +29,8 @@ void write_still_pictures(const fs::path& folder, StillFormat format,
 int report_command(const ReportArguments& arguments) {
   require_run(arguments.directory);
   const fs::path folder(arguments.directory);
+  if (!arguments.times.empty() && !arguments.is_svg && !arguments.is_png)
+    reject_input("--times is for stills: give --svg or --png too");
   if (arguments.is_svg) write_still_pictures(folder, StillFormat::svg, arguments.times);
   if (arguments.is_png) write_still_pictures(folder, StillFormat::png, arguments.times);
   if (arguments.is_movie) {

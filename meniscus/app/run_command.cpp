@@ -86,7 +86,8 @@ int run(const RunArguments& arguments) {
   const fs::path file(arguments.case_file);
   const Case c = shared_case(read_case(file, arguments.overrides));
   const std::string text = io::read_file(file);
-  Scene scene = build_scene(c);
+  std::vector<std::string> warnings;
+  Scene scene = build_scene(c, logged_and_kept(warnings));
   const fs::path folder = arguments.output.empty() ? file.stem() : fs::path(arguments.output);
   require_usable(folder, arguments.is_overwrite);
   Evolution evolution = begun_evolution(c, std::move(scene));
@@ -100,7 +101,8 @@ int run(const RunArguments& arguments) {
                         case_description(c, file.parent_path()));
   simulation.stop_when(c.stop);
   Progress progress(0.0, c.evolution.end, arguments.is_quiet);
-  return simulate(simulation, RunRecord(c, arguments.case_file, text), progress, view.get());
+  return simulate(simulation, RunRecord(c, arguments.case_file, text, warnings), progress,
+                  view.get());
 }
 
 int resume(const ResumeArguments& arguments) {

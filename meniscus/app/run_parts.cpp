@@ -55,6 +55,13 @@ Case shared_case(Case c) {
   return c;
 }
 
+WarningListener logged_and_kept(std::vector<std::string>& warnings) {
+  return [&warnings](const std::string& text) {
+    log_warning(text);
+    warnings.push_back(text);
+  };
+}
+
 Evolution begun_evolution(const Case& c, Scene scene) {
   Evolution evolution = make_evolution(c, std::move(scene));
   if (const Report prepared = evolution.prepare(); !prepared.ok())

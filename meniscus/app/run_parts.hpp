@@ -19,6 +19,9 @@ namespace meniscus {
 /// The case with evolution and either flow solver shared by all ranks.
 [[nodiscard]] Case shared_case(Case c);
 
+/// Writes warnings to the log and adds them to `warnings`, for run.json.
+[[nodiscard]] WarningListener logged_and_kept(std::vector<std::string>& warnings);
+
 /// The evolution of a new run after its first meshes are made. Throws RunFailure when they cannot
 /// be, InvalidInput when the smallest step of the case is too long for its initial shapes.
 [[nodiscard]] Evolution begun_evolution(const Case& c, Scene scene);

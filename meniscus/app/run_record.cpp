@@ -51,12 +51,14 @@ Json constants() {
 
 }  // namespace
 
-RunRecord::RunRecord(const Case& c, std::string case_file, std::string case_text)
+RunRecord::RunRecord(const Case& c, std::string case_file, std::string case_text,
+                     std::vector<std::string> warnings)
     : case_file_(std::move(case_file)),
       case_text_(std::move(case_text)),
       case_json_(case_json(c)),
       title_(c.title),
-      started_(now_utc()) {}
+      started_(now_utc()),
+      warnings_(std::move(warnings)) {}
 
 void RunRecord::go_on_from(const std::filesystem::path& run_json) {
   std::ifstream file(run_json);
@@ -66,6 +68,7 @@ void RunRecord::go_on_from(const std::filesystem::path& run_json) {
   case_file_ = before.value("case_file", case_file_);
   case_text_ = before.value("case_text", case_text_);
   wall_before_ = before.value("wall_seconds", 0.0);
+  warnings_ = before.value("warnings", warnings_);
   if (before.contains("changes")) changes_json_ = before["changes"].dump();
   if (!before.contains("seconds")) return;
   for (const auto& [phase, seconds] : before["seconds"].items())
@@ -85,7 +88,7 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
   for (const auto& [phase, spent] : simulation.seconds()) seconds[phase] = spent;
   for (const auto& [phase, spent] : seconds_before_)
     seconds[phase] = seconds.value(phase, 0.0) + spent;
-  Json warnings = Json::array();
+  Json warnings = warnings_;
   for (const Notice& notice : simulation.evolution().notices()) warnings.push_back(text_of(notice));
   const std::filesystem::path& folder = simulation.directory().path();
   const auto corrections =

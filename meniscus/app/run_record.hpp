@@ -14,9 +14,11 @@ namespace meniscus {
 /// the clock or the host.
 class RunRecord {
  public:
-  RunRecord(const Case& c, std::string case_file, std::string case_text);
+  /// `warnings`: of the case's surfaces.
+  RunRecord(const Case& c, std::string case_file, std::string case_text,
+            std::vector<std::string> warnings = {});
 
-  /// Adds the seconds and steps of an earlier part of the run, read from its run.json.
+  /// Adds the seconds, steps and warnings of an earlier part of the run, read from its run.json.
   void go_on_from(const std::filesystem::path& run_json);
   /// The case as it was changed after a step: the keys that were set, each as "key=value".
   void change_case(const Case& c, std::int64_t step, double t,
@@ -28,6 +30,7 @@ class RunRecord {
   std::string changes_json_;  // an array; empty: the case was never changed
   std::string started_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  std::vector<std::string> warnings_;  // beside the notices of the evolution
   std::vector<std::pair<std::string, double>> seconds_before_;
   double wall_before_ = 0.0;
 };

@@ -11,6 +11,7 @@
 #include "meniscus/case/outer_boundary.hpp"
 #include "meniscus/case/surface_source.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/log.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/scene/interface_tension.hpp"
@@ -57,11 +58,11 @@ void require_within_domain(const Case& c, const SurfaceMesh& drop, int index) {
   }
 }
 
-Interface make_interface(const Case& c, int index) {
+Interface make_interface(const Case& c, int index, const WarningListener& warn) {
   const DropCase& drop = c.drops[static_cast<std::size_t>(index)];
   Interface result;
   result.drop = index;
-  result.mesh = initial_surface(c, index);
+  result.mesh = initial_surface(c, index, warn);
   result.inside = RegionId{index + 1};
   result.outside = RegionId{0};
   result.tension = std::isinf(c.Ca) ? 0.0 : drop.tension_ratio / c.Ca;
@@ -99,9 +100,9 @@ void nest(std::vector<Interface>& interfaces) {
   }
 }
 
-void add_drops(const Case& c, Scene& scene) {
+void add_drops(const Case& c, Scene& scene, const WarningListener& warn) {
   for (std::size_t i = 0; i < c.drops.size(); ++i) {
-    scene.interfaces.push_back(make_interface(c, static_cast<int>(i)));
+    scene.interfaces.push_back(make_interface(c, static_cast<int>(i), warn));
     require_within_domain(c, scene.interfaces.back().mesh, static_cast<int>(i));
   }
   nest(scene.interfaces);
@@ -195,12 +196,14 @@ Vec3 weight(const Case& c, const DropCase& drop) {
 
 }  // namespace
 
-Scene build_surroundings(const Case& c) {
+void log_warning(const std::string& text) { log::warning("{}", text); }
+
+Scene build_surroundings(const Case& c, const WarningListener& warn) {
   Scene scene;
   scene.Ca = c.Ca;
   scene.flow = c.flow;
   scene.is_unbounded = c.domain.shape == DomainCase::Shape::unbounded;
-  if (!scene.is_unbounded) scene.boundary = build_boundary(c);
+  if (!scene.is_unbounded) scene.boundary = build_boundary(c, warn);
   for (const ScalarCase& each : c.scalars) scene.scalars.push_back(each.scalar);
   scene.liquids.add({.viscosity = 1.0,
                      .density = c.reynolds,
@@ -216,9 +219,9 @@ Scene build_surroundings(const Case& c) {
   return scene;
 }
 
-Scene build_scene(const Case& c) {
-  Scene scene = build_surroundings(c);
-  add_drops(c, scene);
+Scene build_scene(const Case& c, const WarningListener& warn) {
+  Scene scene = build_surroundings(c, warn);
+  add_drops(c, scene, warn);
   MENISCUS_ASSERT(scene.interfaces.size() == c.drops.size(), "{} interfaces of {} drops",
                   scene.interfaces.size(), c.drops.size());
   spread_surfactants(scene);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -137,13 +138,19 @@ struct Case {
 [[nodiscard]] std::string case_toml(const Case& c);
 [[nodiscard]] std::string case_json(const Case& c);
 
+/// Takes what the user should know of a case's surfaces: faces that were cut, turned or mended, a
+/// surface that could not be remeshed.
+using WarningListener = std::function<void(const std::string& text)>;
+/// Writes a warning to the log.
+void log_warning(const std::string& text);
+
 /// The initial scene of a case. Throws InvalidInput, naming line, drop and position, when a surface
 /// is unfit, or when drops touch each other or the boundary or lie outside it. So it does when
 /// imposed velocities have a net flux and no patch is open, or a scalar no value where they enter.
-[[nodiscard]] Scene build_scene(const Case& c);
+[[nodiscard]] Scene build_scene(const Case& c, const WarningListener& warn = log_warning);
 /// The initial scene without interfaces. A resumed run needs no more, so that the drops' surface
 /// files may be gone.
-[[nodiscard]] Scene build_surroundings(const Case& c);
+[[nodiscard]] Scene build_surroundings(const Case& c, const WarningListener& warn = log_warning);
 /// Where the case gives the surface nearest to a position: "file:line" of its drop or domain, or
 /// of the first drop without a position. Messages about a scene's initial mesh begin with it.
 [[nodiscard]] std::string source_of_surface(const Case& c, const Scene& scene,

@@ -9,7 +9,7 @@
 namespace meniscus {
 namespace {
 
-// cmake/Examples.cmake writes these entries: {"name", R"text(…)text"}, …
+// cmake/Examples.cmake writes these entries: {"name", R"text(…)text", R"text(…)text"}, …
 constexpr ExampleCase kExamples[] = {
 #include "meniscus/case/examples_generated.inc"
 };
@@ -18,11 +18,11 @@ constexpr ExampleCase kExamples[] = {
 
 std::span<const ExampleCase> examples() { return kExamples; }
 
-std::string_view example_text(std::string_view name) {
+const ExampleCase& example(std::string_view name) {
   const auto found = std::ranges::find(examples(), name, &ExampleCase::name);
-  if (found != examples().end()) return found->text;
+  if (found != examples().end()) return *found;
   std::vector<std::string_view> names;
-  for (const ExampleCase& example : examples()) names.push_back(example.name);
+  for (const ExampleCase& each : examples()) names.push_back(each.name);
   const std::string_view near = nearest_word(name, names);
   reject_input("examples: \"{}\" is not one of {}{}", name, fmt::join(names, ", "),
                near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near));

@@ -39,7 +39,7 @@ std::vector<std::string_view> names_by_tag(Shape shape) {
   return {};
 }
 
-TaggedSurface boundary_surface(const Case& c) {
+TaggedSurface boundary_surface(const Case& c, const WarningListener& warn) {
   const DomainCase& domain = c.domain;
   switch (domain.shape) {
     case Shape::box:
@@ -47,7 +47,7 @@ TaggedSurface boundary_surface(const Case& c) {
     case Shape::cylinder:
       return cylinder(domain.nodes, domain.radius, domain.half_length);
     case Shape::file:
-      return read_case_surface(c, "domain.surface", domain.file, domain.is_repaired);
+      return read_case_surface(c, "domain.surface", {domain.file, domain.is_repaired}, warn);
     case Shape::sphere:
     case Shape::unbounded:
       break;
@@ -183,8 +183,8 @@ std::vector<int> shape_tags(Shape shape, std::string_view name) {
   return {static_cast<int>(found - names.begin())};
 }
 
-OuterBoundary build_boundary(const Case& c) {
-  TaggedSurface surface = boundary_surface(c);
+OuterBoundary build_boundary(const Case& c, const WarningListener& warn) {
+  TaggedSurface surface = boundary_surface(c, warn);
   const std::set<int> tags(surface.tag.begin(), surface.tag.end());
   if (c.domain.shape == Shape::file) require_matching_tags(c, tags);
 

@@ -15,6 +15,6 @@ namespace meniscus {
 /// The triangulated outer boundary with a condition on every patch. Throws InvalidInput naming the
 /// line when a surface file is unfit, or when its tags and the [[domain.patch]] do not match. So it
 /// does when a scalar has no value where liquid enters.
-[[nodiscard]] OuterBoundary build_boundary(const Case& c);
+[[nodiscard]] OuterBoundary build_boundary(const Case& c, const WarningListener& warn);
 
 }  // namespace meniscus

@@ -93,7 +93,7 @@ void require_volume(const Case& c, int index, const SurfaceMesh& mesh, double cu
 /// remesher does not restore the volume of flat faces. That would move vertices off the surface,
 /// and undoing it by an even shift would thin the necks. If the remesher fails, the surface stays
 /// as given and the log says so.
-void resolve(const Case& c, int index, SurfaceMesh& mesh) {
+void resolve(const Case& c, int index, SurfaceMesh& mesh, const WarningListener& warn) {
   const DropCase& drop = c.drops[static_cast<std::size_t>(index)];
   const SurfaceShape faces = c.evolution.surface;
   MENISCUS_ASSERT(drop.nodes >= kFewestVertices, "drop {} of {} nodes", index, drop.nodes);
@@ -103,7 +103,8 @@ void resolve(const Case& c, int index, SurfaceMesh& mesh) {
   options.restores_volume = faces == SurfaceShape::faceted;
   const RemeshReport report = remesh(mesh, options);
   if (!report.ok())
-    log::warning("drop {}: its surface stays as given, remeshing failed: {}", index, report.text());
+    warn(fmt::format("drop {}: its surface stays as given, remeshing failed: {}", index,
+                     report.text()));
   if (faces != SurfaceShape::faceted) restore_volume(mesh, volume, faces);
 }
 
@@ -118,12 +119,12 @@ double ellipsoid_volume(const Vec3& axes) { return 4.0 / 3.0 * std::numbers::pi 
 
 }  // namespace
 
-TaggedSurface read_case_surface(const Case& c, const std::string& path,
-                                const std::filesystem::path& file, bool mends) {
-  require_existence(c, path, file);
+TaggedSurface read_case_surface(const Case& c, const std::string& path, const FileShape& file,
+                                const WarningListener& warn) {
+  require_existence(c, path, file.file);
   RepairedSurface surface;
   try {
-    surface = io::read_surface(file, mends);
+    surface = io::read_surface(file.file, file.is_repaired);
   } catch (const InvalidInput& error) {
     c.settings.reject(path, "cannot be used: {}", error.what());
   }
@@ -132,7 +133,8 @@ TaggedSurface read_case_surface(const Case& c, const std::string& path,
   if (const auto defect = find_defect(surface.mesh))
     c.settings.reject(path, "is unfit: {}", text_of(*defect, surface.report));
   if (surface.report.is_changed())
-    log::warning("{}: {}: {}", c.settings.source(path), file.string(), text_of(surface.report));
+    warn(fmt::format("{}: {}: {}", c.settings.source(path), file.file.string(),
+                     text_of(surface.report)));
   return {std::move(surface.mesh), std::move(surface.tag)};
 }
 
@@ -150,7 +152,7 @@ SurfaceMesh read_run_surface(const Case& c, const std::string& path, const RunSh
   return mesh;
 }
 
-SurfaceMesh initial_surface(const Case& c, int index) {
+SurfaceMesh initial_surface(const Case& c, int index, const WarningListener& warn) {
   const DropCase& drop = c.drops[static_cast<std::size_t>(index)];
   const SurfaceShape faces = c.evolution.surface;
   const std::string table = fmt::format("drop[{}]", index);
@@ -163,11 +165,11 @@ SurfaceMesh initial_surface(const Case& c, int index) {
   if (const auto* run = std::get_if<RunShape>(&drop.shape))
     mesh = read_run_surface(c, table + ".from-run", *run);
   else if (const auto* file = std::get_if<FileShape>(&drop.shape))
-    mesh = read_case_surface(c, table + ".surface", file->file, file->is_repaired).mesh;
+    mesh = read_case_surface(c, table + ".surface", *file, warn).mesh;
   else
     mesh = stretched_sphere(kEllipsoidOversampling * drop.nodes,
                             std::get<EllipsoidShape>(drop.shape).axes);
-  if (!std::holds_alternative<RunShape>(drop.shape)) resolve(c, index, mesh);
+  if (!std::holds_alternative<RunShape>(drop.shape)) resolve(c, index, mesh, warn);
   if (const auto* ellipsoid = std::get_if<EllipsoidShape>(&drop.shape))
     restore_volume(mesh, ellipsoid_volume(ellipsoid->axes), faces);
   require_volume(c, index, mesh, ReconstructedSurface(mesh, faces).volume());

@@ -29,6 +29,15 @@ std::vector<io::PvdEntry> chosen_meshes(const RunData& run, std::span<const doub
   return nearest_frames(run.volume_frames, times);
 }
 
+/// Throws InvalidInput for a time before the first frame or after the last.
+void require_within_run(const RunData& run, std::span<const double> times) {
+  if (run.frames.empty()) return;
+  const double first = run.frames.front().t, last = run.frames.back().t;
+  for (const double t : times)
+    if (!(t >= first && t <= last))
+      reject_input("--times {}: the run has frames from t = {:.6g} to {:.6g}", t, first, last);
+}
+
 }  // namespace
 
 std::vector<std::string> write_stills(const fs::path& run_directory, StillFormat format,
@@ -36,6 +45,7 @@ std::vector<std::string> write_stills(const fs::path& run_directory, StillFormat
   constexpr double png_scale = 2.0;  // at least 300 dots per inch in a journal column of 85 mm
   const bool is_png = format == StillFormat::png;
   RunData run = load_run(run_directory);
+  require_within_run(run, times);
   PageRun page = picture_run(run, chosen_frames(run, times), chosen_meshes(run, times));
   const DrawingData data =
       drawing_data("report", std::span(&run, 1), std::span(&page, 1), whole_tables);

@@ -38,7 +38,8 @@ std::unique_ptr<DrivenRun> DrivenRun::begin(PythonCase given, const std::optiona
                                             bool is_overwrite) {
   if (!is_first_rank()) log::set_level(log::Level::error);
   const Case c = shared_case(given.parsed());
-  Scene scene = build_scene(c);
+  std::vector<std::string> warnings;
+  Scene scene = build_scene(c, logged_and_kept(warnings));
   if (folder) require_usable(*folder, is_overwrite);
   Evolution evolution = begun_evolution(c, std::move(scene));
   check_field_names(evolution);
@@ -47,7 +48,7 @@ std::unique_ptr<DrivenRun> DrivenRun::begin(PythonCase given, const std::optiona
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, given.folder()));
   simulation.stop_when(c.stop);
-  RunRecord record(c, given.file(), given.text());
+  RunRecord record(c, given.file(), given.text(), warnings);
   std::unique_ptr<DrivenRun> run(
       new DrivenRun(std::move(given), folder, std::move(simulation), std::move(record)));
   run->start();

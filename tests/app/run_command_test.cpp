@@ -59,6 +59,35 @@ TEST(RunCommand, RecordsWhatRanAndHowFarVolumesWerePutRight) {
   EXPECT_NEAR(record["volume_correction_sum"].get<double>(), sum, 1e-15);
 }
 
+// A cube of squares, two of them turned inside out.
+TEST(RunCommand, RecordsWhatWasDoneToASurfaceAlsoWhenResumed) {
+  const test::TemporaryFolder folder;
+  test::put(folder / "cube.off",
+            "OFF\n8 6 0\n-1 -1 -1\n1 -1 -1\n1 1 -1\n-1 1 -1\n-1 -1 1\n1 -1 1\n1 1 1\n-1 1 1\n"
+            "4 0 3 2 1\n4 7 6 5 4\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
+  std::string text = kCase;
+  const std::string radius = "radius = 1.0";
+  test::put(folder / "case.toml",
+            text.replace(text.find(radius), radius.size(), "surface = \"cube.off\""));
+  RunArguments arguments;
+  arguments.case_file = (folder / "case.toml").string();
+  arguments.output = (folder / "run").string();
+  arguments.is_quiet = true;
+  ASSERT_EQ(run_command(arguments), 0);
+  const Json warnings = record_of(folder / "run")["warnings"];
+  ASSERT_EQ(warnings.size(), 1U) << warnings;
+  EXPECT_NE(warnings[0].get<std::string>().find("6 faces of more than three corners cut into "
+                                                "triangles; 2 faces turned over"),
+            std::string::npos)
+      << warnings;
+  ResumeArguments further;
+  further.directory = (folder / "run").string();
+  further.until = 0.04;
+  further.is_quiet = true;
+  ASSERT_EQ(resume_command(further), 0);
+  EXPECT_EQ(record_of(folder / "run")["warnings"], warnings);
+}
+
 TEST(RunCommand, DescribesItsFilesAsAResearchCrate) {
   const test::TemporaryFolder folder;
   const fs::path run = run_in(folder);
