@@ -29,8 +29,9 @@ Errors: ``ValueError`` for wrong input, with the program's own line; ``RuntimeEr
 a mesh cannot go on.
 """
 from . import _core
+from ._arguments import in_words_of_python, text_of
 from ._case import Case
-from ._core import Interface, VolumeMesh, set_log_level
+from ._core import Interface, VolumeMesh
 from ._meshes import RemeshedSurface, Tetrahedra, remesh, volume_mesh
 from ._run import Run, Shape, Volume
 from ._simulation import Simulation
@@ -40,7 +41,7 @@ __version__: str = _core.version
 __all__ = ["Case", "Interface", "RemeshedSurface", "Run", "Shape", "Simulation", "Tetrahedra", "Volume",
            "VolumeMesh", "explain", "remesh", "set_log_level", "volume_mesh"]
 
-Interface.__module__ = VolumeMesh.__module__ = set_log_level.__module__ = __name__
+Interface.__module__ = VolumeMesh.__module__ = __name__
 
 
 def explain(key: str = "") -> str:
@@ -49,4 +50,13 @@ def explain(key: str = "") -> str:
     Takes "drop.nodes", a bare "nodes" or a table "drop"; without a key it lists them all.
     Raises ValueError, with the nearest key, for anything else.
     """
-    return _core.explain(key)
+    with in_words_of_python():
+        return _core.explain(text_of(key, "key"))
+
+
+def set_log_level(level: str) -> None:
+    """What the library writes to standard error.
+
+    It is "off", "error", "warning" (as at first), "info" or "debug".
+    """
+    _core.set_log_level(text_of(level, "level"))

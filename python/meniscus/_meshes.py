@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from ._arrays import flag_of, number_of, points_of, surface_of, triangles_of
+from ._arguments import flag_of, list_of, number_of, text_of
+from ._arrays import points_of, surface_of, triangles_of
 
 
 @dataclass(frozen=True)
@@ -87,11 +88,10 @@ def volume_mesh(surfaces: Sequence[Any], boundary: Any, *, grading: str = "linea
 
     Raises ValueError when a surface is unfit, RuntimeError when no mesh could be made.
     """
-    if hasattr(surfaces, "points"):
-        raise ValueError("surfaces must be a list of surfaces")
-    inner = [surface_of(surface, f"surfaces[{i}]") for i, surface in enumerate(surfaces)]
+    inner = [surface_of(surface, f"surfaces[{i}]")
+             for i, surface in enumerate(list_of(surfaces, "surfaces", "a list of surfaces"))]
     numbers = {"interior_growth": interior_growth, "radius_edge": radius_edge,
                "gap_layers": gap_layers, "cell_volume": cell_volume}
     return Tetrahedra(*_core.volume_mesh(
-        inner, surface_of(boundary, "boundary"), str(grading),
+        inner, surface_of(boundary, "boundary"), text_of(grading, "grading"),
         {name: number_of(value, name) for name, value in numbers.items()}))

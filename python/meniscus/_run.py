@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import os
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -9,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
+from ._arguments import number_of, path_of, shown
 from ._case import PathLike
 from ._tables import Table, columns
 
@@ -28,10 +30,11 @@ class Shape:
 
     def drop(self, number: int) -> tuple[np.ndarray, np.ndarray]:
         """Points and triangles of one drop, by its number in drops.csv."""
-        faces = self.triangles[self.face_fields["drop"] == number]
+        wanted = number_of(number, "number")
+        faces = self.triangles[self.face_fields["drop"] == wanted]
         if not len(faces):
             there = sorted({int(each) for each in self.face_fields["drop"]})
-            raise ValueError(f"drop {number} is not there at t = {self.t:g}; there are {there}")
+            raise ValueError(f"drop {wanted:g} is not there at t = {self.t:g}; there are {there}")
         used, renumbered = np.unique(faces, return_inverse=True)
         return self.points[used], renumbered.reshape(faces.shape)
 
@@ -57,10 +60,10 @@ class Run:
     """
 
     def __init__(self, folder: PathLike) -> None:
-        self.folder = Path(folder)
-        if not self.folder.is_dir():
+        self.folder = Path(path_of(folder, "folder"))
+        if not os.path.isdir(self.folder):
             raise ValueError(f"{self.folder} is not the folder of a run")
-        if not any((self.folder / name).exists() for name in ("history.csv", "run.json")):
+        if not any(os.path.exists(self.folder / name) for name in ("history.csv", "run.json")):
             raise ValueError(f"{self.folder} holds no run: neither run.json nor history.csv is there")
 
     @cached_property
@@ -74,17 +77,25 @@ class Run:
             record: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
         except (OSError, ValueError) as error:
             raise ValueError(f"{file}: cannot be read: {error}") from None
+        if not isinstance(record, dict):
+            raise ValueError(f"{file}: must hold an object, not {shown(record)}")
         return record
 
     @property
     def status(self) -> str:
         """"running", "done", "stopped" or "failed: …" with the reason."""
-        return str(self.record["status"])
+        return str(self._recorded("status", str))
 
     @property
     def case(self) -> dict[str, Any]:
         """The case as nested dicts, with all defaults; infinity is the text "inf"."""
-        return dict(self.record["case"])
+        return dict(self._recorded("case", dict))
+
+    def _recorded(self, key: str, kind: type) -> Any:
+        value = self.record.get(key)
+        if not isinstance(value, kind):
+            raise ValueError(f"{self.folder / 'run.json'}: {key} is missing or not as a run writes it")
+        return value
 
     def history(self) -> Table:
         """history.csv as a dict of arrays: one row to a step (docs/notation.md)."""
@@ -103,7 +114,8 @@ class Run:
         return self._table("timing.csv")
 
     def _table(self, name: str) -> Table:
-        return columns(_core.read_table(self.folder / name))
+        file = self.folder / name
+        return columns(_core.read_table(file), str(file))
 
     @property
     def shape_times(self) -> np.ndarray:
@@ -127,15 +139,14 @@ class Run:
 
     def _frames(self, pvd: str) -> list[tuple[float, str]]:
         file = self.folder / pvd
-        return _core.read_frames(file) if file.exists() else []
+        return _core.read_frames(file) if os.path.exists(file) else []
 
     def _nearest(self, pvd: str, t: float) -> tuple[float, Path]:
+        wanted = number_of(t, "t", is_finite=True)
         frames = self._frames(pvd)
         if not frames:
             raise ValueError(f"{self.folder} holds no {pvd.removesuffix('.pvd')} frames")
-        if not np.isfinite(t):
-            raise ValueError(f"t = {t} must be finite")
-        time, file = min(frames, key=lambda frame: abs(frame[0] - t))
+        time, file = min(frames, key=lambda frame: abs(frame[0] - wanted))
         return time, self.folder / file
 
     def __repr__(self) -> str:

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import atexit
 import os
+import re
 import weakref
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -10,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from . import _core, _toml
+from ._arguments import A_PATH, callable_of, flag_of, in_words_of_python, mapping_of, number_of, path_of, text_of
 from ._case import Case, PathLike, settings_of
 from ._tables import Table, columns
 
@@ -34,11 +36,12 @@ class Simulation:
 
     def __init__(self, case: Case | PathLike | Mapping[str, Any], output: PathLike | None = None, *,
                  overwrite: bool = False) -> None:
-        if isinstance(case, Mapping):
-            case = Case.from_dict(case)
-        elif not isinstance(case, Case):
-            case = Case(case)
-        self._core = _core.Simulation.begin(case._core, _path(output), bool(overwrite))
+        folder, is_overwrite = _output_of(output), flag_of(overwrite, "overwrite")
+        if not isinstance(case, (Case, Mapping)):
+            path_of(case, "case", f"a Case, {A_PATH} or a dict of tables")
+        given = case if isinstance(case, Case) else Case(case)
+        with in_words_of_python():
+            self._core = _core.Simulation.begin(given._core, folder, is_overwrite)
         _open.add(self)
 
     @classmethod
@@ -51,14 +54,22 @@ class Simulation:
         folder, or in a new one. ``until`` is a new end, in the case's unit of time; ``settings``
         replaces keys of [flow], [interface], [time], [solver], [topology] and [output].
         """
-        if settings and output is None and Path(path).is_dir():
+        source, folder = Path(path_of(path, "path")), _output_of(output)
+        changes = dict(mapping_of(settings, "settings"))
+        if changes and folder is None and os.path.isdir(source):
             raise ValueError("settings: the run in a folder goes on as it was; give an output folder "
                              "to go on with other settings")
-        changes = dict(settings or {})
         if until is not None:
-            changes["time.end"] = _number("until", until)
+            if "time.end" in changes:
+                raise ValueError("until and settings both give time.end: give one of them")
+            changes["time.end"] = number_of(until, "until", is_finite=True)
+        keys = settings_of(changes)
         simulation = cls.__new__(cls)
-        simulation._core = _core.Simulation.resume(Path(path), _path(output), settings_of(changes))
+        try:
+            with in_words_of_python():
+                simulation._core = _core.Simulation.resume(source, folder, keys)
+        except ValueError as error:
+            raise ValueError(_of_resume(str(error), until is not None)) from None
         _open.add(simulation)
         return simulation
 
@@ -76,15 +87,17 @@ class Simulation:
         ``until`` does not shorten a step. ``callback(simulation)`` is called after each step; when
         it returns True the run pauses there.
         """
+        if callback is not None:
+            callable_of(callback, "callback", "one argument, the simulation")
         if until is not None:
-            until = _number("until", until)
+            until = number_of(until, "until", is_finite=True)
             if until > self._core.end:
                 raise ValueError(f"until = {until:g} lies after the end of the case, t = "
                                  f"{self._core.end:g}: set time.end")
         try:
             while not self.is_finished and (until is None or self.t < until):
                 self.step()
-                if callback is not None and callback(self) is True or self.is_closed:
+                if callback is not None and _is_true(callback(self)) or self.is_closed:
                     return
         except KeyboardInterrupt:
             if not self.is_closed:
@@ -159,8 +172,17 @@ class Simulation:
         return self._core.seconds
 
     def checkpoint(self, path: PathLike) -> None:
-        """Writes the present state to a file (.h5), from which ``resume`` goes on bit for bit."""
-        self._core.write_checkpoint(Path(path))
+        """Writes the present state to a file (.h5), from which ``resume`` goes on bit for bit.
+
+        Raises ValueError where no file can have that name, RuntimeError where it cannot be written.
+        """
+        file = Path(path_of(path, "path"))
+        try:
+            self._core.write_checkpoint(file)
+        except RuntimeError as error:
+            if os.path.isdir(file) or not os.path.isdir(file.parent):
+                raise ValueError(f"path: {error}") from None
+            raise
 
     def set_flow(self, kind: str | None = None, *, gradient: Any = None, factor: float | None = None,
                  ramp: float | None = None) -> None:
@@ -172,10 +194,23 @@ class Simulation:
         at t is that of the flow before. run.json lists the change under "changes". Raises ValueError
         where the schedule has later entries.
         """
-        given = {"kind": kind, "gradient": gradient, "factor": factor, "ramp": ramp}
+        if kind is None and gradient is None and factor is None:
+            raise ValueError("set_flow needs one of kind, gradient, factor")
+        if kind is not None:
+            text_of(kind, "kind")
+        numbers = {name: number_of(value, name)
+                   for name, value in (("factor", factor), ("ramp", ramp)) if value is not None}
+        given = {"kind": kind, "gradient": gradient} | numbers
         keys = [f"{key}={_toml.value(value, key)}" for key, value in given.items()
                 if value is not None]
-        self._core.set_flow(keys)
+        try:
+            with in_words_of_python():
+                self._core.set_flow(keys)
+        except ValueError as error:  # keys of the new entry are arguments here
+            line = re.sub(r"\bflow\.schedule\[\d+\]\.(kind|gradient|factor|ramp)\b", r"\1", str(error))
+            if line.startswith("flow.schedule["):  # the time of the new entry is no argument
+                line = f"the flow cannot change at t = {self.t:g}: {line}"
+            raise ValueError(line) from None
 
     def close(self) -> None:
         """Ends the use of a simulation. A run that is not at its end gets a checkpoint to go on from.
@@ -185,6 +220,8 @@ class Simulation:
         self._core.close()
 
     def __enter__(self) -> Simulation:
+        if self.is_closed:
+            raise ValueError("this simulation is closed")
         return self
 
     def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
@@ -219,15 +256,15 @@ def _close_all() -> None:
             _close_alone(simulation)
 
 
-def _path(given: PathLike | None) -> Path | None:
-    return None if given is None else Path(os.fspath(given))
+def _output_of(given: PathLike | None) -> Path | None:
+    return None if given is None else Path(path_of(given, "output", f"{A_PATH} or None"))
 
 
-def _number(name: str, given: Any) -> float:
-    try:
-        number = float(given)
-    except (TypeError, ValueError):
-        raise ValueError(f"{name} must be a number, not {given!r}") from None
-    if not np.isfinite(number):
-        raise ValueError(f"{name} = {number} must be finite")
-    return number
+def _of_resume(line: str, is_until_given: bool) -> str:
+    """A line of the program in the words of the arguments of ``resume``."""
+    line = line.replace("give overwrite=True or another output", "give another output")
+    return re.sub(r"^time\.end\b", "until", line) if is_until_given else line
+
+
+def _is_true(answer: Any) -> bool:
+    return isinstance(answer, (bool, np.bool_)) and bool(answer)

@@ -6,6 +6,7 @@ import numpy as np
 import meniscus
 from common import SHEAR, FolderCase, program
 from meniscus import Case
+from misfits import WRONG_PATHS, WRONG_TEXTS
 
 
 class CaseTest(FolderCase):
@@ -71,8 +72,76 @@ class CaseTest(FolderCase):
                 Case.from_dict(wrong)
         with self.assertRaisesRegex(ValueError, "^dict: .*flow.kind"):
             Case.from_dict({"flow": {"kind": "sheer"}, "drop": [{}]})
-        with self.assertRaises(ValueError):
-            Case.from_toml(b"")
+        for wrong, words in (({"drop": [{}, 3]}, "drop: a list of tables holds dicts alone, not 3"),
+                             ({"title": None}, "title: the value is missing"),
+                             ({"title": "\ud800"}, "title = .* half of a surrogate pair"),
+                             ({"time": {"end": 10**400}}, r"time.end must be a whole number from -2\^63")):
+            with self.assertRaisesRegex(ValueError, words):
+                Case(SHEAR | wrong)
+        endless = {}
+        endless["flow"] = endless
+        with self.assertRaisesRegex(ValueError, "without end"):
+            Case(endless)
+
+    def test_takes_nested_dicts_and_settings(self):
+        case = Case(SHEAR, {"time.end": 0.3})
+        self.assertEqual(case["time.end"], 0.3)
+        case.set("time.end", 0.2)
+        self.assertEqual(case.to_toml(), Case.from_dict(SHEAR).to_toml())
+        with self.assertRaisesRegex(ValueError, "^time.end = -1.0 must be at least 0"):
+            Case(SHEAR, {"time.end": -1})
+
+    def test_wrong_types_are_refused_by_name(self):
+        case = Case(SHEAR)
+        for wrong in WRONG_PATHS:
+            if not isinstance(wrong, dict):
+                with self.assertRaisesRegex(ValueError, "^path ", msg=wrong):
+                    Case(wrong)
+        for wrong in WRONG_TEXTS:
+            with self.assertRaisesRegex(ValueError, "^folder ", msg=wrong):
+                Case.from_toml(case.to_toml(), wrong)
+            with self.assertRaisesRegex(ValueError, "^folder ", msg=wrong):
+                Case.from_dict(SHEAR, wrong)
+            for use, name in ((Case.from_toml, "text"), (case.__getitem__, "key"), (case.get, "key"),
+                              (lambda given: case.set(given, 1), "key"), (meniscus.explain, "key"),
+                              (meniscus.set_log_level, "level")):
+                if not (isinstance(wrong, dict) and use.__name__ == "<lambda>"):
+                    with self.assertRaisesRegex(ValueError, f"^{name} ", msg=wrong):
+                        use(wrong)
+        for wrong in (3, "", [], True):
+            with self.assertRaisesRegex(ValueError, "settings must be a dict"):
+                Case(SHEAR, wrong)
+
+    def test_set_says_what_is_wrong_without_options_of_the_program(self):
+        case = Case(SHEAR)
+        before = case.to_toml()
+        for arguments, words in ((("time.end",), "time.end: the value is missing"),
+                                 (("time.end", -1), "time.end = -1.0 must be at least 0"),
+                                 (("title", {"a": 1}), "title: a table is set key by key"),
+                                 (("flow", "x"), 'flow is a table; .* such as "flow.kind"'),
+                                 (("flow.colour", 'a: "b"'), "flow.colour: unknown key"),
+                                 (("drop[7].nodes", 60), "drop.7..nodes: drop.7. does not exist"),
+                                 (("time.end=0.1\n#", 3), "key = .* is none of a case"), (("", 3), "key = ''"),
+                                 (({3: 4},), r"key must be a text \(str\), not 3"),
+                                 (({"time.end": 3}, 4), "value = 4: a dict of keys holds the values"),
+                                 (("title", "\ud800"), "title = .* half of a surrogate pair"),
+                                 (("flow.kind", "quiescent"), "dict: flow.capillary-number = 0.2 must be")):
+            with self.assertRaisesRegex(ValueError, f"^{words}"):
+                case.set(*arguments)
+        self.assertEqual(case.to_toml(), before)
+
+    def test_keys_that_name_nothing_or_several_things(self):
+        case = Case(SHEAR)
+        for key in ("", "time.end[0]", "time..end", ".time.end", "drop.center[1]", "drop[1].nodes"):
+            with self.assertRaises(KeyError, msg=key):
+                case[key]
+        self.assertIn("time.end", case)
+        self.assertNotIn("flow.colour", case)
+        two = Case(SHEAR | {"drop": [{"radius": 0.3, "nodes": 42}, {"center": [0, 0, 2], "radius": 0.3, "nodes": 60}]})
+        self.assertEqual(two["drop[1].nodes"], 60)
+        for use in (two.__getitem__, two.get):
+            with self.assertRaisesRegex(ValueError, r"there are 2 \[\[drop\]\]"):
+                use("drop.nodes")
 
     def test_explains_keys(self):
         self.assertIn("capillary", meniscus.explain("flow.capillary-number"))

@@ -7,6 +7,7 @@ import numpy as np
 
 from common import BOUNDED, SHEAR, FolderCase, enclosed
 from meniscus import Case, Simulation, remesh, volume_mesh
+from misfits import WRONG_NUMBERS, WRONG_TEXTS
 
 
 def sphere(nodes=100, radius=1.0, center=(0.0, 0.0, 0.0)):
@@ -67,6 +68,23 @@ class RemeshTest(FolderCase):
                              ((points[:0], triangles[:0]), "surface")):
             with self.assertRaisesRegex(ValueError, words):
                 remesh(*wrong)
+        for kind in (complex, object, str, bool, "datetime64[s]"):
+            with self.assertRaisesRegex(ValueError, "^points must hold real numbers, not "):
+                remesh(points.astype(kind), triangles)
+        with self.assertRaisesRegex(ValueError, "^points .* masked"):
+            remesh(np.ma.masked_array(points, mask=points > 0.5), triangles)
+        for wrong in (None, 3, "x", {}, object(), 10**400):
+            with self.assertRaisesRegex(ValueError, r"^points must be .*\(n, 3\), not "):
+                remesh(wrong, triangles)
+            with self.assertRaisesRegex(ValueError, r"^triangles must be .*\(m, 3\), not "):
+                remesh(points, wrong)
+        with self.assertRaisesRegex(ValueError, "^points must hold"):
+            remesh([[10**400, 0, 0]] * 42, triangles)
+        for name in ("nodes", "edge_length", "chordal_error", "edge_floor", "gradation"):
+            for wrong in WRONG_NUMBERS:
+                if wrong is not None:
+                    with self.assertRaisesRegex(ValueError, f"^{name} ", msg=wrong):
+                        remesh(points, triangles, **{name: wrong})
         with self.assertRaisesRegex(ValueError, "one of"):
             remesh(points, triangles, nodes=100, edge_length=0.1)
         for arguments, words in (({"nodes": 3}, "nodes = 3"), ({"edge_length": -1}, "edge_length = -1"),
@@ -106,6 +124,18 @@ class VolumeMeshTest(FolderCase):
             volume_mesh([ball], boundary, grading="steep")
         with self.assertRaisesRegex(ValueError, "radius_edge"):
             volume_mesh([ball], boundary, radius_edge=0.5)
+        for wrong in (None, 3, "x", "", {}, True, object()):
+            with self.assertRaisesRegex(ValueError, "^surfaces must be a list of surfaces, not "):
+                volume_mesh(wrong, boundary)
+            with self.assertRaisesRegex(ValueError, "^boundary must be a pair"):
+                volume_mesh([ball], wrong)
+        for wrong in WRONG_TEXTS:
+            with self.assertRaisesRegex(ValueError, "^grading ", msg=wrong):
+                volume_mesh([ball], boundary, grading=wrong)
+        for name in ("interior_growth", "radius_edge", "gap_layers", "cell_volume"):
+            for wrong in WRONG_NUMBERS:
+                with self.assertRaisesRegex(ValueError, f"^{name} ", msg=wrong):
+                    volume_mesh([ball], boundary, **{name: wrong})
 
     def test_a_failed_assertion_of_the_mesher_does_not_end_the_interpreter(self):
         # In this box an assertion of TetGen's fails in the order in which it first inserts the points.

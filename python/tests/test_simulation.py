@@ -10,7 +10,8 @@ import unittest
 import numpy as np
 
 from common import BOUNDED, SHEAR, UNLIKE, FolderCase, enclosed, program
-from meniscus import Case, Run, Simulation
+from meniscus import Case, Run, Simulation, plot
+from misfits import WRONG_NUMBERS, WRONG_PATHS, WRONG_TEXTS
 
 
 class RunTest(FolderCase):
@@ -94,7 +95,7 @@ class RunTest(FolderCase):
 
     def test_callbacks_come_after_each_step_and_may_pause(self):
         simulation, seen = Simulation(Case.from_dict(SHEAR)), []
-        simulation.run(callback=lambda s: seen.append((s.step_number, s.t)) or len(seen) == 3)
+        simulation.run(callback=lambda s: seen.append((s.step_number, s.t)) or np.bool_(len(seen) == 3))
         self.assertEqual([number for number, _ in seen], [1, 2, 3])
         self.assertEqual(seen[-1], (simulation.step_number, simulation.t))
 
@@ -193,6 +194,142 @@ class RunTest(FolderCase):
         self.assertTrue(simulation.is_finished)
         self.assertGreater(len(beats), 10)
         self.assertTrue(all("another thread" in line for line in refused))
+
+
+class RefusalTest(FolderCase):
+    def test_simulations_begin_with_sound_arguments_only(self):
+        folder = self.folder / "run"
+        for wrong in WRONG_PATHS:
+            if not isinstance(wrong, dict):
+                with self.assertRaisesRegex(ValueError, "^case ", msg=wrong):
+                    Simulation(wrong, folder)
+            with self.assertRaisesRegex(ValueError, "^path ", msg=wrong):
+                Simulation.resume(wrong, folder)
+            if wrong is not None:
+                with self.assertRaisesRegex(ValueError, "^output ", msg=wrong):
+                    Simulation(SHEAR, wrong)
+        for wrong in (3, "no", None, []):
+            with self.assertRaisesRegex(ValueError, "overwrite must be True or False"):
+                Simulation(SHEAR, folder, overwrite=wrong)
+        self.assertFalse(folder.exists())
+        Simulation(SHEAR, folder).close()
+        with self.assertRaisesRegex(ValueError, "give overwrite=True or another output$"):
+            Simulation(SHEAR, folder)
+
+    def test_runs_are_resumed_with_sound_arguments_only(self):
+        file = self.folder / "middle.h5"
+        simulation = Simulation(SHEAR)
+        simulation.step()
+        simulation.checkpoint(file)
+        for wrong in (3, "", [1], True):
+            with self.assertRaisesRegex(ValueError, "settings must be a dict"):
+                Simulation.resume(file, settings=wrong)
+        for wrong in (*WRONG_NUMBERS[1:], float("nan")):
+            with self.assertRaisesRegex(ValueError, "^until ", msg=wrong):
+                Simulation.resume(file, until=wrong)
+        for arguments, words in (({"until": -1}, "until = -1.0 must be at least 0"),
+                                 ({"until": 1e-9}, "until = 1e-09 lies before"),
+                                 ({"until": 0.3, "settings": {"time.end": 0.4}}, "until and settings both"),
+                                 ({"settings": {"drop.nodes": 60}}, "drop.nodes: drops, domain"),
+                                 ({"settings": {"time.max-step": -1}}, "time.max-step = -1.0 must be")):
+            with self.assertRaisesRegex(ValueError, f"^{words}"):
+                Simulation.resume(file, self.folder / "new", **arguments)
+        self.assertFalse((self.folder / "new").exists())
+
+    def test_what_a_run_cannot_do_is_refused_before_a_step(self):
+        simulation = Simulation(SHEAR)
+        for wrong in (3, "x", [], lambda: None, lambda one, two: None):
+            with self.assertRaisesRegex(ValueError, "^callback must be a function of one argument"):
+                simulation.run(callback=wrong)
+        for wrong in WRONG_NUMBERS[1:]:
+            with self.assertRaisesRegex(ValueError, "^until ", msg=wrong):
+                simulation.run(until=wrong)
+        self.assertEqual(simulation.step_number, 0)
+        for wrong in (*WRONG_PATHS, self.folder, self.folder / "none/x.h5"):
+            with self.assertRaisesRegex(ValueError, "^path", msg=wrong):
+                simulation.checkpoint(wrong)
+        self.assertEqual(os.listdir(self.folder), [])
+        simulation.close()
+        with self.assertRaisesRegex(ValueError, "closed"), simulation:
+            pass
+
+    def test_a_flow_that_cannot_be_is_refused_in_words_of_the_arguments(self):
+        simulation = Simulation(SHEAR)
+        for wrong in WRONG_TEXTS[:2] + WRONG_TEXTS[3:]:
+            with self.assertRaisesRegex(ValueError, "^kind ", msg=wrong):
+                simulation.set_flow(wrong)
+        for name in ("factor", "ramp"):
+            for wrong in (*WRONG_NUMBERS[1:], float("nan"), float("inf")):
+                with self.assertRaisesRegex(ValueError, f"^{name} ", msg=wrong):
+                    simulation.set_flow(**({"factor": 1.0} | {name: wrong}))
+        for arguments, words in (({}, "set_flow needs one of kind, gradient, factor"),
+                                 ({"kind": "sheer"}, 'kind = "sheer" must be one of "simple-shear"'),
+                                 ({"gradient": np.eye(3)}, "gradient = .* has the trace 3"),
+                                 ({"gradient": np.zeros((3, 3)) * 1j}, "gradient: a value of type complex"),
+                                 ({"gradient": [[1, 2]]}, r"gradient = \[\[1, 2\]\] must be three rows"),
+                                 ({"kind": "quiescent", "ramp": -1}, "ramp = -1.0 must be at least 0"),
+                                 ({"kind": "quiescent", "gradient": np.zeros((3, 3))}, "gradient = .* kind")):
+            with self.assertRaisesRegex(ValueError, f"^{words}"):
+                simulation.set_flow(**arguments)
+        self.assertNotIn("flow.schedule", simulation.case)
+        flow = SHEAR["flow"] | {"schedule": [{"time": 0.1, "factor": 0.0}]}
+        with self.assertRaisesRegex(ValueError, "^the flow cannot change at t = 0"):
+            Simulation(SHEAR | {"flow": flow}).set_flow("quiescent")
+
+    def test_folders_of_runs_are_asked_with_sound_arguments_only(self):
+        folder = self.folder / "run"
+        with Simulation(SHEAR, folder) as simulation:
+            simulation.step()
+        run = Run(folder)
+        for wrong in WRONG_PATHS:
+            with self.assertRaisesRegex(ValueError, "^folder ", msg=wrong):
+                Run(wrong)
+        for wrong in WRONG_NUMBERS:
+            for ask in (run.shape, run.volume):
+                with self.assertRaisesRegex(ValueError, "^t ", msg=wrong):
+                    ask(wrong)
+            with self.assertRaisesRegex(ValueError, "^number ", msg=wrong):
+                run.shape(0).drop(wrong)
+
+    def test_broken_files_of_a_run_are_named(self):
+        (self.folder / "history.csv").write_text("step,t\n0,0.5\n1,x\n", encoding="utf-8")
+        with self.assertRaisesRegex(ValueError, "history.csv:3: t must be a number, not 'x'"):
+            Run(self.folder).history()
+        (self.folder / "history.csv").write_text("step,t\n0.5,0\n", encoding="utf-8")
+        with self.assertRaisesRegex(ValueError, "history.csv:2: step must be a whole number, not '0.5'"):
+            Run(self.folder).history()
+        for text, words in (("[]", "must hold an object"), ("{}", "status is missing"), ("{", "cannot be read")):
+            (self.folder / "run.json").write_text(text, encoding="utf-8")
+            with self.assertRaisesRegex(ValueError, f"run.json: {words}"):
+                Run(self.folder).status
+
+    def test_pictures_of_what_is_none_are_refused_and_leave_no_figure(self):
+        import matplotlib.pyplot as plt
+        with Simulation(SHEAR, self.folder / "run") as simulation:
+            simulation.step()
+            shape = simulation.interfaces[0]
+        run = Run(self.folder / "run")
+        before = plt.get_fignums()
+        for wrong in (3, None, "none", run.folder, {}, [3], [shape, 3], (shape.points, shape.triangles)):
+            with self.assertRaisesRegex(ValueError, "^source must be", msg=wrong):
+                plot.interface(wrong)
+            with self.assertRaisesRegex(ValueError, "^source must be", msg=wrong):
+                plot.history(wrong)
+        for draw, words in ((lambda: plot.interface(simulation), "closed"), (lambda: plot.interface([]), "no surface"),
+                            (lambda: plot.history(simulation), "closed"),
+                            (lambda: plot.interface(run, "x"), "t must be a number"),
+                            (lambda: plot.interface(shape, 1.0), "t = 1.0: only a Run"),
+                            (lambda: plot.interface(run, color=3), "color must be a text"),
+                            (lambda: plot.interface(run, cmap=3), "cmap must be the name"),
+                            (lambda: plot.interface(run, ax=3), "ax must be axes"),
+                            (lambda: plot.history(run, ax=3), "ax must be axes"),
+                            (lambda: plot.history(run, 3), "columns must be a name"),
+                            (lambda: plot.history(run, []), "columns must name one"),
+                            (lambda: plot.history(run, ["D", 3]), "a name in columns must be a text"),
+                            (lambda: plot.history(run, "step_bound"), "holds words")):
+            with self.assertRaisesRegex(ValueError, words):
+                draw()
+        self.assertEqual(plt.get_fignums(), before)
 
 
 class ArrayTest(FolderCase):

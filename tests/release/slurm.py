@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Studies under Slurm: the same study.csv as without, one killed and resumed, a bisection, runs on two ranks.
+"""Studies under Slurm: the same study.csv as without, one killed and resumed, bisections, runs on two ranks.
 
     slurm.py PROGRAM [WORK]     # as root; starts munged, slurmctld and slurmd on loopback, and ends them
 
@@ -21,6 +21,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "end_to_end"))
 from study import CASE, check, finish, rows, same_bytes, study  # noqa: E402
 
+STUDIES = Path(__file__).resolve().parents[2] / "studies"
 POINTS = """
 [study]
 case = "case.toml"
@@ -207,6 +208,21 @@ def check_bisection(cluster, program, work):
     check(len(scripts(slurm)) > 1, "a bisection submits its rounds one after another")
 
 
+def check_grace(cluster, program, work):
+    """Three points of the shipped study of Grace's curve."""
+    for name in ("grace-extension.toml", "extension.toml"):
+        text = (STUDIES / name).read_text(encoding="utf-8")
+        text = text.replace("values = [110, 60]", "values = [60]")
+        text = text.replace("values = [0.01, 0.03, 0.1, 0.3, 1, 3, 10]", "values = [1, 3, 10]")
+        (work / name).write_text(text, encoding="utf-8")
+    plain, slurm = work / "grace", work / "grace-slurm"
+    finish(study(program, work / "grace-extension.toml", plain, "--jobs", "2"), "Grace's curve without Slurm")
+    finish(study(program, work / "grace-extension.toml", slurm, "--slurm", environment=cluster.environment),
+           "Grace's curve by Slurm")
+    same_bytes(plain, slurm, "Grace's curve by Slurm")
+    check([row["outcome"] for row in rows(slurm)] == 3 * ["critical"], "not three critical values")
+
+
 def check_ranks(cluster, program, work):
     output = work / "points-ranks"
     finish(study(program, work / "points.toml", output, "--slurm", "--ranks", "2", environment=cluster.environment),
@@ -243,7 +259,7 @@ def test(program, work):
     (work / "points.toml").write_text(POINTS, encoding="utf-8")
     (work / "bisection.toml").write_text(BISECTION, encoding="utf-8")
     with Cluster() as cluster:
-        for each in (check_points, check_killed, check_cancelled, check_bisection, check_ranks):
+        for each in (check_points, check_killed, check_cancelled, check_bisection, check_grace, check_ranks):
             each(cluster, program, work)
     check_silence(program, work)
     print("slurm: studies by Slurm give the tables of those without")
