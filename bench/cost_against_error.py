@@ -8,7 +8,8 @@ axisymmetric reference; simple shear at Ca = 0.2 and 0.38 to t = 10, its error t
 through the three finest runs of quadratic elements (in the box) or of boundary integrals (unbounded). Far walls have 507
 vertices, "coarser walls" 90. --paper runs each by the paper's rule for Δt as well, up to N0 vertices. Runs are made one
 after another on one core, and their seconds are those of the whole program. Writes WORK/cost.csv, row by row (a row that
-is there is not run again), and WORK/cost-against-error.svg. --only takes the runs whose "flow: method;" holds the text.
+is there is not run again), and WORK/cost-against-error.svg, by meniscus.plot (needs the Python module and matplotlib,
+docs/python.md). --only takes the runs whose "flow: method;" holds the text.
 """
 import argparse
 import csv
@@ -18,10 +19,9 @@ import sys
 import time
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "cases"))
-from curves import COLOURS, Axes  # noqa: E402
+import meniscus.plot
 
+HERE = Path(__file__).resolve().parent
 NODES = {"P1": (60, 110, 220, 400), "P2": (60, 110, 160, 220), "P2, coarser walls": (50, 60, 110, 220),
          "boundary integrals": (60, 110, 220, 450)}
 FINE = {"P2": (160, 220, 320), "boundary integrals": (320, 450, 640)}
@@ -31,6 +31,7 @@ METHODS = {
     "P2, coarser walls": ['solver.elements="P2-P1"', "domain.nodes=90"],
     "boundary integrals": ['solver.method="boundary-integral"'],
 }
+COLOURS = {"P1": 4, "P2": 1, "P2, coarser walls": 5, "boundary integrals": 0}
 FLOWS = {
     "extension, Ca = 0.1": ('"uniaxial-extension"', 0.1, 6.0, 'shape = "sphere"\nradius = 10.0\nnodes = 507'),
     "shear, Ca = 0.2": ('"simple-shear"', 0.2, 10.0, 'shape = "box"\nhalf-width = 10.0\nnodes = 507'),
@@ -119,35 +120,25 @@ def errors(table):
 
 
 def draw(table, path):
+    """A panel to a flow: errors against seconds, a line to a method and rule."""
     found = [(row, max(error, 1e-5)) for row, error in errors(table) if int(row["nodes"]) in NODES[row["method"]]]
     flows = [flow for flow in FLOWS if any(row["flow"] == flow for row, _ in found)]
     if not flows:
         return
-    seconds = [float(row["seconds"]) for row, _ in found]
-    window = [0.8 * min(seconds), 1.25 * max(seconds), 80.0 * min(e for _, e in found), 125.0 * max(e for _, e in found)]
-    axes = Axes(window, True, True)
-    width, height = 640, 400
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height * len(flows)}">',
-           "<style>text{font:12px system-ui,sans-serif;fill:#4a525c}</style>",
-           f'<rect width="{width}" height="{height * len(flows)}" fill="#ffffff"/>']
-    for k, flow in enumerate(flows):
-        out.append(f'<g transform="translate(0 {height * k})">')
-        out += axes.frame(["seconds on one core", "error of " + ("L" if flow.startswith("ext") else "D") + ", per cent"])
-        out.append(f'<text x="320" y="14" text-anchor="middle">{flow}</text>')
-        line = 0
-        for colour, method in zip(COLOURS, METHODS):
-            for rule, dash in (("error", ""), ("paper", ' stroke-dasharray="4 3"')):
+    axes = meniscus.plot.panels(len(flows))
+    for flow, ax in zip(flows, axes):
+        series, styles, colours = {}, {}, {}
+        for method, colour in COLOURS.items():
+            for rule, more, style in (("error", "", "o-"), ("paper", ", the paper's steps", "o--")):
                 points = sorted((int(row["nodes"]), float(row["seconds"]), 100.0 * error) for row, error in found
                                 if (row["flow"], row["method"], row["rule"]) == (flow, method, rule))
-                if not points:
-                    continue
-                out.append(axes.line([p[1:] for p in points], f'stroke="{colour}" stroke-width="2"{dash}'))
-                out += [f'<circle cx="{axes.x(a):.1f}" cy="{axes.y(b):.1f}" r="3" fill="{colour}"/>' for _, a, b in points]
-                name = method + (", the paper's steps" if rule == "paper" else "")
-                out.append(f'<text x="608" y="{252 + 16 * line}" text-anchor="end" style="fill:{colour}">{name}</text>')
-                line += 1
-        out.append("</g>")
-    path.write_text("\n".join(out + ["</svg>", ""]), encoding="utf-8")
+                if points:
+                    series[method + more] = [p[1] for p in points], [p[2] for p in points]
+                    styles[method + more], colours[method + more] = style, colour
+        meniscus.plot.lines(series, x="seconds on one core", y=f"error of {'L' if flow.startswith('ext') else 'D'} [%]", log="xy",
+                            styles=styles, colours=colours, ax=ax)
+        ax.set_title(flow)
+    meniscus.plot.save(axes[0], path)
 
 
 def main():

@@ -18,7 +18,7 @@ browser=(chromium)
 # clang 14, Debian's default, cannot read the ranges of libstdc++ 12.
 long=(clang-tidy-16 libbenchmark-dev)
 coverage=(gcovr)
-docs=(python3 mkdocs mkdocs-material doxygen)
+docs=(python3 mkdocs mkdocs-material python3-pymdownx libjs-mathjax doxygen)
 deb=(dpkg-dev file gzip)
 release=(mmdebstrap libcgal-demo slurm-wlm munge)
 

@@ -6,7 +6,8 @@
                                    repository or in pages that are installed
 
 Every page keeps its place, so that links between pages stay as they are. A file that a page links
-to is copied beside it. Nothing is fetched, and the site loads nothing from elsewhere.
+to is copied beside it. Formulas, the fences ```math, are typeset by the MathJax of Debian's
+libjs-mathjax, which is copied too. Nothing is fetched, and the site loads nothing from elsewhere.
 """
 
 import pathlib
@@ -17,6 +18,12 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)\s#]+)(#[^)\s]*)?\)")
+FENCE = re.compile(r"(^```.*?^```)", flags=re.S | re.M)
+MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
+# What TeX typeset as SVG takes of it: no fonts but outlines.
+OF_MATHJAX = ["MathJax.js", "extensions/MathEvents.js", "extensions/AssistiveMML.js", "extensions/toMathML.js",
+              "extensions/TeX/AMSmath.js", "extensions/TeX/AMSsymbols.js", "jax/element", "jax/input/TeX",
+              "jax/output/SVG/config.js", "jax/output/SVG/jax.js", "jax/output/SVG/autoload", "jax/output/SVG/fonts/TeX"]
 
 # What is found under which tab; other pages come last.
 TABS = {
@@ -62,7 +69,7 @@ def slug(heading):
 
 
 def places(page):
-    text = re.sub(r"^```.*?^```", "", page.read_text(), flags=re.S | re.M)
+    text = FENCE.sub("", page.read_text())
     return {slug(heading) for heading in re.findall(r"^#+ (.*)$", text, flags=re.M)}
 
 
@@ -103,12 +110,24 @@ def stage(page, target):
 
     to = target / staged(page)
     to.parent.mkdir(parents=True, exist_ok=True)
-    to.write_text(LINK.sub(link, (ROOT / page).read_text()))
+    parts = FENCE.split((ROOT / page).read_text())
+    to.write_text("".join(part if FENCE.match(part) else LINK.sub(link, part) for part in parts))
 
 
 def copy_file(of_root, target):
     (target / of_root).parent.mkdir(parents=True, exist_ok=True)
     shutil.copyfile(ROOT / of_root, target / of_root)
+
+
+def add_mathjax(target):
+    """Copies what typesets formulas, and how it is set."""
+    if not (MATHJAX / "MathJax.js").exists():
+        sys.exit("site: libjs-mathjax is not installed; scripts/setup.sh docs installs it")
+    for name in OF_MATHJAX:
+        to = target / "mathjax" / name
+        to.parent.mkdir(parents=True, exist_ok=True)
+        (shutil.copytree if (MATHJAX / name).is_dir() else shutil.copyfile)(MATHJAX / name, to)
+    copy_file(pathlib.Path("site/formulas.js"), target)
 
 
 def list_folder(folder, target):
@@ -125,7 +144,7 @@ def gallery(all_pages, target):
     """Every picture of the pages once, under the page that it belongs to."""
     lines, seen = ["# Gallery", ""], set()
     for page in all_pages:
-        for mark, text, to, _ in LINK.findall((ROOT / page).read_text()):
+        for mark, text, to, _ in LINK.findall(FENCE.sub("", (ROOT / page).read_text())):
             picture = (ROOT / page.parent / to).resolve()
             if not mark or picture in seen:
                 continue
@@ -191,6 +210,7 @@ def build(output):
     for page in all_pages:
         stage(page, work)
     gallery(all_pages, work)
+    add_mathjax(work)
     # MkDocs looks for what its file names beside that file.
     configuration = work.with_suffix(".yml")
     configuration.write_text((ROOT / "site/mkdocs.yml").read_text() +

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks a built site: no link within it is dead, and no page loads anything from elsewhere.
+"""Checks a built site: no link within it is dead, and no page loads anything from elsewhere, or has what the theme's
+script would load something for.
 
     site/check_links.py SITE
 """
@@ -13,18 +14,21 @@ import urllib.parse
 # What a browser fetches by itself, by element and attribute.
 LOADED = {("script", "src"), ("img", "src"), ("iframe", "src"), ("source", "src"), ("video", "src"),
           ("object", "data"), ("embed", "src")}
+# What the theme's script loads something from elsewhere for, by attribute and word.
+FETCHING = (("class", "mermaid"), ("data-md-component", "source"))
 LOADED_RELATIONS = {"stylesheet", "icon", "preload", "preconnect", "dns-prefetch", "manifest"}
 
 
 class Page(html.parser.HTMLParser):
     def __init__(self, text):
         super().__init__()
-        self.links, self.loaded, self.anchors = [], [], set()
+        self.links, self.loaded, self.anchors, self.fetching = [], [], set(), []
         self.feed(text)
 
     def handle_starttag(self, tag, attributes):
         values = {name: value or "" for name, value in attributes}
         self.anchors.update(values[name] for name in ("id", "name") if name in values)
+        self.fetching += [f'{name}="{word}"' for name, word in FETCHING if word in values.get(name, "").split()]
         is_loaded = tag == "link" and LOADED_RELATIONS & set(values.get("rel", "").split())
         for name in ("href", "src", "data"):
             if name not in values or (name == "data" and tag != "object"):
@@ -41,6 +45,7 @@ def faults_of(site):
     faults = []
     for path, page in pages.items():
         name = path.relative_to(site)
+        faults += [f"{name}: {what} makes the theme load from elsewhere" for what in page.fetching]
         for link in page.links + page.loaded:
             parts = urllib.parse.urlsplit(link)
             if parts.scheme or parts.netloc:

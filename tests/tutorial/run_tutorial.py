@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Runs pages as a reader does: their ```sh blocks in order, each page in an empty folder.
 
-    run_tutorial.py WORK --programs PROGRAM... --pages PAGE...
+    run_tutorial.py WORK --programs PROGRAM... --pages PAGE... [--python PYTHON]
 
-The programs are on the path there. Every block must succeed, and print what the ```text block after it quotes. In a quotation
-"…" stands for anything: in a line for a part of it, alone in a line for any number of lines. Numbers may differ by 2 %, or by one
-in the last of several digits quoted. A comment before a block of commands changes that:
+The programs are on the path there, and PYTHON as python3. Every block must succeed, and print what the ```text block after it
+quotes. In a quotation "…" stands for anything: in a line for a part of it, alone in a line for any number of lines. Numbers may
+differ by 2 %, or by one in the last of several digits quoted. A comment before a block of commands changes that:
 
     <!-- test: within 10 % -->            numbers of its quotation may differ by so much
     <!-- test: run --set time.end=1 -->   every `meniscus run` of the block gets these options; its quotation is held to its
@@ -156,6 +156,7 @@ def parse_arguments():
     parser.add_argument("work", type=Path)
     parser.add_argument("--programs", nargs="+", type=Path, required=True)
     parser.add_argument("--pages", nargs="+", type=Path, required=True)
+    parser.add_argument("--python", type=Path)
     return parser.parse_args()
 
 
@@ -165,8 +166,11 @@ def main():
     tools = work / "bin"
     shutil.rmtree(tools, ignore_errors=True)
     tools.mkdir(parents=True)
-    for program in arguments.programs:
-        (tools / program.name).symlink_to(program.resolve(strict=True))
+    named = {program.name: program for program in arguments.programs}
+    if arguments.python:
+        named["python3"] = arguments.python
+    for name, program in named.items():
+        (tools / name).symlink_to(program.resolve(strict=True))
     environment = dict(os.environ, PATH=f"{tools}{os.pathsep}{os.environ['PATH']}", LC_ALL="C.UTF-8")
     for page in arguments.pages:
         start = time.monotonic()
