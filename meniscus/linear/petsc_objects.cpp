@@ -55,7 +55,11 @@ bool is_on_one_machine() {
 class StartSettings {
  public:
   StartSettings() {
-    if (!is_launched()) set("OMPI_MCA_ess_singleton_isolated", "1");
+    if (!is_launched()) {
+      set("OMPI_MCA_ess_singleton_isolated", "1");
+      // All such processes would share one folder, and remove it under each other.
+      set("OMPI_MCA_orte_create_session_dirs", "0");
+    }
     if (!is_launched() || is_on_one_machine()) set("OMPI_MCA_pml", "ob1");
   }
   ~StartSettings() {

@@ -3,6 +3,7 @@
 
     refusals.py PROGRAM ROOT WORK
 """
+import os
 import shutil
 import subprocess
 import sys
@@ -38,8 +39,9 @@ def main():
     (work / "typo.toml").write_text(text.replace("viscosity-ratio", "viscocity-ratio"))
     line = 1 + text[:text.index("viscosity-ratio")].count("\n")
     (work / "file").write_text("not a folder\n")
+    # MPI must not keep a folder that processes started at the same time share, and remove.
     subprocess.run([program, "run", "case.toml", "-o", "run", "-q", "--set", "time.end=0.05"],
-                   cwd=work, check=True)
+                   cwd=work, env=os.environ | {"TMPDIR": "/dev/null/none"}, check=True)
     shutil.copytree(work / "run", work / "corrupt")
     for checkpoint in (work / "corrupt").glob("checkpoint-*.h5"):
         checkpoint.write_bytes(checkpoint.read_bytes()[:1000])
