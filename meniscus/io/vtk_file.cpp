@@ -88,8 +88,8 @@ vtkNew<vtkPolyData> to_poly_data(std::span<const SurfaceMesh* const> surfaces,
   return poly;
 }
 
-/// The points of a volume mesh's file: its vertices, then one for each further set of values that
-/// the corners at a vertex have, such as the pressures on the two sides of an interface.
+/// The points of a volume mesh's file. First come its vertices. A vertex whose corners have several
+/// sets of values, such as pressures on two sides of an interface, has one more for each.
 struct CornerPoints {
   std::vector<TetVertexId> vertex;      ///< of every point
   std::vector<std::size_t> corner;      ///< 4 c + k of one of its corners

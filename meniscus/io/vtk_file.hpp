@@ -42,9 +42,9 @@ void write_vtp(const std::filesystem::path& path, std::span<const SurfaceMesh* c
 void write_surface_vtu(const std::filesystem::path& path,
                        std::span<const SurfaceMesh* const> surfaces, const MeshData& data, double t,
                        const CurvedEdges& curved);
-/// Compressed .vtu. Points are the vertices, and each once more for every further set of values
-/// that arrays of `on_corners` (|C| × 4 × components, e.g. a pressure that jumps across interfaces)
-/// have there. The middles of cells with a curved edge come after all of these.
+/// Compressed .vtu. `on_corners` has arrays of |C| × 4 × components, such as a pressure that jumps
+/// across interfaces. Points are the vertices, and each once more for every further set of values
+/// that corners there have. The middles of cells with a curved edge come after all of these.
 void write_vtu(const std::filesystem::path& path, const TetMesh& mesh, const MeshData& data,
                double t, std::span<const NamedArray> on_corners = {},
                const CurvedEdges& curved = {});
