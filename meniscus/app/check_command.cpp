@@ -42,13 +42,15 @@ bool is_benchmark(const std::string& name) {
          benchmark_files().end();
 }
 
-/// The folder of a case. A bare name is looked for in `cases` first, and then here.
+/// The folder of a case. A bare name is looked for in `cases` first, and then here, at last what
+/// was installed.
 fs::path case_folder(const std::string& name, const fs::path& cases) {
   fs::path folder = fs::path(name).lexically_normal();
   if (!folder.has_filename()) folder = folder.parent_path();
   const bool is_bare_name = !folder.has_parent_path();
   if (is_bare_name && fs::exists(cases / folder / "check.toml")) return cases / folder;
-  if (fs::exists(folder / "check.toml")) return folder;
+  for (const fs::path& place : {folder, shipped_docs() / folder})
+    if (fs::exists(place / "check.toml")) return place;
   reject_input("{}: no validation case: {} check.toml{}", name,
                is_bare_name ? fmt::format("neither it nor {} holds a", (cases / folder).string())
                             : "it holds no",

@@ -172,18 +172,26 @@ MovingMeshOptions read_volume_mesh(Settings& settings, fem::Elements elements) {
   return options;
 }
 
+/// [R0] With [scale]: threads in experiments are up to some hundred radii long.
+constexpr double kLongestDrop = 1000.0;
+
 StopRules read_stop_rules(Settings& settings, const DomainCase& domain) {
   const auto number = [&](const char* key) -> std::optional<double> {
     const std::string path = std::string("time.stop-when.") + key;
     if (!settings.is_given(path)) return std::nullopt;
     return settings.number(path);
   };
+  const auto length = [&](const char* key) {
+    const std::optional<double> value = number(key);
+    if (value) settings.require_metres(std::string("time.stop-when.") + key, *value, kLongestDrop);
+    return value;
+  };
   StopRules rules;
   rules.steady_rate = number("steady-rate");
   rules.is_broken_by_event =
       settings.is_given("time.stop-when.broken") && settings.flag("time.stop-when.broken");
-  rules.broken_length = number("broken-length");
-  rules.length = number("length");
+  rules.broken_length = length("broken-length");
+  rules.length = length("length");
   rules.is_ended_by_patch = std::ranges::any_of(domain.patches, [](const PatchCase& patch) {
     return patch.condition == PatchCase::Condition::open;
   });

@@ -1,11 +1,11 @@
 #include "meniscus/case/surface_source.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "meniscus/core/error.hpp"
-#include "meniscus/core/log.hpp"
 #include "meniscus/evolve/constants.hpp"
 #include "meniscus/io/archive_file.hpp"
 #include "meniscus/io/run_files.hpp"
@@ -128,8 +128,20 @@ TaggedSurface read_case_surface(const Case& c, const std::string& path, const Fi
   } catch (const InvalidInput& error) {
     c.settings.reject(path, "cannot be used: {}", error.what());
   }
-  if (c.settings.scale())
-    for (Vec3& x : surface.mesh.x) x /= c.settings.scale()->length;
+  if (c.settings.scale()) {
+    // [R0] Five times the farthest walls that have a use.
+    constexpr double kFarthest = 500.0;
+    double reach = 0.0;
+    for (Vec3& x : surface.mesh.x) {
+      x /= c.settings.scale()->length;
+      reach = std::max(reach, x.cwiseAbs().maxCoeff());
+    }
+    if (reach > kFarthest)
+      c.settings.reject(path,
+                        "reaches {:.4g} times scale.length = {}: with [scale] its coordinates are "
+                        "in metres",
+                        reach, c.settings.scale()->length);
+  }
   if (const auto defect = find_defect(surface.mesh))
     c.settings.reject(path, "is unfit: {}", text_of(*defect, surface.report));
   if (surface.report.is_changed())

@@ -266,6 +266,12 @@ const std::vector<BadCase> kMeaning{
      "surface-tension = 0.01\nrate = 1.0\n[[drop]]\nradius = 1.0\n",
      "case.toml:9: drop.radius = 1.0 must be at most 100 times scale.length = 0.001: with [scale] "
      "lengths are in metres"},
+    {"a length to stop at in R0 with a scale",
+     "[flow]\nkind = \"simple-shear\"\n[scale]\nlength = 1e-3\nviscosity = 1.0\n"
+     "surface-tension = 0.01\nrate = 1.0\n[[drop]]\nradius = 1e-3\n[time.stop-when]\n"
+     "broken-length = 4.0\n",
+     "case.toml:11: time.stop-when.broken-length = 4.0 must be at most 1000 times scale.length = "
+     "0.001: with [scale] lengths are in metres"},
     {"a domain in R0 with a scale",
      "[flow]\nkind = \"simple-shear\"\n[scale]\nlength = 1e-4\nviscosity = 1.0\n"
      "surface-tension = 0.01\nrate = 1.0\n[domain]\nhalf-width = 10.0\n[[drop]]\nradius = 1e-4\n",

@@ -18,7 +18,7 @@ file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 build(${SOURCE} ${WORK}/build consumer)
 run(${WORK}/prefix/bin/meniscus --version)
-run(${WORK}/prefix/bin/meniscus check uniaxial-extension --recorded)
+run(${CMAKE_COMMAND} -E chdir ${WORK} ./prefix/bin/meniscus check cases/uniaxial-extension --recorded)
 run(${PYTHON3} -B ${SOURCE}/../../site/build.py --check ${WORK}/prefix/share/doc/meniscus)
 if(PYTHON)
   run(${CMAKE_COMMAND} -E env PYTHONPATH=${WORK}/prefix/${PYTHON_DIR} PYTHONDONTWRITEBYTECODE=1 ${PYTHON} -c

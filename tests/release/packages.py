@@ -53,7 +53,8 @@ def check_program(debian):
     expect(len(rows) > 2 and float(rows[-1].split(",")[1]) >= 0.2, "the run did not come to its end")
     use("test -s shear-subcritical/report.html -a -s shear-subcritical/surface.pvd -a -s shear-subcritical/ro-crate-metadata.json")
     use("meniscus check uniaxial-extension --against /usr/share/doc/meniscus/benchmark/uniaxial-extension.csv")
-    use("meniscus check uniaxial-extension --recorded")
+    for name in ("uniaxial-extension", "cases/uniaxial-extension"):
+        use(f"meniscus check {name} --recorded")
     said = use("meniscus study studies/critical-extension.toml 2>&1", status=2)
     expect("/usr/share/doc/meniscus/studies/critical-extension.toml" in said, f"no hint at the shipped study: {said}")
     use("meniscus run none.toml", status=2)
