@@ -14,6 +14,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/evolve/constants.hpp"
+#include "meniscus/linear/shared_work.hpp"
 #include "meniscus/mesh/sphere_radius.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/scene/interface_tension.hpp"
@@ -75,15 +76,26 @@ Eigen::VectorXd damped(const SparseMatrix& K, const Eigen::VectorXd& mass, doubl
   const double most = 2.0 * (K.diagonal().array() / mass.array()).maxCoeff() + k;
   const InverseSum sum = inverse_sum(alpha, k, most);
   const Eigen::VectorXd moment = mass.cwiseProduct(s);
-  Eigen::VectorXd result = sum.rest * s;
   Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> factors;
   factors.analyzePattern(K);
-  for (const auto& [shift, weight] : sum.terms) {
-    SparseMatrix shifted = K;
-    shifted.diagonal() += (shift + k) * mass;
-    factors.factorize(shifted);
-    result += weight * factors.solve(moment);
-  }
+  const auto size = static_cast<std::size_t>(s.size());
+  const std::vector<double> parts =
+      linear::shared_numbers(linear::Communicator::world(), sum.terms.size(), size,
+                             [&](std::size_t first, std::size_t end) {
+                               std::vector<double> values(size * (end - first));
+                               for (std::size_t term = first; term < end; ++term) {
+                                 SparseMatrix shifted = K;
+                                 shifted.diagonal() += (sum.terms[term].shift + k) * mass;
+                                 factors.factorize(shifted);
+                                 Eigen::Map<Eigen::VectorXd>(&values[size * (term - first)],
+                                                             s.size()) = factors.solve(moment);
+                               }
+                               return values;
+                             });
+  Eigen::VectorXd result = sum.rest * s;
+  for (std::size_t term = 0; term < sum.terms.size(); ++term)
+    result +=
+        sum.terms[term].weight * Eigen::Map<const Eigen::VectorXd>(&parts[size * term], s.size());
   return result;
 }
 

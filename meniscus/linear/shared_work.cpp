@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/linear/collective.hpp"
 #include "meniscus/linear/petsc_objects.hpp"
 
 namespace meniscus::linear {
@@ -125,6 +126,21 @@ void share_work(Communicator communicator, std::span<const double> work, const M
     if (!share.error.empty()) throw RunFailure(share.error);
   }
   take_all(owner, rank, shares, take);
+}
+
+std::vector<double> shared_numbers(Communicator communicator, std::size_t count, std::size_t width,
+                                   const FindNumbers& find) {
+  const auto num_ranks = static_cast<std::size_t>(communicator.size());
+  const auto first = [&](std::size_t rank) { return count * rank / num_ranks; };
+  const auto own = static_cast<std::size_t>(communicator.rank());
+  std::vector<double> part = find(first(own), first(own + 1));
+  if (num_ranks == 1) return part;
+  std::vector<std::int32_t> counts;
+  for (std::size_t rank = 0; rank < num_ranks; ++rank)
+    counts.push_back(static_cast<std::int32_t>(width * (first(rank + 1) - first(rank))));
+  std::vector<double> all(width * count);
+  gather(communicator, part, counts, all);
+  return all;
 }
 
 }  // namespace meniscus::linear

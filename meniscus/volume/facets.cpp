@@ -25,10 +25,7 @@ std::uint64_t side_of(const FacetVertices& f) {
 
 FacetVertices facet(const CellVertices& cell, std::size_t k) {
   MENISCUS_ASSERT(k < 4, "facet {}", k);
-  // Corners of the facets of (0, 1, 2, 3) with det[x1 − x0, x2 − x0, x3 − x0] > 0, outward.
-  constexpr std::array<std::array<std::size_t, 3>, 4> kOutward{
-      {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-  return {cell[kOutward[k][0]], cell[kOutward[k][1]], cell[kOutward[k][2]]};
+  return {cell[kFacetCorners[k][0]], cell[kFacetCorners[k][1]], cell[kFacetCorners[k][2]]};
 }
 
 FacetTable::FacetTable(const TetMesh& mesh)
@@ -44,8 +41,8 @@ FacetTable::FacetTable(const TetMesh& mesh)
 /// Counting sort of all facets by their smallest vertex.
 void FacetTable::gather(const TetMesh& mesh) {
   for (const CellVertices& cell : mesh.cells)
-    for (std::size_t k = 0; k < 4; ++k)
-      ++first_[static_cast<std::size_t>(canonical_facet(facet(cell, k))[0].value) + 1];
+    for (const auto& [a, b, c] : kFacetCorners)
+      ++first_[static_cast<std::size_t>(std::min({cell[a], cell[b], cell[c]}).value) + 1];
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
   std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
   for (const CellId c : mesh.cells.ids())

@@ -11,6 +11,10 @@ namespace meniscus {
 
 using FacetVertices = std::array<TetVertexId, 3>;
 
+/// The corners of the facet opposite each corner of a cell, as `facet` has them.
+inline constexpr std::array<std::array<std::size_t, 3>, 4> kFacetCorners{
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
 /// The facet of a cell opposite its corner k, its vertices counter-clockwise seen from outside the
 /// cell (for a cell of positive volume).
 [[nodiscard]] FacetVertices facet(const CellVertices& cell, std::size_t k);

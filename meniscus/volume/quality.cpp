@@ -8,34 +8,75 @@
 
 #include <Eigen/Geometry>
 
+#include "meniscus/core/vector_clones.hpp"
 #include "meniscus/volume/facets.hpp"
 
 namespace meniscus {
 namespace {
 
-/// The least and the largest of dihedral angles, as c|c| of their cosines c: no roots are needed.
-struct AngleRange {
-  double least = 1.0, most = -1.0;  // c|c|, which rises with the cosine
+// One instruction works on so many cells.
+constexpr std::size_t kLanes = 8;
+using Numbers = std::array<double, kLanes>;
+
+/// The least and the largest dihedral angle of some cells, as c|c| of their cosines c: no roots are
+/// needed, and c|c| rises with the cosine.
+struct AngleRanges {
+  Numbers least, most;
 };
 
-/// The six dihedral angles: c = −n_i·n_j of the unit outward normals of the facets.
-AngleRange dihedral_angles(const TetMesh& mesh, const CellVertices& cell) {
-  std::array<Vec3, 4> n;
-  std::array<double, 4> inverse;  // of |n|²
-  for (std::size_t k = 0; k < 4; ++k) {
-    const FacetVertices f = facet(cell, k);
-    n[k] = (mesh.x[f[1]] - mesh.x[f[0]]).cross(mesh.x[f[2]] - mesh.x[f[0]]);
-    inverse[k] = 1.0 / n[k].squaredNorm();
-  }
-  AngleRange range;
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = i + 1; j < 4; ++j) {
-      const double dot = -n[i].dot(n[j]);
-      const double square = dot * std::abs(dot) * inverse[i] * inverse[j];
-      range.least = std::min(range.least, square);
-      range.most = std::max(range.most, square);
+/// The six dihedral angles of each cell: c = −n_i·n_j of the unit outward normals of the facets.
+/// `x` has the coordinates of all vertices.
+MENISCUS_VECTOR_CLONES
+void find_angles(const double* x, const std::array<const CellVertices*, kLanes>& cells,
+                 AngleRanges& to) {
+  std::array<std::array<Numbers, 3>, 4> p, n;
+  std::array<Numbers, 4> inverse;  // of |n|²
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t m = 0; m < kLanes; ++m) {
+      const double* const from = x + std::ptrdiff_t{3} * (*cells[m])[k].value;
+      for (std::size_t a = 0; a < 3; ++a) p[k][a][m] = from[a];
     }
-  return range;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto& [i, j, l] = kFacetCorners[k];
+    for (std::size_t m = 0; m < kLanes; ++m) {
+      const std::array<double, 3> u = {p[j][0][m] - p[i][0][m], p[j][1][m] - p[i][1][m],
+                                       p[j][2][m] - p[i][2][m]},
+                                  v = {p[l][0][m] - p[i][0][m], p[l][1][m] - p[i][1][m],
+                                       p[l][2][m] - p[i][2][m]};
+      n[k][0][m] = u[1] * v[2] - u[2] * v[1];
+      n[k][1][m] = u[2] * v[0] - u[0] * v[2];
+      n[k][2][m] = u[0] * v[1] - u[1] * v[0];
+      inverse[k][m] =
+          1.0 / (n[k][0][m] * n[k][0][m] + n[k][1][m] * n[k][1][m] + n[k][2][m] * n[k][2][m]);
+    }
+  }
+  to.least.fill(1.0);
+  to.most.fill(-1.0);
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = i + 1; j < 4; ++j)
+      for (std::size_t m = 0; m < kLanes; ++m) {
+        const double dot =
+            -(n[i][0][m] * n[j][0][m] + n[i][1][m] * n[j][1][m] + n[i][2][m] * n[j][2][m]);
+        const double square = dot * std::abs(dot) * inverse[i][m] * inverse[j][m];
+        to.least[m] = std::min(to.least[m], square);
+        to.most[m] = std::max(to.most[m], square);
+      }
+}
+
+/// Shows `take` the least and the largest angle of every cell.
+template <class Take>
+void for_angles(const TetMesh& mesh, const Take& take) {
+  const auto count = static_cast<std::size_t>(mesh.num_cells());
+  AngleRanges angles;
+  std::array<const CellVertices*, kLanes> cells;
+  for (std::size_t first = 0; first < count; first += kLanes) {
+    const std::size_t num_taken = std::min(kLanes, count - first);
+    for (std::size_t m = 0; m < kLanes; ++m)  // the last one fills up
+      cells[m] = &mesh.cells.span()[first + std::min(m, num_taken - 1)];
+    find_angles(mesh.x.span().front().data(), cells, angles);
+    for (std::size_t m = 0; m < num_taken; ++m)
+      take(CellId{static_cast<std::int32_t>(first + m)}, angles.least[m], angles.most[m]);
+  }
 }
 
 /// 3 r/R with r = 3V/Σ areas and R = |α|/(12V). Here α = a² b×c + b² c×a + c² a×b of the edges a,
@@ -62,36 +103,33 @@ double degrees(double square) {
 
 MeshQuality quality(const TetMesh& mesh) {
   MeshQuality q;
-  AngleRange all;
+  double least = 1.0, most = -1.0;  // of all cells
   q.min_volume = q.min_radius_ratio = std::numeric_limits<double>::infinity();
   const double cosine = std::cos(10.0 * std::numbers::pi / 180.0),
                square_of_10_deg = cosine * cosine;
   std::int32_t below = 0;
-  for (const CellId c : mesh.cells.ids()) {
-    const AngleRange range = dihedral_angles(mesh, mesh.cells[c]);
-    all.least = std::min(all.least, range.least);
-    all.most = std::max(all.most, range.most);
-    below += range.most > square_of_10_deg ? 1 : 0;
+  for_angles(mesh, [&](CellId c, double least_of_cell, double most_of_cell) {
+    least = std::min(least, least_of_cell);
+    most = std::max(most, most_of_cell);
+    below += most_of_cell > square_of_10_deg ? 1 : 0;
     q.min_volume = std::min(q.min_volume, signed_volume(mesh, c));
     q.min_radius_ratio = std::min(q.min_radius_ratio, radius_ratio(mesh, mesh.cells[c]));
-  }
-  q.min_dihedral_deg = degrees(all.most);
-  q.max_dihedral_deg = degrees(all.least);
+  });
+  q.min_dihedral_deg = degrees(most);
+  q.max_dihedral_deg = degrees(least);
   q.below_10_deg = static_cast<double>(below) / std::max(1, mesh.num_cells());
   return q;
 }
 
 double smallest_dihedral_deg(const TetMesh& mesh) {
   double most = -1.0;
-  for (const CellVertices& cell : mesh.cells)
-    most = std::max(most, dihedral_angles(mesh, cell).most);
+  for_angles(mesh, [&](CellId, double, double of_cell) { most = std::max(most, of_cell); });
   return degrees(most);
 }
 
 CellField<double> min_dihedral_deg(const TetMesh& mesh) {
   CellField<double> result(mesh.num_cells());
-  for (const CellId c : mesh.cells.ids())
-    result[c] = degrees(dihedral_angles(mesh, mesh.cells[c]).most);
+  for_angles(mesh, [&](CellId c, double, double most) { result[c] = degrees(most); });
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "meniscus/linear/shared_work.hpp"
 #include "meniscus/mesh/sphere_radius.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
@@ -169,12 +170,13 @@ SizeLaw::SizeLaw(const Scene& scene, const VolumeMeshOptions& options)
   for (std::vector<std::size_t>& each : members) inner_.emplace_back(surfaces_, std::move(each));
 }
 
-std::size_t SizeLaw::enclosing_surface(const Vec3& x) const {
+std::size_t SizeLaw::enclosing_surface(const Vec3& x, std::size_t on) const {
   std::vector<std::size_t> around;
   boxes_.visit_within(Box(x), 0.0, [&](std::size_t rank) { around.push_back(rank); });
   std::ranges::sort(around);
-  const auto innermost = std::ranges::find_if(
-      around, [&](std::size_t rank) { return encloses(surfaces_[inside_first_[rank]].tree, x); });
+  const auto innermost = std::ranges::find_if(around, [&](std::size_t rank) {
+    return inside_first_[rank] != on && encloses(surfaces_[inside_first_[rank]].tree, x);
+  });
   return innermost == around.end() ? container_.size() : inside_first_[*innermost];
 }
 
@@ -264,8 +266,8 @@ double SizeLaw::distance_from_surfaces(Around& around) const {
                       [&](std::size_t position) { return ask_member(position, around).distance; }));
 }
 
-SizeLaw::Around SizeLaw::surroundings(const Vec3& x) const {
-  const std::size_t enclosing = enclosing_surface(x);
+SizeLaw::Around SizeLaw::surroundings(const Vec3& x, std::size_t on) const {
+  const std::size_t enclosing = enclosing_surface(x, on);
   return {x, enclosing, &inner_[enclosing], ask(enclosing, x), {}};
 }
 
@@ -277,6 +279,25 @@ double SizeLaw::size(Around& around) const {
 double SizeLaw::operator()(const Vec3& x) const {
   Around around = surroundings(x);
   return size(around);
+}
+
+std::vector<double> SizeLaw::at_surface_vertices() const {
+  struct OnSurface {
+    Vec3 x;
+    std::size_t surface;
+  };
+  std::vector<OnSurface> all;
+  for (std::size_t i = 0; i < surfaces_.size(); ++i)
+    for (const Vec3& x : surfaces_[i].mesh->x) all.push_back({x, i});
+  return linear::shared_numbers(linear::Communicator::world(), all.size(), 1,
+                                [&](std::size_t first, std::size_t end) {
+                                  std::vector<double> sizes;
+                                  for (std::size_t k = first; k < end; ++k) {
+                                    Around around = surroundings(all[k].x, all[k].surface);
+                                    sizes.push_back(size(around));
+                                  }
+                                  return sizes;
+                                });
 }
 
 SizeAt SizeLaw::at(const Vec3& x) const {

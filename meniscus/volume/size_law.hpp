@@ -72,6 +72,9 @@ class SizeLaw {
   /// [R0]; a few µs per surface that may set the size there. The scene must outlive the law.
   [[nodiscard]] double operator()(const Vec3& x) const;
   [[nodiscard]] SizeAt at(const Vec3& x) const;
+  /// The wanted edge at each vertex of the surfaces: the interfaces', then the outer boundary's.
+  /// That a vertex lies on its own interface is known, and the exact test is spared. Collective.
+  [[nodiscard]] std::vector<double> at_surface_vertices() const;
   /// How often the nearest point of a surface has been looked for: what the law costs.
   [[nodiscard]] std::int64_t num_searches() const { return num_searches_; }
 
@@ -120,7 +123,9 @@ class SizeLaw {
   };
   [[nodiscard]] Sized::Nearest ask(std::size_t surface, const Vec3& x) const;
   const Sized::Nearest& ask_member(std::size_t position, Around& around) const;
-  [[nodiscard]] Around surroundings(const Vec3& x) const;
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  /// `on`: the interface that x lies on.
+  [[nodiscard]] Around surroundings(const Vec3& x, std::size_t on = kNone) const;
   [[nodiscard]] double size(Around& around) const;
   [[nodiscard]] double least_law(Around& around) const;
   /// Asks the members beside which a gap may lie that is no wider than `widest`.
@@ -130,7 +135,7 @@ class SizeLaw {
   [[nodiscard]] double size_in_gaps(double size, Around& around) const;
   [[nodiscard]] double distance_from_surfaces(Around& around) const;
   static BoxTree boxes_of(std::span<const Sized> surfaces, std::span<const std::size_t> members);
-  [[nodiscard]] std::size_t enclosing_surface(const Vec3& x) const;
+  [[nodiscard]] std::size_t enclosing_surface(const Vec3& x, std::size_t on) const;
 
   VolumeMeshOptions options_;
   std::vector<Sized> surfaces_;            // interfaces, then the outer boundary

@@ -28,9 +28,12 @@ Vec3 position(Point p) { return {p[0], p[1], p[2]}; }
 /// only for the coordinates it was made for.
 class SizeTest {
  public:
-  /// The vertices of `mesh` begin with `num_fixed` of the surfaces, then those of the target.
-  SizeTest(const CellTarget& target, std::size_t num_fixed, tetgenmesh& mesh)
-      : target_(target), mesh_(mesh), known_(num_fixed) {
+  /// The vertices of `mesh` begin with those of the surfaces at `on_surfaces`, then come those of
+  /// the target.
+  SizeTest(const CellTarget& target, const std::vector<Vec3>& on_surfaces, tetgenmesh& mesh)
+      : target_(target), mesh_(mesh), known_(on_surfaces.size()) {
+    for (std::size_t i = 0; i < target.surface_sizes.size(); ++i)
+      known_[i] = {on_surfaces[i], target.surface_sizes[i]};
     for (const SizedVertex& vertex : target.vertices) known_.push_back({vertex.x, vertex.size});
   }
 
@@ -192,7 +195,7 @@ void mesh_complex(const SurfaceComplex& complex, tetgenbehavior behavior, const 
   TetgenInput input(complex, target.vertices);
   tetgenio output;
   auto mesh = std::make_unique<tetgenmesh>();
-  SizeTest test(target, complex.x.size(), *mesh);
+  SizeTest test(target, complex.x, *mesh);
   const ActiveSizeTest active(test);
   mesh->b = &behavior;
   mesh->in = &input.io();

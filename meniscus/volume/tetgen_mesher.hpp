@@ -43,15 +43,17 @@ struct CellTarget {
   /// regular one whose edge h is the mean of `size` over the vertices.
   double volume_factor = 2.0;
   double num_cells = 0.0;  ///< how many are expected, for the time that meshing may take
+  /// `size` at the vertices of the surfaces, where that is known.
+  std::vector<double> surface_sizes = {};
   /// Vertices to begin with; they may be moved, and further ones are added where cells ask for it.
   std::vector<SizedVertex> vertices = {};
 };
 
 /// Tetrahedra of all that the complex encloses, by TetGen under the given switches; `size` is
-/// evaluated once per further vertex. TetGen works in a child process (`run_in_child`), for
-/// Debian's library is built with its assertions on. One that does not hold ends the child and is a
-/// failure here. Points in special positions bring that out: coplanar and cospherical ones, as on a
-/// box.
+/// evaluated once per vertex where it is not given. TetGen works in a child process
+/// (`run_in_child`), for Debian's library is built with its assertions on. One that does not hold
+/// ends the child and is a failure here. Points in special positions bring that out: coplanar and
+/// cospherical ones, as on a box.
 MesherResult run_tetgen(const SurfaceComplex& complex, const std::string& switches,
                         const CellTarget& target);
 

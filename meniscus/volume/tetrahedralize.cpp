@@ -151,7 +151,8 @@ VolumeMeshReport tetrahedralize(const Scene& scene, const VolumeMeshOptions& opt
   }
 
   const SurfaceComplex complex = gather_surfaces(scene);
-  CellTarget target{size, options.cell_volume, foreseen.number, vertices_to_keep(before, law)};
+  CellTarget target{size, options.cell_volume, foreseen.number, law.at_surface_vertices(),
+                    vertices_to_keep(before, law)};
   const std::vector<std::string> all_switches = tetgen_switches(options.radius_edge);
   TetMesh candidate;
   if (!target.vertices.empty()) {

@@ -2,11 +2,13 @@
 #include "meniscus/linear/shared_work.hpp"
 
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/linear/collective.hpp"
 
 namespace meniscus::linear {
 namespace {
@@ -45,6 +47,29 @@ void expect_equal(const Archive& a, const Archive& b) {
   EXPECT_EQ(a.texts, b.texts);
   ASSERT_EQ(a.reals.size(), b.reals.size());
   for (const auto& [name, values] : a.reals) EXPECT_EQ(bits(values), bits(b.reals.at(name)));
+}
+
+TEST(RanksShareWork, NumbersAreFoundOnceAndReachAllInOrder) {
+  for (const std::size_t count : {0, 1, 2, 7, 100}) {
+    std::vector<double> calls(count, 0.0);
+    const std::vector<double> found =
+        shared_numbers(world(), count, 2, [&](std::size_t first, std::size_t end) {
+          std::vector<double> values;
+          for (std::size_t k = first; k < end; ++k) {
+            calls[k] += 1.0;
+            values.push_back(std::sqrt(double(k)));
+            values.push_back(-1.0 / double(k + 1));
+          }
+          return values;
+        });
+    ASSERT_EQ(found.size(), 2 * count);
+    for (std::size_t k = 0; k < count; ++k) {
+      EXPECT_EQ(found[2 * k], std::sqrt(double(k)));
+      EXPECT_EQ(found[2 * k + 1], -1.0 / double(k + 1));
+    }
+    sum(world(), calls);
+    EXPECT_EQ(calls, std::vector<double>(count, 1.0));
+  }
 }
 
 TEST(RanksShareWork, EveryPieceIsMadeOnceAndReachesAllBitForBit) {

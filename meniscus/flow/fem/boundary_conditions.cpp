@@ -74,6 +74,7 @@ std::optional<Fault> remove_net_flux(const OuterBoundary& boundary, const Field<
   };
   double flux = 0.0, gross = 0.0, gross_of_free = 0.0;
   for (const NodeId i : area.ids()) {
+    if (!values.patch[i].is_valid()) continue;  // no velocity is imposed
     const double through = flux_through(area[i], values.velocity[i]);
     flux += through;
     gross += std::abs(through);
@@ -86,8 +87,9 @@ std::optional<Fault> remove_net_flux(const OuterBoundary& boundary, const Field<
                              "without an open patch",
                              flux)};
   for (const NodeId i : area.ids()) {
+    if (!is_free(i)) continue;
     const double through = std::abs(flux_through(area[i], values.velocity[i]));
-    if (through > 0.0 && is_free(i)) {
+    if (through > 0.0) {
       MENISCUS_ASSERT(area[i].squaredNorm() > 0.0, "node {}", i.value);
       values.velocity[i] -= flux / gross_of_free * through / area[i].squaredNorm() * area[i];
     }
@@ -187,12 +189,13 @@ BoundaryConditions boundary_conditions(const OuterBoundary& boundary, const Face
   ImposedValues values = imposed_values(boundary, faces, positions, t);
   if (!conditions.has_open_patch)
     conditions.fault = remove_net_flux(boundary, node_area_vectors(faces, positions.x), values);
+  const std::vector<PatchId> walls = impenetrable_patches(boundary);
   const PieceNormals normals =
-      piece_normals(boundary, impenetrable_patches(boundary), faces, num_nodes);
+      walls.empty() ? PieceNormals{} : piece_normals(boundary, walls, faces, num_nodes);
   for (const NodeId i : positions.x.ids()) {
     if (values.patch[i].is_valid())
       conditions.constraints.fix(i, values.velocity[i]);
-    else if (!normals.of(i).empty())
+    else if (!walls.empty() && !normals.of(i).empty())
       conditions.constraints.forbid_penetration(i, normals.of(i));
   }
   return conditions;

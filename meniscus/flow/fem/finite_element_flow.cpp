@@ -354,6 +354,7 @@ FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const Instant
   BulkFlow bulk{at_vertices(state.v, mesh.num_vertices()), {}, {}};
   const auto at_edges = state.v.span().subspan(static_cast<std::size_t>(mesh.num_vertices()));
   bulk.v_at_edges.assign(at_edges.begin(), at_edges.end());
+  bulk.corner_pressure.reserve(space_->pressure.nodes.cell_nodes.size());
   for (const std::int32_t node : space_->pressure.nodes.cell_nodes)
     bulk.corner_pressure.push_back(state.p[static_cast<std::size_t>(node)]);
   result.bulk = std::move(bulk);

@@ -113,6 +113,7 @@ InstantProblem instant_problem(const FlowDomain& domain, const FlowSpace& space,
     problem.stokes.inertia = inertia_terms(domain, at.x, nodes.interfaces);
     problem.stokes.undisturbed = problem.stokes.inertia->before;
   } else {
+    problem.stokes.undisturbed.reserve(at.x.size());
     for (const Vec3& x : at.x) problem.stokes.undisturbed.add(scene.flow.velocity(x, t));
   }
   BoundaryConditions conditions = boundary_conditions(scene.boundary, nodes.boundary, at, t);

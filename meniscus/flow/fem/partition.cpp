@@ -248,6 +248,9 @@ InertiaTerms local_part(const InertiaTerms& global, const Partition& partition) 
 
 StokesProblem local_part(const StokesProblem& global, const Partition& partition) {
   NodePositions positions;
+  const auto num_nodes = static_cast<std::int32_t>(partition.global_node.size());
+  positions.x.reserve(num_nodes);
+  positions.is_curved.reserve(static_cast<std::int32_t>(partition.global_cell.size()));
   for (const NodeId i : partition.global_node) positions.x.add(global.positions.x[i]);
   for (const CellId c : partition.global_cell)
     positions.is_curved.add(global.positions.is_curved[c]);
@@ -259,6 +262,7 @@ StokesProblem local_part(const StokesProblem& global, const Partition& partition
     local.viscosity[c] = global.viscosity[partition.global_cell[at(c.value)]];
     local.body_force[c] = global.body_force[partition.global_cell[at(c.value)]];
   }
+  if (!global.undisturbed.empty()) local.undisturbed.reserve(num_nodes);
   if (!global.undisturbed.empty())
     for (const NodeId i_global : partition.global_node)
       local.undisturbed.add(global.undisturbed[i_global]);
@@ -274,6 +278,8 @@ StokesProblem local_part(const StokesProblem& global, const Partition& partition
 
 StokesState local_part(const StokesState& global, const Partition& partition) {
   StokesState local;
+  local.v.reserve(static_cast<std::int32_t>(partition.global_node.size()));
+  local.p.reserve(partition.global_pressure.size());
   for (const NodeId i : partition.global_node) local.v.add(global.v[i]);
   for (const std::int32_t i : partition.global_pressure) local.p.push_back(global.p[at(i)]);
   return local;
