@@ -135,7 +135,7 @@ void print_products(const StokesProblem& given, bool is_curved) {
   LaplacianMatrix matrix(problem.space, problem.space.velocity.num_nodes);
   matrix.assemble(problem, product);
   const double whole = least_seconds([&] { product.add(v, p, momentum, continuity); }),
-               gradient = least_seconds([&] { product.add_gradient(p, momentum); }),
+               gradient = least_seconds([&] { product.add_straight_gradient(p, momentum); }),
                laplacian = least_seconds([&] { matrix.multiply(padded, momentum); });
   fmt::print(
       "{} cells, ns each: {:.0f} to make products, {:.0f} for preconditioners; a product takes "

@@ -177,10 +177,12 @@ class SaddleSolver::Implementation {
     pressure_laplacian_.reset();
     factorization_.reset();
     nested_ = {};
+    outer_ = {};
   }
 
   /// Makes the operator, and those parts of the preconditioner that were not kept.
   void prepare(const SaddleSystem& system) {
+    if (std::exchange(size_, system.size()) != system.size()) outer_ = {};
     const bool is_paper = options_.method == SaddleMethod::paper_gmres;
     if (system.has_products()) {
       MENISCUS_ASSERT(!is_paper && options_.method != SaddleMethod::mumps, "{} needs matrices",
@@ -267,22 +269,24 @@ class SaddleSolver::Implementation {
                 "MatMult");
   }
 
-  KrylovSolver make_outer_solver(double rtol) {
-    KrylovSolver outer;
-    petsc_check(KSPCreate(comm(), outer.out()), "KSPCreate");
-    petsc_check(KSPSetOperators(outer.get(), operator_, operator_), "KSPSetOperators");
+  /// The Krylov method. It is kept with its vectors, which take a few per cent of a solve to make.
+  KSP outer_solver(double rtol) {
+    const bool is_new = outer_.get() == nullptr;
+    if (is_new) petsc_check(KSPCreate(comm(), outer_.out()), "KSPCreate");
+    petsc_check(KSPSetOperators(outer_.get(), operator_, operator_), "KSPSetOperators");
     // PETSc refuses a relative tolerance of one or more. The absolute tolerance must have no
     // effect.
-    petsc_check(KSPSetTolerances(outer.get(), std::min(rtol, 0.9), 1e-300, PETSC_DEFAULT,
+    petsc_check(KSPSetTolerances(outer_.get(), std::min(rtol, 0.9), 1e-300, PETSC_DEFAULT,
                                  options_.max_iterations),
                 "KSPSetTolerances");
+    if (!is_new) return outer_.get();
     PC pc = nullptr;
-    petsc_check(KSPGetPC(outer.get(), &pc), "KSPGetPC");
+    petsc_check(KSPGetPC(outer_.get(), &pc), "KSPGetPC");
     petsc_check(PCSetType(pc, PCSHELL), "PCSetType");
     petsc_check(PCShellSetContext(pc, &apply_), "PCShellSetContext");
     petsc_check(PCShellSetApply(pc, apply_shell), "PCShellSetApply");
-    petsc_check(KSPSetFromOptions(outer.get()), "KSPSetFromOptions");
-    return outer;
+    petsc_check(KSPSetFromOptions(outer_.get()), "KSPSetFromOptions");
+    return outer_.get();
   }
 
   void iterate(const SaddleSystem& system, std::span<const double> right_hand_side,
@@ -292,17 +296,17 @@ class SaddleSolver::Implementation {
         consistent_right_hand_side(communicator_, system, right_hand_side, sign);
     const Vector b = borrowed_vector(comm(), consistent_side),
                  x = borrowed_vector(comm(), solution);
-    const KrylovSolver outer = make_outer_solver(rtol);
+    const KSP outer = outer_solver(rtol);
     std::vector<PetscReal> history(static_cast<std::size_t>(options_.max_iterations) + 1);
-    petsc_check(KSPSetResidualHistory(outer.get(), history.data(),
-                                      static_cast<PetscInt>(history.size()), PETSC_TRUE),
+    petsc_check(KSPSetResidualHistory(outer, history.data(), static_cast<PetscInt>(history.size()),
+                                      PETSC_TRUE),
                 "KSPSetResidualHistory");
-    petsc_check(KSPSolve(outer.get(), b.get(), x.get()), "KSPSolve");
+    petsc_check(KSPSolve(outer, b.get(), x.get()), "KSPSolve");
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
     PetscInt iterations = 0, recorded = 0;
-    petsc_check(KSPGetConvergedReason(outer.get(), &reason), "KSPGetConvergedReason");
-    petsc_check(KSPGetIterationNumber(outer.get(), &iterations), "KSPGetIterationNumber");
-    petsc_check(KSPGetResidualHistory(outer.get(), nullptr, &recorded), "KSPGetResidualHistory");
+    petsc_check(KSPGetConvergedReason(outer, &reason), "KSPGetConvergedReason");
+    petsc_check(KSPGetIterationNumber(outer, &iterations), "KSPGetIterationNumber");
+    petsc_check(KSPGetResidualHistory(outer, nullptr, &recorded), "KSPGetResidualHistory");
     report.converged = reason > 0;
     report.reason = KSPConvergedReasons[reason];
     report.iterations = iterations;
@@ -359,6 +363,8 @@ class SaddleSolver::Implementation {
   MergedMatrix merged_;
   Mat operator_ = nullptr;  ///< the product, the nest or the merged matrix
   Apply apply_;
+  KrylovSolver outer_;
+  std::int32_t size_ = 0;  ///< of the last system, on this rank
   std::optional<BlockPreconditioner> block_;
   std::optional<DiagonalScaling> scaling_;
   std::unique_ptr<VelocityPreconditioner> multigrid_;

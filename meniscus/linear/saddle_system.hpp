@@ -27,7 +27,7 @@ using LinearOperator = std::function<void(std::span<const double> x, std::span<d
 /// The products with a saddle system (below) whose blocks are not given as matrices. Collective.
 struct SaddleProducts {
   LinearOperator whole;     ///< [A Bᵀ; B −C]
-  LinearOperator gradient;  ///< Bᵀ
+  LinearOperator gradient;  ///< Bᵀ, or what is near it, for preconditioners
   /// ∫μ∇φ·∇φ of each component, three side by side, or what it was with the preconditioner kept.
   LinearOperator laplacians;
 };

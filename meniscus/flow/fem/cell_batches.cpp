@@ -77,7 +77,9 @@ CellBatches cell_batches(const StokesProblem& problem) {
   batches.straight = batches_of<StraightCells>(problem, batches.straight_cells);
   batches.curved = batches_of<CurvedCells>(problem, batches.curved_cells);
   set_shapes(problem, batches.straight_cells, batches.straight);
+  batches.straightened = batches_of<StraightCells>(problem, batches.curved_cells);
   set_shapes(problem, batches.curved_cells, batches.curved);
+  set_shapes(problem, batches.curved_cells, batches.straightened);
   return batches;
 }
 

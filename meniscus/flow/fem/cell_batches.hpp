@@ -14,6 +14,7 @@ namespace meniscus::fem {
 struct CellBatches {
   std::vector<lanes::StraightCells> straight;
   std::vector<lanes::CurvedCells> curved;
+  std::vector<lanes::StraightCells> straightened;  ///< the curved ones, between their corners
   std::vector<CellId> straight_cells, curved_cells;
 };
 [[nodiscard]] CellBatches cell_batches(const StokesProblem& problem);

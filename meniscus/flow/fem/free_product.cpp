@@ -64,7 +64,7 @@ void FreeProduct::multiply(std::span<const double> x, std::span<double> y) const
 
 void FreeProduct::multiply_gradient(std::span<const double> p, std::span<double> v) const {
   std::vector<double> momentum(3 * at(problem_.space.velocity.num_nodes));
-  product_.add_gradient(local_pressures(problem_, p), momentum);
+  product_.add_straight_gradient(local_pressures(problem_, p), momentum);
   constrain(momentum);
   std::copy_n(momentum.begin(), v.size(), v.begin());
 }

@@ -82,18 +82,6 @@ MENISCUS_INLINE void multiply_pressure(const StraightCells& cells, const Corners
     }
   }
 }
-MENISCUS_INLINE void multiply_pressure(const CurvedCells& cells, const Corners& p, Nodal& r) {
-  Derivatives d = {};
-  for (std::size_t q = 0; q < cells.points.size(); ++q) {
-    const auto& [g, weight] = cells.points[q];
-    const std::array<double, 4>& b = kTetrahedronRule5[q].barycentric;
-    Tensor flux;
-    for (std::size_t l = 0; l < 3; ++l)
-      for (std::size_t a = 0; a < 3; ++a) flux[l][a] = -weight * at_point(b, p) * g[l][a];
-    add_back(b, flux, d);
-  }
-  differentiate_back(d, r);
-}
 
 struct Fields {
   const double *v, *p;
@@ -131,17 +119,6 @@ MENISCUS_INLINE void add_fluxes(std::span<const Batch> batches, const Inertia& i
   }
 }
 
-template <class Batch>
-MENISCUS_INLINE void add_pressure(std::span<const Batch> batches, const Fields& fields) {
-  for (const Batch& cells : batches) {
-    Nodal result;
-    Corners p;
-    take(cells.pressures, fields.p, p);
-    multiply_pressure(cells, p, result);
-    give(cells.nodes, result, fields.momentum);
-  }
-}
-
 struct Batches {
   std::span<const StraightCells> straight;
   std::span<const CurvedCells> curved;
@@ -164,10 +141,14 @@ void add_stresses(const Batches& cells, const ConvectedCells& inertia, const Fie
   add_fluxes(cells.curved, inertia.curved, fields);
 }
 MENISCUS_VECTOR_CLONES
-void add_pressures(std::span<const StraightCells> straight, std::span<const CurvedCells> curved,
-                   const Fields& fields) {
-  add_pressure(straight, fields);
-  add_pressure(curved, fields);
+void add_pressures(std::span<const StraightCells> batches, const double* from, double* momentum) {
+  for (const StraightCells& cells : batches) {
+    Nodal result;
+    Corners p;
+    take(cells.pressures, from, p);
+    multiply_pressure(cells, p, result);
+    give(cells.nodes, result, momentum);
+  }
 }
 
 }  // namespace
@@ -210,8 +191,10 @@ void StokesProduct::add_stress_of_few(std::span<const double> v, std::span<const
                {v.data(), p.data(), momentum.data(), continuity.data(), true});
 }
 
-void StokesProduct::add_gradient(std::span<const double> p, std::span<double> momentum) const {
-  add_pressures(cells_->straight, cells_->curved, {nullptr, p.data(), momentum.data(), nullptr});
+void StokesProduct::add_straight_gradient(std::span<const double> p,
+                                          std::span<double> momentum) const {
+  add_pressures(cells_->straight, p.data(), momentum.data());
+  add_pressures(cells_->straightened, p.data(), momentum.data());
 }
 
 }  // namespace meniscus::fem

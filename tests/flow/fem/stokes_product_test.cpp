@@ -73,9 +73,12 @@ TEST_F(StokesProductOfDrop, IsThatOfTheMatrices) {
   expect_same(continuity, wanted_p);
 }
 
-TEST_F(StokesProductOfDrop, HasThePressuresPartAlone) {
+TEST_F(StokesProductOfDrop, HasThePressuresPartOnStraightCells) {
   std::vector<double> momentum(num_velocities_), wanted(num_velocities_);
-  StokesProduct(problem_).add_gradient(p_, momentum);
+  StokesProduct(problem_).add_straight_gradient(p_, momentum);
+  StokesProblem straight = problem_;
+  std::ranges::fill(straight.positions.is_curved, char{false});
+  jacobian_.assemble(straight);
   add_transposed_product(jacobian_.system().B, p_, wanted);
   expect_same(momentum, wanted);
 }
