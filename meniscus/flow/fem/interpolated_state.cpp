@@ -89,6 +89,18 @@ CellId nearest_cell(const TetMesh& mesh, const CellsByRegion& cells,
   return nearest;
 }
 
+/// The cell at p, from one nearby. Where a drop is in its way the walk ends away from the point,
+/// and begins again at the cell nearest to it.
+CellWalk::Hit find_cell(const CellWalk& walk, const TetMesh& mesh, const CellsByRegion& cells,
+                        const std::vector<bool>& is_allowed, CellId near, const Vec3& p) {
+  constexpr double kMostBeyond = 0.3;  // of an edge: interfaces move by less when remeshed
+  const CellWalk::Hit hit = walk.find(near, p, is_allowed);
+  const TetCorners x = corners(mesh, hit.cell);
+  if (hit.squared_distance <= kMostBeyond * kMostBeyond * (x[1] - x[0]).squaredNorm()) return hit;
+  const CellWalk::Hit again = walk.find(nearest_cell(mesh, cells, is_allowed, p), p, is_allowed);
+  return again.squared_distance < hit.squared_distance ? again : hit;
+}
+
 Vec3 node_position(const TetMesh& mesh, CellId c, std::size_t k) {
   const CellVertices& corners = mesh.cells[c];
   if (k < 4) return mesh.x[corners[k]];
@@ -128,7 +140,8 @@ StokesState interpolated_state(const StokesState& state, const MeshedSpace& from
         if (const CellId known = places[at(i.value)].cell;
             is_allowed[at(from.mesh.region[known].value)])
           near = known;
-      const CellWalk::Hit hit = walk.find(near, node_position(to.mesh, c, k), is_allowed);
+      const CellWalk::Hit hit =
+          find_cell(walk, from.mesh, old_cells, is_allowed, near, node_position(to.mesh, c, k));
       near = hit.cell;
       if (places.empty() && hit.squared_distance < distance[i]) {
         distance[i] = hit.squared_distance;
