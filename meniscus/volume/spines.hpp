@@ -23,8 +23,8 @@ struct Spine {
 };
 
 /// A closed surface as seen from a centre about which it is star-shaped: each ray meets it once.
-/// The face on a ray is found by walking across edges from the face of the ray before, some tens of
-/// nanoseconds a step, where a search in a tree takes half a microsecond. The mesh must outlive it.
+/// The face on a ray is found by walking across edges from the face of the ray before. For the
+/// vertices of a mesh that takes a quarter of the time of a tree. The mesh must outlive it.
 class StarSurface {
  public:
   StarSurface(const SurfaceMesh& mesh, const Vec3& center);
