@@ -107,6 +107,7 @@ Case parse_case(std::string_view text, const std::string& name, const std::files
   c.drops = read_drops(c.settings);
   c.domain = read_domain(c.settings, c.flow);
   require_capillary_time(c);
+  read_inertia(c);
   c.method = read_method(c.settings, c.domain);
   if (c.method == FlowMethod::boundary_integral) {
     require_newtonian(c);
@@ -115,11 +116,10 @@ Case parse_case(std::string_view text, const std::string& name, const std::files
   } else {
     c.scalars = read_scalars(c.settings, c.domain, c.drops.size());
     read_adsorption(c.settings, c.scalars, c.drops);
-    c.flow_solver = read_finite_elements(c.settings);
+    c.flow_solver = read_finite_elements(c.settings, c.reynolds);
     require_weak_form(c);
     c.volume_mesh = read_volume_mesh(c.settings, c.flow_solver.elements);
   }
-  read_inertia(c);
   c.evolution =
       read_evolution(c.settings, c.method, c.flow_solver.elements, c.reynolds, c.flow.family());
   require_inertia_fits(c);

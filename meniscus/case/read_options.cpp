@@ -102,6 +102,16 @@ void read_motion_normal(Settings& settings, EvolutionOptions& options) {
     settings.reject("interface.motion-normal", "needs solver.elements = \"P2-P1\"");
 }
 
+/// Elements leave a small part of the error that a step may make. Inertia carries what is left from
+/// step to step.
+double read_elements_residual(Settings& settings, bool has_inertia) {
+  double suited = fem::Options{}.rtol;
+  if (!has_inertia && read_control(settings) == StepControl::error)
+    suited = std::clamp(kResidualOverTolerance * settings.number("time.tolerance"), kLeastResidual,
+                        kMostResidual);
+  return settings.number_or("solver.rtol", suited);
+}
+
 }  // namespace
 
 EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elements elements,
@@ -137,12 +147,12 @@ FlowMethod read_method(Settings& settings, const DomainCase& domain) {
 }
 
 bem::Options read_boundary_integrals(Settings& settings) {
-  return {.rtol = settings.number("solver.rtol"),
+  return {.rtol = settings.number_or("solver.rtol", bem::Options{}.rtol),
           .max_iterations = settings.whole("solver.max-iterations"),
           .threads = settings.whole("solver.threads")};
 }
 
-fem::Options read_finite_elements(Settings& settings) {
+fem::Options read_finite_elements(Settings& settings, double reynolds) {
   fem::Options options;
   options.capillary = settings.choice("interface.surface-tension", words::capillary_forms);
   options.linear = settings.choice("solver.linear", words::linear_solvers);
@@ -151,7 +161,7 @@ fem::Options read_finite_elements(Settings& settings) {
   const auto suited = needs_linear ? fem::Elements::p1_p1 : fem::Elements::p2_p1;
   settings.prefer("solver.elements", std::string(words::word_for(words::elements, suited)));
   options.elements = settings.choice("solver.elements", words::elements);
-  options.rtol = settings.number("solver.rtol");
+  options.rtol = read_elements_residual(settings, reynolds > 0.0);
   options.max_iterations = settings.whole("solver.max-iterations");
   options.petsc_options = read_petsc_options(settings);
   return options;

@@ -177,7 +177,7 @@ bool is_fit(const SurfaceMesh& mesh, const RemeshOptions& options) {
   const auto* topology = std::get_if<SurfaceTopology>(&built);
   if (topology == nullptr) return false;
   const RemeshReference reference = reference_surface(mesh, *topology, options);
-  return has_fit_density(start_state(reference, mesh, *topology));
+  return has_fit_density(start_state(reference, mesh, *topology), options.kept);
 }
 
 VertexField<double> mean_edges(const SurfaceMesh& mesh) {

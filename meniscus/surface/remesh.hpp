@@ -12,6 +12,15 @@
 
 namespace meniscus {
 
+/// How far the number of vertices that a surface asks for may be from those it has, over some 12 of
+/// them, before it is remeshed.
+struct KeptDensity {
+  double fewest = 0.7, most = 1.3;  ///< asked for, over those there
+  double whole = 0.05;              ///< |asked for/there − 1| of the whole surface
+};
+/// Where a remeshed surface asks for new tetrahedra.
+inline constexpr KeptDensity kKeptWithTetrahedra{.fewest = 0.625, .most = 1.6, .whole = 0.1};
+
 struct RemeshOptions {
   double C0 = 8.75;               ///< ρ = C0⟨κ⟩² (eq. 1); C0 = N0/4π
   double volume = 0.0;            ///< volume to restore [R0³]; 0: that of the surface as given
@@ -33,6 +42,7 @@ struct RemeshOptions {
   std::function<double(const Vec3& x)> size_bound = {};
   /// What else makes the result unfit (such as `find_self_intersection`); may be empty.
   std::function<std::optional<Fault>(const SurfaceMesh&)> find_fault = {};
+  KeptDensity kept = {};    ///< what `is_fit` allows
   double neck_edges = 0.0;  ///< edges asked for around a neck or a thread; 0: none
   double gap_layers = 0.0;  ///< layers of tetrahedra asked for where sheets are close; 0: none
   /// Other surfaces that may be close; they must outlive the call.

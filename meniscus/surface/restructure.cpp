@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/surface/remesh.hpp"
 #include "meniscus/surface/sizing.hpp"
 
 namespace meniscus {
@@ -31,7 +32,6 @@ constexpr double kLongestEdge = 1.6;    // l/l0 split, whatever the density: its
 constexpr double kShortestEdge = 0.55;  // l/l0 collapsed, whatever the density
 // What a surface that is not remeshed may have.
 constexpr double kShortestKept = 0.6, kLongestKept = 1.5;  // l/l0
-constexpr double kLocalBandKept = 0.3, kGlobalBandKept = 0.05;
 constexpr double kDelaunaySlack = 0.02;  // radians of excess over 180°, against flipping for ever
 constexpr double kAllowance = 0.3;       // radians per unit of Σ(valence − 6)²
 constexpr double kLargestAllowance = 1.2;  // radians
@@ -383,7 +383,7 @@ DensityEdits balance_density(RemeshState& state) {
   return edit(state, {{}, candidates.collapses}, mean_load, {0, count}, locks);
 }
 
-bool has_fit_density(const RemeshState& state) {
+bool has_fit_density(const RemeshState& state, const KeptDensity& kept) {
   const std::vector<DensityEdge> edges = density_edges(state);
   const bool have_length = std::ranges::all_of(edges, [](const DensityEdge& edge) {
     return edge.squared_ratio > kShortestKept * kShortestKept &&
@@ -393,9 +393,10 @@ bool has_fit_density(const RemeshState& state) {
   const VertexField<double> load = vertex_loads(state);
   const double mean = std::accumulate(load.begin(), load.end(), 0.0) / state.mesh.num_vertices();
   RingAverage averaged(edges, load);
-  return std::abs(mean - 1.0) <= kGlobalBandKept &&
-         std::ranges::all_of(averaged.after(kAverages.front()),
-                             [](double local) { return std::abs(local - 1.0) <= kLocalBandKept; });
+  return std::abs(mean - 1.0) <= kept.whole &&
+         std::ranges::all_of(averaged.after(kAverages.front()), [&](double local) {
+           return local >= kept.fewest && local <= kept.most;
+         });
 }
 
 double expected_vertices(const RemeshState& state) {

@@ -4,6 +4,8 @@
 
 namespace meniscus {
 
+struct KeptDensity;
+
 /// Turns edges whose two opposite angles sum to more than 180° (Delaunay), as long as no face
 /// folds; returns how many. Only edges around state.unflipped are looked at.
 int flip_to_delaunay(RemeshState& state);
@@ -16,10 +18,9 @@ struct DensityEdits {
 /// Edits of one pass lie so many rings apart that each sees the density the others left.
 DensityEdits balance_density(RemeshState& state);
 
-/// Whether a surface may stay as it is. Its edges are within [0.6, 1.5] of their rest length. The
-/// number of vertices is within 0.3 of what the density asks for over some 12 of them, and within 5
-/// % over the whole.
-[[nodiscard]] bool has_fit_density(const RemeshState& state);
+/// Whether a surface may stay as it is. Its edges are within [0.6, 1.5] of their rest length, its
+/// number of vertices within what is kept.
+[[nodiscard]] bool has_fit_density(const RemeshState& state, const KeptDensity& kept);
 
 /// ∮ρ dS over the smooth surface, ρ = 2/(√3 l0²) (eq. 2): the number of vertices it asks for.
 [[nodiscard]] double expected_vertices(const RemeshState& state);

@@ -48,16 +48,16 @@ TEST(Case, SolvesWithQuadraticElementsInStepsThatFollowTheError) {
   EXPECT_EQ(c.evolution.motion_normal, MotionNormal::faces);
 }
 
+Case inertial_drop(double laplace) {
+  return parse_case(fmt::format("[flow]\nkind = \"quiescent\"\nreynolds-number = {}\n[[drop]]\n"
+                                "radius = 1\n[domain]\nhalf-width = 4\n[time]\nend = 1\n",
+                                laplace),
+                    "drop.toml");
+}
+
 TEST(Case, WithInertiaThePeriodOfADropMayAllowLongerSteps) {
-  const auto longest = [](double laplace) {
-    return parse_case(fmt::format("[flow]\nkind = \"quiescent\"\nreynolds-number = {}\n[[drop]]\n"
-                                  "radius = 1\n[domain]\nhalf-width = 4\n[time]\nend = 1\n",
-                                  laplace),
-                      "drop.toml")
-        .evolution.max_step;
-  };
-  EXPECT_EQ(longest(100.0), kDefaultLongestStep);
-  EXPECT_NEAR(longest(1e4), 7.0, 1e-12);
+  EXPECT_EQ(inertial_drop(100.0).evolution.max_step, kDefaultLongestStep);
+  EXPECT_NEAR(inertial_drop(1e4).evolution.max_step, 7.0, 1e-12);
 }
 
 TEST(Case, WhatLinearElementsAloneCanDoChoosesThem) {
@@ -124,6 +124,17 @@ TEST(Case, OptionsOfThePapersMethodAreTheDefaultsOfTheRooms) {
   EXPECT_EQ(c.volume_mesh.tetrahedra.cell_volume, mesh.tetrahedra.cell_volume);
   EXPECT_EQ(c.volume_mesh.motion, mesh.motion);
   EXPECT_EQ(c.flow_solver.petsc_options, solver.petsc_options);
+}
+
+TEST(Case, ElementsLeaveAPartOfTheErrorOfAStep) {
+  const auto rtol = [](const std::string& tables) { return shear_case(tables).flow_solver.rtol; };
+  EXPECT_DOUBLE_EQ(rtol(""), 3e-6);
+  EXPECT_DOUBLE_EQ(rtol("[time]\ntolerance = 0.02\n"), 2e-6);
+  EXPECT_DOUBLE_EQ(rtol("[time]\ntolerance = 0.003\n"), 1e-6);
+  EXPECT_DOUBLE_EQ(rtol("[time]\ntolerance = 0.3\n"), 3e-6);
+  EXPECT_DOUBLE_EQ(rtol("[time]\ncontrol = \"paper\"\n"), 1e-6);
+  EXPECT_DOUBLE_EQ(inertial_drop(100.0).flow_solver.rtol, 1e-6);
+  EXPECT_DOUBLE_EQ(rtol("[time]\ntolerance = 0.003\n[solver]\nrtol = 1e-4\n"), 1e-4);
 }
 
 TEST(Case, BoundaryIntegralsTakeTheirOptionsAndAnUnboundedScene) {

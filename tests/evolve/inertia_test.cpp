@@ -206,7 +206,7 @@ TEST(InertialDrop, ThinsInShearAsInStokesFlowWhereInertiaIsSmall) {
         1.0,
         evolution_of("[flow]\nkind = \"simple-shear\"\ncapillary-number = 0.3\n" + more +
                      "[domain]\nhalf-width = 4\nnodes = 150\n[time]\nend = 1\ntolerance = 0.003\n"
-                     "[[drop]]\nradius = 1\nnodes = 60\nviscosity-law = \"carreau-yasuda\"\n"
+                     "[[drop]]\nradius = 1\nnodes = 110\nviscosity-law = \"carreau-yasuda\"\n"
                      "power-index = 0.4\ntime-constant = 2\nviscosity-ratio = 3\n"));
   };
   EXPECT_NEAR(deformation("reynolds-number = 0.001\n") / deformation(""), 1.0, 0.003);

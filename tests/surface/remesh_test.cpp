@@ -140,6 +140,15 @@ TEST(Remesh, CallsASurfaceUnfitThatHasTooManyVerticesOrIsNone) {
   EXPECT_TRUE(is_fit(mesh, with_nodes(642)));
   EXPECT_FALSE(is_fit(mesh, with_nodes(580)));
   EXPECT_FALSE(is_fit(mesh, with_nodes(710)));
+  const auto is_kept = [&](int nodes) {
+    RemeshOptions options = with_nodes(nodes);
+    options.kept = kKeptWithTetrahedra;
+    return is_fit(mesh, options);
+  };
+  EXPECT_TRUE(is_kept(585));
+  EXPECT_TRUE(is_kept(700));
+  EXPECT_FALSE(is_kept(570));
+  EXPECT_FALSE(is_kept(715));
   SurfaceMesh open{mesh.x, {}};
   for (const FaceId f : ids<FaceId>(mesh.num_faces() - 1)) open.faces.add(mesh.faces[f]);
   EXPECT_FALSE(is_fit(open, with_nodes(642)));
