@@ -17,7 +17,7 @@ RemeshOptions remesh_options(const Interface& interface, const EvolutionOptions&
   options.on_splines = run.surface != SurfaceShape::faceted;
   options.restores_volume = run.surface == SurfaceShape::faceted;
   if (options.restores_volume) options.volume = interface.volume;
-  if (run.surface != SurfaceShape::patched) options.kept = kKeptWithTetrahedra;
+  if (run.surface == SurfaceShape::splined) options.kept = kKeptByCurvedElements;
   options.spring_tolerance = run.spring_tolerance;
   options.neck_edges = run.neck_edges;
   options.gap_layers = run.gap_layers;

@@ -142,7 +142,7 @@ TEST(Remesh, CallsASurfaceUnfitThatHasTooManyVerticesOrIsNone) {
   EXPECT_FALSE(is_fit(mesh, with_nodes(710)));
   const auto is_kept = [&](int nodes) {
     RemeshOptions options = with_nodes(nodes);
-    options.kept = kKeptWithTetrahedra;
+    options.kept = kKeptByCurvedElements;
     return is_fit(mesh, options);
   };
   EXPECT_TRUE(is_kept(585));
