@@ -93,6 +93,13 @@ std::map<std::string, schema::Value> used_by_file(std::string_view text, const s
   }
 }
 
+/// Whether a flow depends on more than the shapes of the drops.
+bool carries_something(const Case& c) {
+  return c.reynolds > 0.0 || !c.scalars.empty() ||
+         std::ranges::any_of(c.drops,
+                             [](const DropCase& drop) { return drop.surfactant.has_value(); });
+}
+
 }  // namespace
 
 Case parse_case(std::string_view text, const std::string& name, const std::filesystem::path& folder,
@@ -116,7 +123,7 @@ Case parse_case(std::string_view text, const std::string& name, const std::files
   } else {
     c.scalars = read_scalars(c.settings, c.domain, c.drops.size());
     read_adsorption(c.settings, c.scalars, c.drops);
-    c.flow_solver = read_finite_elements(c.settings, c.reynolds);
+    c.flow_solver = read_finite_elements(c.settings, carries_something(c));
     require_weak_form(c);
     c.volume_mesh = read_volume_mesh(c.settings, c.flow_solver.elements);
   }

@@ -41,8 +41,9 @@ void require_inertia_fits(const Case& c);
 /// Throws InvalidInput when a liquid is not Newtonian, as boundary integrals require.
 void require_newtonian(const Case& c);
 [[nodiscard]] FlowMethod read_method(Settings& settings, const DomainCase& domain);
-/// The default of the residual depends on how steps are controlled and on inertia.
-[[nodiscard]] fem::Options read_finite_elements(Settings& settings, double reynolds);
+/// The default of the residual depends on how steps are controlled, and on whether liquids or
+/// interfaces carry anything (inertia, surfactant, scalars).
+[[nodiscard]] fem::Options read_finite_elements(Settings& settings, bool carries_something);
 [[nodiscard]] MovingMeshOptions read_volume_mesh(Settings& settings, fem::Elements elements);
 [[nodiscard]] bem::Options read_boundary_integrals(Settings& settings);
 [[nodiscard]] OutputOptions read_output(Settings& settings, FlowMethod method);

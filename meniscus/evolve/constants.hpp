@@ -38,9 +38,9 @@ inline constexpr double kFacetedStiffness = 1.2;
 inline constexpr double kRoundness = 1e-3;
 /// [shortest edge] The tolerance of the error in a step where a case does not set one.
 inline constexpr double kDefaultTolerance = 0.03;
-/// The relative residual of elements in Stokes flow under error control, over the tolerance, where
-/// a case does not set one; its least and its largest. With 1e-5 a drop near rest drifts: the flow
-/// of the last step is exact enough for the next, and its error adds up.
+/// The relative residual of elements in Stokes flow of clean drops under error control, over the
+/// tolerance, where a case does not set one; its least and its largest. With 1e-5 a drop near rest
+/// drifts: the flow of the last step is exact enough for the next, and its error adds up.
 inline constexpr double kResidualOverTolerance = 1e-4;
 inline constexpr double kLeastResidual = 1e-6, kMostResidual = 3e-6;
 /// [1/G] The longest step under error control where a case does not set one.

@@ -133,6 +133,7 @@ TEST(Case, ElementsLeaveAPartOfTheErrorOfAStep) {
   EXPECT_DOUBLE_EQ(rtol("[time]\ntolerance = 0.003\n"), 1e-6);
   EXPECT_DOUBLE_EQ(rtol("[time]\ntolerance = 0.3\n"), 3e-6);
   EXPECT_DOUBLE_EQ(rtol("[time]\ncontrol = \"paper\"\n"), 1e-6);
+  EXPECT_DOUBLE_EQ(rtol("[drop.surfactant]\nelasticity = 0.2\n"), 1e-6);
   EXPECT_DOUBLE_EQ(inertial_drop(100.0).flow_solver.rtol, 1e-6);
   EXPECT_DOUBLE_EQ(rtol("[time]\ntolerance = 0.003\n[solver]\nrtol = 1e-4\n"), 1e-4);
 }
