@@ -78,16 +78,15 @@ void Simulation::record_state(const RowObserver& show) {
     write_checkpoint();
   is_begun_ = true;
   solve();
-  std::optional<Evolution::Rows> rows;  // rank 0 only
+  const Evolution::Rows rows = evolution_.rows();  // whole on rank 0
   const std::string volume_frame = begin_volume_frame();
   on_first_and_last_rank(
       [&] {
-        rows = evolution_.rows();
-        judge(*rows);
+        judge(rows);
         write_surface_frame();
       },
       [&] { write_volume_frame(volume_frame); });
-  on_first_rank([&] { record(*rows, !volume_frame.empty(), show); });
+  on_first_rank([&] { record(rows, !volume_frame.empty(), show); });
   has_ended_ = evolution_.is_finished();
   if (!judge_ || has_ended_) return;
   has_ended_ = any_rank(end_.has_value());

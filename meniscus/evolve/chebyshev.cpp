@@ -1,27 +1,38 @@
 #include "meniscus/evolve/chebyshev.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "meniscus/core/error.hpp"
 
 namespace meniscus {
 namespace {
 
-/// Damping: T_s is taken at w0 = 1 + ε/s², so that |P| ≤ 1 − ε/3 between its ends [sommeijer1998].
-constexpr double kDamping = 2.0 / 13.0;
+/// ε. With the least one |P| ≤ 1 − ε/3 between the ends of the interval [sommeijer1998].
+constexpr std::array kDampings{ChebyshevScheme::kLeastDamping, 0.5, 1.0, 2.0,
+                               ChebyshevScheme::kMostDamping};
+/// Points per stage on the edge of a spectrum. |P| has a maximum per stage there.
+constexpr int kTestsPerStage = 12;
+constexpr double kRoundOff = 1e-12;
 
-double damped_end(int num_stages) { return 1.0 + kDamping / (num_stages * num_stages); }
+double damped_end(int num_stages, double damping) {
+  return 1.0 + damping / (num_stages * num_stages);
+}
 
 /// T_j and its two derivatives at one argument.
+template <class Number>
 struct Chebyshev {
-  double value = 0.0, first = 0.0, second = 0.0;
+  Number value = 0.0, first = 0.0, second = 0.0;
 };
 
 /// T_0 to T_s at w, by T_j = 2w T_{j−1} − T_{j−2} and what follows for the derivatives.
-std::vector<Chebyshev> chebyshev_polynomials(int s, double w) {
-  std::vector<Chebyshev> T{{1.0, 0.0, 0.0}, {w, 1.0, 0.0}};
+template <class Number>
+std::vector<Chebyshev<Number>> chebyshev_polynomials(int s, Number w) {
+  std::vector<Chebyshev<Number>> T{{1.0, 0.0, 0.0}, {w, 1.0, 0.0}};
   for (std::size_t j = 2; j <= static_cast<std::size_t>(s); ++j) {
-    const Chebyshev &a = T[j - 1], &b = T[j - 2];
+    const Chebyshev<Number>&a = T[j - 1], &b = T[j - 2];
     T.push_back({2.0 * w * a.value - b.value, 2.0 * (a.value + w * a.first) - b.first,
                  2.0 * (2.0 * a.first + w * a.second) - b.second});
   }
@@ -30,10 +41,11 @@ std::vector<Chebyshev> chebyshev_polynomials(int s, double w) {
 
 }  // namespace
 
-ChebyshevScheme::ChebyshevScheme(int num_stages) : w0_(damped_end(num_stages)) {
+ChebyshevScheme::ChebyshevScheme(int num_stages, double damping)
+    : w0_(damped_end(num_stages, damping)) {
   MENISCUS_ASSERT(num_stages >= 3, "{} stages", num_stages);
   const auto s = static_cast<std::size_t>(num_stages);
-  const std::vector<Chebyshev> T = chebyshev_polynomials(num_stages, w0_);
+  const std::vector<Chebyshev<double>> T = chebyshev_polynomials(num_stages, w0_);
   std::vector<double> b(s + 1), a(s + 1);
   for (std::size_t j = 2; j <= s; ++j) b[j] = T[j].second / (T[j].first * T[j].first);
   b[0] = b[1] = b[2];
@@ -53,14 +65,47 @@ ChebyshevScheme::ChebyshevScheme(int num_stages) : w0_(damped_end(num_stages)) {
   stages_[0].c = stages_[0].mu_F;
 }
 
-double ChebyshevScheme::stability_polynomial(double z) const {
-  return a_ +
-         b_ * chebyshev_polynomials(static_cast<int>(stages_.size()), w0_ + w1_ * z).back().value;
+ChebyshevScheme ChebyshevScheme::for_waves(const WaveSpectrum& waves, int most_stages) {
+  for (int s = std::min(num_stages_for(waves.decay), most_stages); s <= most_stages; ++s)
+    for (const double damping : kDampings)
+      if (ChebyshevScheme scheme(s, damping); scheme.is_stable_for(waves)) return scheme;
+  return ChebyshevScheme(most_stages, kMostDamping);
 }
 
-double ChebyshevScheme::stability_interval(int num_stages) {
-  const double w0 = damped_end(num_stages);
-  const Chebyshev T = chebyshev_polynomials(num_stages, w0).back();
+std::complex<double> ChebyshevScheme::stability_polynomial(std::complex<double> z) const {
+  const std::complex<double> w = w0_ + w1_ * z;
+  std::complex<double> before = 1.0, now = w;
+  for (std::size_t j = 2; j <= stages_.size(); ++j)
+    before = std::exchange(now, 2.0 * w * now - before);
+  return a_ + b_ * now;
+}
+
+double ChebyshevScheme::stability_polynomial(double z) const {
+  return stability_polynomial(std::complex<double>(z)).real();
+}
+
+bool ChebyshevScheme::is_stable_for(const WaveSpectrum& waves) const {
+  if (waves.decay * w1_ > 1.0 + w0_) return false;
+  // |P| is largest on the edge: at Re z = −decay, and where waves are convected fastest.
+  const auto fastest = [&](double decay) {
+    return std::min(waves.ratio * decay, waves.convection);
+  };
+  const auto is_stable_at = [&](double decay, double convection) {
+    return std::abs(stability_polynomial(std::complex<double>(-decay, convection))) <=
+           1.0 + kRoundOff;
+  };
+  const int num_tests = kTestsPerStage * static_cast<int>(stages_.size());
+  for (int k = 1; k <= num_tests; ++k) {
+    const double share = double(k) / num_tests, decay = share * waves.decay;
+    if (!is_stable_at(decay, fastest(decay))) return false;
+    if (!is_stable_at(waves.decay, share * fastest(waves.decay))) return false;
+  }
+  return true;
+}
+
+double ChebyshevScheme::stability_interval(int num_stages, double damping) {
+  const double w0 = damped_end(num_stages, damping);
+  const Chebyshev<double> T = chebyshev_polynomials(num_stages, w0).back();
   return (1.0 + w0) * T.second / T.first;  // where w0 + w1 z = −1
 }
 

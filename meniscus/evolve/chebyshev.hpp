@@ -1,8 +1,17 @@
 #pragma once
 
+#include <complex>
 #include <vector>
 
 namespace meniscus {
+
+/// Where the rates of waves lie that decay and are convected, times the step: −decay ≤ Re z ≤ 0 and
+/// |Im z| ≤ min(ratio |Re z|, convection).
+struct WaveSpectrum {
+  double decay = 0.0;
+  double ratio = 0.0;
+  double convection = 0.0;
+};
 
 /// The coefficients of the Runge–Kutta–Chebyshev scheme of second order with s ≥ 3 stages
 /// (sommeijer1998, section 2). From y_0, with F_j = f(y_j) at t + c_j Δt:
@@ -10,7 +19,9 @@ namespace meniscus {
 ///   y_j = (1 − μ_j − ν_j) y_0 + μ_j y_{j−1} + ν_j y_{j−2} + Δt (μ̃_j F_{j−1} + γ̃_j F_0).
 /// On y' = −r y the end is y_s = P(−rΔt) y_0 with
 ///   P(z) = a_s + b_s T_s(w0 + w1 z),
-/// |P| < 1 on the interval of stability, two thirds for short waves.
+/// |P| < 1 on the interval of stability, two thirds for short waves. T_s is taken at w0 = 1 + ε/s².
+/// A damping ε of 2/13 makes the interval long, but leaves next to no room off the real axis; a
+/// larger one takes more stages and leaves room for waves that are convected.
 class ChebyshevScheme {
  public:
   struct Stage {
@@ -18,15 +29,22 @@ class ChebyshevScheme {
     double c = 0.0;  ///< place of the stage in the step
   };
 
-  explicit ChebyshevScheme(int num_stages);
+  static constexpr double kLeastDamping = 2.0 / 13.0, kMostDamping = 5.0;
+  explicit ChebyshevScheme(int num_stages, double damping = kLeastDamping);
+  /// The one of fewest stages that is stable for all waves, of the least damping among those tried.
+  /// With `most_stages` and the most damping where none is.
+  static ChebyshevScheme for_waves(const WaveSpectrum& waves, int most_stages);
 
   /// The stages from y_1 to y_s.
   [[nodiscard]] const std::vector<Stage>& stages() const { return stages_; }
   /// P(z), from its closed form.
+  [[nodiscard]] std::complex<double> stability_polynomial(std::complex<double> z) const;
   [[nodiscard]] double stability_polynomial(double z) const;
+  /// Whether |P| ≤ 1 wherever the rates of these waves lie, tested along the edge of that region.
+  [[nodiscard]] bool is_stable_for(const WaveSpectrum& waves) const;
 
   /// β(s): |P(z)| ≤ 1 for −β ≤ z ≤ 0.
-  [[nodiscard]] static double stability_interval(int num_stages);
+  [[nodiscard]] static double stability_interval(int num_stages, double damping = kLeastDamping);
   /// The fewest stages, 3 or more, whose interval is at least this long.
   [[nodiscard]] static int num_stages_for(double interval);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Dense>
 
@@ -47,11 +48,19 @@ void measure_general(SurfaceExtremes& surface, DropShape& shape) {
   shape.W = surface.half_extent(e);
 }
 
+/// The surface's extremes, by what is known of it.
+SurfaceExtremes extremes_of(const SurfaceMesh& mesh, const ReconstructedSurface& faces) {
+  if (faces.smooth()) return {mesh, *faces.topology(), faces.smooth()->vertex_curvature()};
+  SurfaceTopology topology(mesh);
+  const VertexField<VertexCurvature> osculating = osculating_curvature(mesh, topology);
+  return {mesh, std::move(topology), osculating};
+}
+
 }  // namespace
 
 DropShape drop_shape(const SurfaceMesh& mesh, FlowFamily family,
                      const ReconstructedSurface& faces) {
-  SurfaceExtremes surface(mesh);
+  SurfaceExtremes surface = extremes_of(mesh, faces);
   DropShape shape;
   shape.volume = faces.volume();
   shape.area = faces.area();

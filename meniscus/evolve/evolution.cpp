@@ -1,7 +1,9 @@
 #include "meniscus/evolve/evolution.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -10,12 +12,12 @@
 #include "meniscus/evolve/energy_check.hpp"
 #include "meniscus/evolve/kinematic_condition.hpp"
 #include "meniscus/evolve/remesh_interfaces.hpp"
-#include "meniscus/evolve/shared_middles.hpp"
 #include "meniscus/evolve/stability.hpp"
 #include "meniscus/evolve/step_start.hpp"
 #include "meniscus/evolve/time_schemes.hpp"
 #include "meniscus/evolve/topology_step.hpp"
 #include "meniscus/evolve/volume_restoration.hpp"
+#include "meniscus/linear/shared_work.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/scene/interface_tension.hpp"
@@ -76,7 +78,8 @@ Evolution::Evolution(Scene scene, const EvolutionOptions& options, std::unique_p
   state_.start_centroid = centroid_of_drops(state_.scene);
   state_.volume_shift.assign(state_.scene.interfaces.size(), 0.0);
   if (options.processes == linear::Processes::all)
-    state_.surfaces = std::make_shared<KnownSurfaces>(shared_middles_on_splines);
+    state_.surfaces = std::make_shared<KnownSurfaces>(
+        std::bind_front(linear::shared_numbers, linear::Communicator::world()));
 }
 
 Report Evolution::prepare() {
@@ -190,7 +193,11 @@ StageFlow Evolution::time_scheme_step(const Scene& start, double dt) {
             slow_down(stage, state_.scene, about, kImplicitShare * dt);
           });
     case TimeScheme::rkc:
-      return chebyshev_step(first_, step, num_stable_stages(start, dt), solve);
+      return chebyshev_step(
+          first_, step,
+          ChebyshevScheme::for_waves(wave_spectrum(start, first_.motion, first_.flow.velocity, dt),
+                                     kMostStages),
+          solve);
   }
   return first_;
 }
@@ -515,7 +522,23 @@ Evolution::Rows Evolution::rows() const {
   const std::vector<ScalarMeasures> scalars = scalar_measures();
   const PhaseTimer timer(times_, "diagnostics");
   const auto faces = reconstructed_interfaces(state_.scene, options_.surface, *state_.surfaces);
-  Rows rows{history_row(state_, first_.flow, first_.motion, faces), drop_rows(faces, scalars)};
+  InterfaceTotals totals;
+  Rows rows;
+  // The larger piece is that of the first rank.
+  linear::share_work(
+      linear::Communicator::of(options_.processes), std::array{2.0, 1.0},
+      [&](std::size_t k, Archive& archive) {
+        if (k == 0) {
+          rows.drops = drop_rows(faces, scalars);
+        } else {
+          totals = interface_totals(state_, first_.flow, first_.motion, faces);
+          meniscus::save(totals, archive);
+        }
+      },
+      [&](std::size_t k, const Archive& archive) {
+        if (k == 1) totals = load_interface_totals(archive);
+      });
+  rows.history = history_row(state_, first_.flow, totals);
   rows.history.scalars = scalar_totals(scalars, state_.scalars);
   for (std::size_t i = 0; i < rows.drops.size(); ++i)
     rows.drops[i].motion = drop_motion(state_.scene, state_.t, i, rows.drops[i].shape, first_.flow);

@@ -60,7 +60,8 @@ class Evolution {
   /// The length with which the next step is tried first.
   [[nodiscard]] double step_length() const { return step_plan(state_, options_).dt; }
 
-  /// The rows of history.csv and drops.csv after the last solve.
+  /// The rows of history.csv and drops.csv after the last solve. The processes of the options share
+  /// the measures; the first of them has the drops.
   struct Rows {
     HistoryRow history;
     std::vector<DropRow> drops;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "meniscus/core/archive_entries.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/evolve/drop_stress.hpp"
 #include "meniscus/mesh/sphere_radius.hpp"
@@ -68,12 +69,45 @@ InterfaceSurfaces reconstructed_interfaces(const Scene& scene, SurfaceShape shap
   return faces;
 }
 
-HistoryRow history_row(const State& state, const FlowSolution& flow, const InterfaceMotion& motion,
-                       const InterfaceSurfaces& faces) {
+InterfaceTotals interface_totals(const State& state, const FlowSolution& flow,
+                                 const InterfaceMotion& motion, const InterfaceSurfaces& faces) {
   const Scene& scene = state.scene;
-  HistoryRow row;
   MENISCUS_ASSERT(motion.size() == scene.interfaces.size(), "{} motions of {} interfaces",
                   motion.size(), scene.interfaces.size());
+  InterfaceTotals totals;
+  totals.min_gap = smallest_gap(scene);
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+    totals.surface_rate +=
+        tension_power(scene.interfaces[i], *faces[i], motion[i], flow.velocity[i]);
+  const bool varies = std::ranges::any_of(
+      scene.scalars, [](const Scalar& each) { return each.viscosity_exponent != 0.0; });
+  if (is_newtonian(scene.liquids[RegionId{0}].law) && !varies)
+    totals.stress = drop_stress(scene, flow.velocity, faces, flow.excess_stress);
+  return totals;
+}
+
+void save(const InterfaceTotals& totals, Archive& archive) {
+  if (totals.min_gap) archive.reals["min_gap"] = {*totals.min_gap};
+  archive.reals["surface_rate"] = {totals.surface_rate};
+  if (totals.stress)
+    archive.reals["stress"].assign(totals.stress->reshaped().begin(),
+                                   totals.stress->reshaped().end());
+}
+
+InterfaceTotals load_interface_totals(const Archive& archive) {
+  InterfaceTotals totals;
+  totals.surface_rate = entry_of_size(archive.reals, "surface_rate", 1).front();
+  if (archive.reals.contains("min_gap"))
+    totals.min_gap = entry_of_size(archive.reals, "min_gap", 1).front();
+  if (archive.reals.contains("stress"))
+    totals.stress = Mat3(entry_of_size(archive.reals, "stress", 9).data());
+  return totals;
+}
+
+HistoryRow history_row(const State& state, const FlowSolution& flow,
+                       const InterfaceTotals& totals) {
+  const Scene& scene = state.scene;
+  HistoryRow row;
   row.step = state.step;
   row.t = state.t;
   row.dt = state.dt;
@@ -91,18 +125,14 @@ HistoryRow history_row(const State& state, const FlowSolution& flow, const Inter
     row.tetrahedra = mesh.num_cells();
     row.min_dihedral_deg = state.mesh->smallest_angle_deg();
   }
-  row.min_gap = smallest_gap(scene);
+  row.min_gap = totals.min_gap;
   row.linear_iterations = state.iterations;
   if (flow.power) {
     row.power_in = flow.power->in;
     row.dissipation = flow.power->dissipation;
   }
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
-    row.surface_rate += tension_power(scene.interfaces[i], *faces[i], motion[i], flow.velocity[i]);
-  const bool varies = std::ranges::any_of(
-      scene.scalars, [](const Scalar& each) { return each.viscosity_exponent != 0.0; });
-  if (is_newtonian(scene.liquids[RegionId{0}].law) && !varies)
-    row.stress = drop_stress(scene, flow.velocity, faces, flow.excess_stress);
+  row.surface_rate = totals.surface_rate;
+  row.stress = totals.stress;
   if (has_inertia(scene)) {
     row.kinetic = KineticTotals{.rate = flow.power ? flow.power->kinetic_rate : 0.0,
                                 .momentum_lost = state.momentum_lost,

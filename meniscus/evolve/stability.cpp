@@ -4,18 +4,30 @@
 #include <cmath>
 #include <limits>
 
-#include "meniscus/evolve/chebyshev.hpp"
+#include "meniscus/core/error.hpp"
 #include "meniscus/scene/interface_tension.hpp"
 #include "meniscus/surface/remesh.hpp"
 
 namespace meniscus {
 namespace {
 
+/// [1/h] The largest wave number that a triangulation of edge h shows, √6.
+const double kLargestWave = std::sqrt(6.0);
+
+double sum_of_viscosities(const Scene& scene, const Interface& interface) {
+  return scene.liquids[interface.inside].viscosity + scene.liquids[interface.outside].viscosity;
+}
+
+/// ρ: the rate at which a speed convects a wave, over that at which tension smooths it.
+double convection_ratio(double speed, double viscosities, double tension) {
+  return 2.0 * viscosities * speed / tension;
+}
+
 /// Length of the interval of decay rates, times the step, in which a scheme is stable.
 double stability_interval(TimeScheme scheme) {
   switch (scheme) {
     case TimeScheme::rkc:
-      return ChebyshevScheme::stability_interval(kMostStages);
+      return ChebyshevScheme::stability_interval(kMostStages, ChebyshevScheme::kMostDamping);
     case TimeScheme::semi_implicit:
     case TimeScheme::implicit:
       return std::numeric_limits<double>::infinity();
@@ -38,11 +50,10 @@ double capillary_rate(const Scene& scene) {
   double rate = 0.0;
   for (const Interface& interface : scene.interfaces) {
     const VertexField<double> edges = mean_edges(interface.mesh);
-    const double viscosities =
-        scene.liquids[interface.inside].viscosity + scene.liquids[interface.outside].viscosity;
     const double h = *std::ranges::min_element(edges);
     const double modulus = std::max(largest_tension(interface), largest_elasticity(interface));
-    rate = std::max(rate, std::sqrt(6.0) * modulus / (2.0 * viscosities * h));
+    rate =
+        std::max(rate, kLargestWave * modulus / (2.0 * sum_of_viscosities(scene, interface) * h));
   }
   return rate;
 }
@@ -63,13 +74,28 @@ double longest_stable_step(const Scene& scene, TimeScheme scheme) {
 }
 
 double aimed_slip(double speed, double viscosities, double tension) {
-  const double ratio = 2.0 * viscosities * speed / tension;
+  const double ratio = convection_ratio(speed, viscosities, tension);
   return std::clamp(kSlipAtOne / std::cbrt(ratio), kLeastSlip, kMostSlip);
 }
 
-int num_stable_stages(const Scene& scene, double dt) {
-  return std::min(kMostStages,
-                  ChebyshevScheme::num_stages_for(fastest_rate(scene, TimeScheme::rkc) * dt));
+WaveSpectrum wave_spectrum(const Scene& scene, const InterfaceMotion& motion,
+                           std::span<const VertexField<Vec3>> velocity, double dt) {
+  MENISCUS_ASSERT(motion.size() == scene.interfaces.size() && velocity.size() == motion.size(),
+                  "{} motions and {} velocities of {} interfaces", motion.size(), velocity.size(),
+                  scene.interfaces.size());
+  WaveSpectrum waves{.decay = fastest_rate(scene, TimeScheme::rkc) * dt};
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const Interface& interface = scene.interfaces[i];
+    const VertexField<double> edges = mean_edges(interface.mesh);
+    if (interface.tension == 0.0) continue;  // nothing decays
+    const double tension = interface.tension, viscosities = sum_of_viscosities(scene, interface);
+    for (const VertexId v : edges.ids()) {
+      const double past = (velocity[i][v] - motion[i][v]).norm();
+      waves.ratio = std::max(waves.ratio, convection_ratio(past, viscosities, tension));
+      waves.convection = std::max(waves.convection, kLargestWave * past * dt / edges[v]);
+    }
+  }
+  return waves;
 }
 
 }  // namespace meniscus

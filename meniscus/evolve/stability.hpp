@@ -1,5 +1,9 @@
 #pragma once
 
+#include <span>
+
+#include "meniscus/evolve/chebyshev.hpp"
+#include "meniscus/evolve/interface_motion.hpp"
 #include "meniscus/evolve/options.hpp"
 #include "meniscus/scene/scene.hpp"
 
@@ -27,8 +31,10 @@ namespace meniscus {
 /// wave that goes the way z/k grow by z⁴/8; tension takes z/ρ of it.
 [[nodiscard]] double aimed_slip(double speed, double viscosities, double tension);
 
-/// The stages of a Runge–Kutta–Chebyshev step of length dt that stability takes, no more than
-/// `kMostStages`.
-[[nodiscard]] int num_stable_stages(const Scene& scene, double dt);
+/// Where the rates of an interface's waves lie in a step of length dt. They decay by tension, and
+/// the liquid carries them past the vertices, with u = |velocity − motion|: Im z ≤ √6 u Δt/h, and
+/// ρ |Re z| with ρ as above.
+[[nodiscard]] WaveSpectrum wave_spectrum(const Scene& scene, const InterfaceMotion& motion,
+                                         std::span<const VertexField<Vec3>> velocity, double dt);
 
 }  // namespace meniscus

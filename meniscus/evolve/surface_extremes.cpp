@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Dense>
 
@@ -78,10 +79,11 @@ struct SurfaceExtremes::Around {
   }
 };
 
-SurfaceExtremes::SurfaceExtremes(const SurfaceMesh& mesh)
+SurfaceExtremes::SurfaceExtremes(const SurfaceMesh& mesh, SurfaceTopology topology,
+                                 const VertexField<VertexCurvature>& osculating)
     : mesh_(mesh),
-      topology_(mesh),
-      fit_(quartic_curvature(mesh, topology_, osculating_curvature(mesh, topology_))),
+      topology_(std::move(topology)),
+      fit_(quartic_curvature(mesh, topology_, osculating)),
       rings_(mesh, topology_) {}
 
 SurfaceExtremes::Around SurfaceExtremes::around(VertexId v) {

@@ -17,7 +17,9 @@ class SplinePatch;
 /// the vertex's curvatures stand for the surface, O(h³). `mesh` must outlive this.
 class SurfaceExtremes {
  public:
-  explicit SurfaceExtremes(const SurfaceMesh& mesh);
+  /// `osculating` is the mesh's osculating curvature.
+  SurfaceExtremes(const SurfaceMesh& mesh, SurfaceTopology topology,
+                  const VertexField<VertexCurvature>& osculating);
 
   /// The maximum of e·x, e a unit vector [R0].
   [[nodiscard]] double support(const Vec3& e);

@@ -280,9 +280,8 @@ StageFlow implicit_step(const StageFlow& first, const Step& step, const Implicit
   return end;
 }
 
-StageFlow chebyshev_step(const StageFlow& first, const Step& step, int num_stages,
+StageFlow chebyshev_step(const StageFlow& first, const Step& step, const ChebyshevScheme& scheme,
                          const StageSolver& solve) {
-  const ChebyshevScheme scheme(num_stages);
   const std::size_t middle = middle_stage(scheme.stages());
   // Displacements from the start over dt: of the last two stages, and of the middle one.
   const Displacement at_first{first.motion, first.amount_rates};

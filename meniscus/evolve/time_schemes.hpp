@@ -4,6 +4,7 @@
 #include <numbers>
 #include <span>
 
+#include "meniscus/evolve/chebyshev.hpp"
 #include "meniscus/evolve/interface_motion.hpp"
 #include "meniscus/evolve/shape_motion.hpp"
 #include "meniscus/evolve/surfactant_motion.hpp"
@@ -99,12 +100,12 @@ struct StageDampers {
 /// γ.
 inline constexpr double kImplicitShare = 1.0 - 0.5 * std::numbers::sqrt2;
 
-/// Runge–Kutta–Chebyshev with `num_stages` ≥ 3 (chebyshev.hpp). The motion of first order that the
+/// Runge–Kutta–Chebyshev (chebyshev.hpp). The motion of first order that the
 /// estimate takes is the line through the stage j next to the middle, at c_j of the step. It is its
 /// difference over 1 − c_j. Short waves, which the stages damp, enter it at no more than a few
 /// times their height.
-[[nodiscard]] StageFlow chebyshev_step(const StageFlow& first, const Step& step, int num_stages,
-                                       const StageSolver& solve);
+[[nodiscard]] StageFlow chebyshev_step(const StageFlow& first, const Step& step,
+                                       const ChebyshevScheme& scheme, const StageSolver& solve);
 
 /// max_v dt |n·v − n·v*| / l_v over all vertices, l_v the shortest edge at the vertex when the step
 /// began. This is how far steps of second and of first order take a vertex apart along its normal,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -40,11 +41,34 @@ Share made(std::span<const int> owner, int rank, const MakePiece& make) {
   return share;
 }
 
+/// The arrays of a piece, by their bytes.
+template <class Number>
+json packed(const std::map<std::string, std::vector<Number>>& arrays) {
+  json all = json::object();
+  for (const auto& [name, numbers] : arrays) {
+    Bytes bytes(sizeof(Number) * numbers.size());
+    if (!numbers.empty()) std::memcpy(bytes.data(), numbers.data(), bytes.size());
+    all[name] = json::binary(std::move(bytes));
+  }
+  return all;
+}
+
+template <class Number>
+void unpack(const json& all, std::map<std::string, std::vector<Number>>& arrays) {
+  for (const auto& [name, value] : all.items()) {
+    const Bytes& bytes = value.get_binary();
+    std::vector<Number>& numbers = arrays[name];
+    numbers.resize(bytes.size() / sizeof(Number));
+    if (!numbers.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());
+  }
+}
+
 Bytes packed(const Share& share) {
   json pieces = json::array();
   for (const Archive& piece : share.pieces)
-    pieces.push_back(
-        {{"reals", piece.reals}, {"integers", piece.integers}, {"texts", piece.texts}});
+    pieces.push_back({{"reals", packed(piece.reals)},
+                      {"integers", packed(piece.integers)},
+                      {"texts", piece.texts}});
   return json::to_msgpack({{"error", share.error},
                            {"is_input_wrong", share.is_input_wrong},
                            {"pieces", std::move(pieces)}});
@@ -57,8 +81,8 @@ Share unpacked(const Bytes& bytes) {
   all.at("is_input_wrong").get_to(share.is_input_wrong);
   for (const json& piece : all.at("pieces")) {
     Archive& archive = share.pieces.emplace_back();
-    piece.at("reals").get_to(archive.reals);
-    piece.at("integers").get_to(archive.integers);
+    unpack(piece.at("reals"), archive.reals);
+    unpack(piece.at("integers"), archive.integers);
     piece.at("texts").get_to(archive.texts);
   }
   return share;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "meniscus/core/archive.hpp"
+#include "meniscus/core/share_numbers.hpp"
 #include "meniscus/linear/communicator.hpp"
 
 namespace meniscus::linear {
@@ -24,8 +25,6 @@ using TakePiece = std::function<void(std::size_t k, const Archive& archive)>;
 void share_work(Communicator communicator, std::span<const double> work, const MakePiece& make,
                 const TakePiece& take);
 
-/// Finds the numbers of items first, …, end − 1, one item after the other.
-using FindNumbers = std::function<std::vector<double>(std::size_t first, std::size_t end)>;
 /// The `width` numbers of each of `count` items of about equal cost, one item after the other, on
 /// every rank. Each rank finds those of a stretch of the items. `find` must not throw. Collective.
 [[nodiscard]] std::vector<double> shared_numbers(Communicator communicator, std::size_t count,

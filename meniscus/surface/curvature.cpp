@@ -60,7 +60,8 @@ VertexCurvature curvature_at(VertexId v, const SurfaceMesh& mesh, const SurfaceT
 }
 
 VertexField<VertexCurvature> curvatures(const SurfaceMesh& mesh, const SurfaceTopology& topology,
-                                        RingGatherer& rings, Form form) {
+                                        Form form) {
+  RingGatherer rings(mesh, topology);
   std::vector<Vec3> unrolled;
   VertexField<VertexCurvature> result(mesh.num_vertices());
   for (const VertexId v : mesh.x.ids())
@@ -74,20 +75,18 @@ double VertexCurvature::rms() const { return std::sqrt(0.5 * (k1 * k1 + k2 * k2)
 
 VertexField<VertexCurvature> fitted_curvature(const SurfaceMesh& mesh,
                                               const SurfaceTopology& topology) {
-  RingGatherer rings(mesh, topology);
-  return curvatures(mesh, topology, rings, Form::paraboloid);
+  return curvatures(mesh, topology, Form::paraboloid);
 }
 
 VertexField<VertexCurvature> osculating_curvature(const SurfaceMesh& mesh,
                                                   const SurfaceTopology& topology) {
-  RingGatherer rings(mesh, topology);
-  return osculating_curvature(mesh, topology, rings);
+  return curvatures(mesh, topology, Form::osculating);
 }
 
-VertexField<VertexCurvature> osculating_curvature(const SurfaceMesh& mesh,
-                                                  const SurfaceTopology& topology,
-                                                  RingGatherer& rings) {
-  return curvatures(mesh, topology, rings, Form::osculating);
+VertexCurvature osculating_curvature(VertexId v, const SurfaceMesh& mesh,
+                                     const SurfaceTopology& topology, RingGatherer& rings,
+                                     std::vector<Vec3>& unrolled) {
+  return curvature_at(v, mesh, topology, rings, Form::osculating, unrolled);
 }
 
 }  // namespace meniscus

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "meniscus/mesh/surface_mesh.hpp"
 
 namespace meniscus {
@@ -31,9 +33,10 @@ struct VertexCurvature {
 /// curved by O(h²).
 [[nodiscard]] VertexField<VertexCurvature> osculating_curvature(const SurfaceMesh& mesh,
                                                                 const SurfaceTopology& topology);
-/// The osculating curvature with a gatherer of rings that the caller keeps.
-[[nodiscard]] VertexField<VertexCurvature> osculating_curvature(const SurfaceMesh& mesh,
-                                                                const SurfaceTopology& topology,
-                                                                RingGatherer& rings);
+/// That of one vertex, with a gatherer of rings and room for points that the caller keeps.
+[[nodiscard]] VertexCurvature osculating_curvature(VertexId v, const SurfaceMesh& mesh,
+                                                   const SurfaceTopology& topology,
+                                                   RingGatherer& rings,
+                                                   std::vector<Vec3>& unrolled);
 
 }  // namespace meniscus

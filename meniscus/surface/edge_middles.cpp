@@ -25,6 +25,30 @@ std::vector<Vec3> straight_middles(const SurfaceMesh& mesh, const SurfaceTopolog
   return middles;
 }
 
+/// Those of the edges from number `first` to before `end`, each by its coordinates.
+std::vector<double> middles_on_splines(const SurfaceMesh& mesh, const SurfaceTopology& topology,
+                                       const SmoothSurface& smooth, std::size_t first,
+                                       std::size_t end) {
+  MENISCUS_ASSERT(first <= end && end <= topology.edges().size(), "edges {} to {} of {}", first,
+                  end, topology.edges().size());
+  const VertexField<VertexCurvature>& curvature = smooth.vertex_curvature();
+  RingGatherer rings(mesh, topology);
+  std::vector<Vec3> points;
+  std::vector<double> coordinates;
+  coordinates.reserve(3 * (end - first));
+  for (const SurfaceEdge& edge : std::span(topology.edges()).subspan(first, end - first)) {
+    const VertexCurvature &at_a = curvature[edge.a], &at_b = curvature[edge.b];
+    const Vec3 a = mesh.x[edge.a], b = mesh.x[edge.b];
+    gather(rings, edge, points);
+    const Vec3 middle =
+        point_on_spline(smooth.edge_point(edge.a, edge.b, 0.5), (at_a.n + at_b.n).normalized(),
+                        0.5 * (at_a.half_sum() + at_b.half_sum()), points,
+                        SplinePatch::Coordinates::flat, 0.5 * (a + b), (b - a).norm());
+    coordinates.insert(coordinates.end(), middle.begin(), middle.end());
+  }
+  return coordinates;
+}
+
 }  // namespace
 
 FaceField<std::array<std::size_t, 3>> face_edges(const SurfaceMesh& mesh,
@@ -68,28 +92,14 @@ std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh, const SurfaceTopol
 }
 
 std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh, const SurfaceTopology& topology,
-                                     const SmoothSurface& smooth) {
-  return middles_on_splines(mesh, topology, smooth, 0, topology.edges().size());
-}
-
-std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh, const SurfaceTopology& topology,
-                                     const SmoothSurface& smooth, std::size_t first,
-                                     std::size_t end) {
-  MENISCUS_ASSERT(first <= end && end <= topology.edges().size(), "edges {} to {} of {}", first,
-                  end, topology.edges().size());
-  const VertexField<VertexCurvature>& curvature = smooth.vertex_curvature();
-  RingGatherer rings(mesh, topology);
-  std::vector<Vec3> points, middles;
-  middles.reserve(end - first);
-  for (const SurfaceEdge& edge : std::span(topology.edges()).subspan(first, end - first)) {
-    const VertexCurvature &at_a = curvature[edge.a], &at_b = curvature[edge.b];
-    const Vec3 a = mesh.x[edge.a], b = mesh.x[edge.b];
-    gather(rings, edge, points);
-    middles.push_back(
-        point_on_spline(smooth.edge_point(edge.a, edge.b, 0.5), (at_a.n + at_b.n).normalized(),
-                        0.5 * (at_a.half_sum() + at_b.half_sum()), points,
-                        SplinePatch::Coordinates::flat, 0.5 * (a + b), (b - a).norm()));
-  }
+                                     const SmoothSurface& smooth, const ShareNumbers& share) {
+  const std::size_t count = topology.edges().size();
+  const std::vector<double> found = share(count, 3, [&](std::size_t first, std::size_t end) {
+    return middles_on_splines(mesh, topology, smooth, first, end);
+  });
+  std::vector<Vec3> middles;
+  middles.reserve(count);
+  for (std::size_t e = 0; e < count; ++e) middles.emplace_back(&found[3 * e]);
   return middles;
 }
 

@@ -37,11 +37,7 @@ enum class SurfaceShape { faceted, patched, splined };
                                                    const SurfaceTopology& topology);
 [[nodiscard]] std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh,
                                                    const SurfaceTopology& topology,
-                                                   const SmoothSurface& smooth);
-/// Those of the edges from number `first` to before `end`, as ranks share them out.
-[[nodiscard]] std::vector<Vec3> middles_on_splines(const SurfaceMesh& mesh,
-                                                   const SurfaceTopology& topology,
-                                                   const SmoothSurface& smooth, std::size_t first,
-                                                   std::size_t end);
+                                                   const SmoothSurface& smooth,
+                                                   const ShareNumbers& share = own_numbers);
 
 }  // namespace meniscus

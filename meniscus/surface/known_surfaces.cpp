@@ -15,10 +15,10 @@ std::size_t hash_of(const VertexField<Vec3>& x) {
 }  // namespace
 
 ReconstructedSurface KnownSurfaces::made(const SurfaceMesh& mesh, SurfaceShape shape) const {
-  if (shape != SurfaceShape::splined || !on_splines_) return {mesh, shape};
+  if (shape != SurfaceShape::splined) return {mesh, shape};
   SurfaceTopology topology(mesh);
-  SmoothSurface smooth(mesh, topology);
-  std::vector<Vec3> middles = on_splines_(mesh, topology, smooth);
+  SmoothSurface smooth(mesh, topology, share_);
+  std::vector<Vec3> middles = middles_on_splines(mesh, topology, smooth, share_);
   return {mesh, std::move(topology), std::move(smooth), std::move(middles), shape};
 }
 

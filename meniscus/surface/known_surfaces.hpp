@@ -15,12 +15,10 @@ namespace meniscus {
 /// of volumes and the tables ask for those of the same vertices in turn.
 class KnownSurfaces {
  public:
-  /// Finds what `middles_on_splines` finds.
-  using FindMiddles = std::function<std::vector<Vec3>(const SurfaceMesh&, const SurfaceTopology&,
-                                                      const SmoothSurface&)>;
   KnownSurfaces() = default;
-  /// Ranks that share out the middles must all ask for the same surfaces in the same order.
-  explicit KnownSurfaces(FindMiddles on_splines) : on_splines_(std::move(on_splines)) {}
+  /// Ranks that share out the fits and middles of splined surfaces must all ask for the same
+  /// surfaces in the same order.
+  explicit KnownSurfaces(ShareNumbers share) : share_(std::move(share)) {}
 
   [[nodiscard]] std::shared_ptr<const ReconstructedSurface> of(const SurfaceMesh& mesh,
                                                                SurfaceShape shape);
@@ -35,7 +33,7 @@ class KnownSurfaces {
   };
   [[nodiscard]] ReconstructedSurface made(const SurfaceMesh& mesh, SurfaceShape shape) const;
 
-  FindMiddles on_splines_;
+  ShareNumbers share_ = own_numbers;
   std::unordered_multimap<std::size_t, Known> known_;  // by a hash of the vertices
 };
 

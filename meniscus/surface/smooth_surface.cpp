@@ -1,6 +1,7 @@
 #include "meniscus/surface/smooth_surface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "meniscus/core/error.hpp"
@@ -55,19 +56,71 @@ Lift lift(const HeightPatch& patch, const Vec3& flat) {
   return {h.z - d.dot(patch.n), w * (patch.n - h.z_u * patch.t1 - h.z_v * patch.t2)};
 }
 
+/// What is fitted at a vertex.
+struct Fit {
+  VertexCurvature curvature;  // osculating
+  std::array<double, 9> c{};  // of the patch over the plane normal to n of `curvature`
+};
+constexpr std::size_t kFitNumbers = 20;
+
+void append(const Fit& fit, std::vector<double>& numbers) {
+  const auto& [n, k1, k2, d1, d2] = fit.curvature;
+  for (const Vec3& direction : {n, d1, d2})
+    numbers.insert(numbers.end(), direction.begin(), direction.end());
+  numbers.insert(numbers.end(), {k1, k2});
+  numbers.insert(numbers.end(), fit.c.begin(), fit.c.end());
+}
+
+Fit unpacked(std::span<const double, kFitNumbers> numbers) {
+  const auto direction = [&](std::size_t k) { return Vec3(&numbers[3 * k]); };
+  Fit fit{.curvature = {.n = direction(0),
+                        .k1 = numbers[9],
+                        .k2 = numbers[10],
+                        .d1 = direction(1),
+                        .d2 = direction(2)}};
+  std::ranges::copy(numbers.last<9>(), fit.c.begin());
+  return fit;
+}
+
+/// The fits at the vertices from number `first` to before `end`.
+std::vector<double> fits(const SurfaceMesh& mesh, const SurfaceTopology& topology,
+                         std::size_t first, std::size_t end) {
+  RingGatherer rings(mesh, topology);
+  std::vector<double> numbers;
+  numbers.reserve(kFitNumbers * (end - first));
+  std::vector<Vec3> unrolled;
+  for (std::size_t k = first; k < end; ++k) {
+    const VertexId v{static_cast<std::int32_t>(k)};
+    Fit fit{.curvature = osculating_curvature(v, mesh, topology, rings, unrolled)};
+    fit.c = patch_at(flat_patch(mesh.x[v], fit.curvature.n), rings.gather(v, true),
+                     topology.ring(v).size(), unrolled)
+                .c;
+    append(fit, numbers);
+  }
+  return numbers;
+}
+
 }  // namespace
 
-SmoothSurface::SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& topology)
-    : patches_(mesh.num_vertices()), normals_(mesh.num_vertices()), faces_(mesh.faces) {
-  RingGatherer rings(mesh, topology);
-  curvature_ = osculating_curvature(mesh, topology, rings);
-  MENISCUS_ASSERT(curvature_.size() == mesh.num_vertices(), "{} {}", curvature_.size(),
-                  mesh.num_vertices());
-  std::vector<Vec3> unrolled;
+SmoothSurface::SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& topology,
+                             const ShareNumbers& share)
+    : curvature_(mesh.num_vertices()),
+      patches_(mesh.num_vertices()),
+      normals_(mesh.num_vertices()),
+      faces_(mesh.faces) {
+  const auto count = static_cast<std::size_t>(mesh.num_vertices());
+  const std::vector<double> found =
+      share(count, kFitNumbers,
+            [&](std::size_t first, std::size_t end) { return fits(mesh, topology, first, end); });
+  MENISCUS_ASSERT(found.size() == kFitNumbers * count, "{} {}", found.size(), count);
   for (const VertexId v : mesh.x.ids()) {
+    const Fit fit = unpacked(std::span(found)
+                                 .subspan(kFitNumbers * static_cast<std::size_t>(v.value))
+                                 .first<kFitNumbers>());
+    curvature_[v] = fit.curvature;
     HeightPatch& patch = patches_[v];
-    patch = patch_at(flat_patch(mesh.x[v], curvature_[v].n), rings.gather(v, true),
-                     topology.ring(v).size(), unrolled);
+    patch = flat_patch(mesh.x[v], fit.curvature.n);
+    patch.c = fit.c;
     normals_[v] = (patch.n - patch.c[0] * patch.t1 - patch.c[1] * patch.t2).normalized();
   }
 }

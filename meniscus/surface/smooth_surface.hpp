@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meniscus/core/share_numbers.hpp"
 #include "meniscus/surface/height_patch.hpp"
 
 namespace meniscus {
@@ -25,7 +26,11 @@ struct SurfacePoint {
 /// surfaces). A value: it keeps what it needs of the mesh.
 class SmoothSurface {
  public:
-  SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& topology);
+  SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& topology)
+      : SmoothSurface(mesh, topology, own_numbers) {}
+  /// Shares out the fits at the vertices.
+  SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& topology,
+                const ShareNumbers& share);
 
   struct PointNormal {
     Vec3 x;  ///< S(b) [R0]

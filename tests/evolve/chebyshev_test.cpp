@@ -1,6 +1,9 @@
 #include "meniscus/evolve/chebyshev.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -84,6 +87,53 @@ TEST(Chebyshev, TakesTheFewestStagesThatAreStable) {
     const int s = ChebyshevScheme::num_stages_for(interval);
     EXPECT_GE(ChebyshevScheme::stability_interval(s), interval);
     EXPECT_LT(ChebyshevScheme::stability_interval(s - 1), interval);
+  }
+}
+
+/// |P| at random places where the rates of waves lie.
+double largest_at_random(const ChebyshevScheme& scheme, const WaveSpectrum& waves) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  double largest = 0.0;
+  for (int k = 0; k < 20000; ++k) {
+    const double decay = share(random) * waves.decay;
+    const double fastest = std::min(waves.ratio * decay, waves.convection);
+    largest = std::max(largest, std::abs(scheme.stability_polynomial(
+                                    std::complex<double>(-decay, share(random) * fastest))));
+  }
+  return largest;
+}
+
+TEST(Chebyshev, IsStableForWavesThatAreConvected) {
+  for (const WaveSpectrum& waves :
+       {WaveSpectrum{9.0, 0.2, 2.0}, WaveSpectrum{6.0, 0.5, 3.0}, WaveSpectrum{3.0, 1.0, 3.4},
+        WaveSpectrum{40.0, 0.1, 3.4}, WaveSpectrum{150.0, 0.05, 3.4}}) {
+    const ChebyshevScheme scheme = ChebyshevScheme::for_waves(waves, 24);
+    EXPECT_LE(largest_at_random(scheme, waves), 1.0 + 1e-12) << waves.decay;
+    EXPECT_TRUE(scheme.is_stable_for(waves));
+    const auto stages = static_cast<int>(scheme.stages().size());
+    EXPECT_LT(stages, 24);
+    // What is stable on the real axis alone lets such waves grow.
+    const ChebyshevScheme least(ChebyshevScheme::num_stages_for(waves.decay));
+    EXPECT_GT(largest_at_random(least, waves), 1.03) << waves.decay;
+    EXPECT_FALSE(least.is_stable_for(waves));
+  }
+}
+
+TEST(Chebyshev, WavesAtRestTakeTheFewestStages) {
+  for (const double decay : {0.0, 9.0, 40.0}) {
+    const ChebyshevScheme scheme = ChebyshevScheme::for_waves({.decay = decay}, 24);
+    EXPECT_EQ(static_cast<int>(scheme.stages().size()), ChebyshevScheme::num_stages_for(decay));
+  }
+}
+
+TEST(Chebyshev, DampedSchemesAreOfSecondOrderToo) {
+  for (const double damping : {1.0, ChebyshevScheme::kMostDamping}) {
+    const ChebyshevScheme scheme(6, damping);
+    const auto error = [&](double z) { return scheme.stability_polynomial(z) - std::exp(z); };
+    EXPECT_NEAR(std::log2(error(-0.02) / error(-0.01)), 3.0, 0.1) << damping;
+    for (const double z : {-0.3, -4.0, -11.0})
+      EXPECT_NEAR(recursion(scheme, z), scheme.stability_polynomial(z), 1e-13) << damping;
   }
 }
 

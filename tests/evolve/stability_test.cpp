@@ -9,6 +9,7 @@
 
 #include "boundary_integral_run.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/remesh.hpp"
 
 namespace meniscus {
 namespace {
@@ -85,7 +86,23 @@ TEST(Stability, RateIsThatOfTheStiffestInterface) {
   EXPECT_GT(longest_stable_step(scene, TimeScheme::rkc), 100.0 / rate);
   for (Interface& each : scene.interfaces) each.tension = 0.0;
   EXPECT_TRUE(std::isinf(longest_stable_step(scene, TimeScheme::rk2)));
-  EXPECT_EQ(num_stable_stages(scene, 1.0), 3);
+}
+
+TEST(Stability, SpectrumHasWhatTheLiquidCarriesPastTheVertices) {
+  const Case c = test::unbounded_case({.shape = "radius = 1.0", .lambda = 3.0});
+  const Scene scene = build_scene(c);
+  const std::int32_t count = scene.interfaces[0].mesh.num_vertices();
+  const InterfaceMotion rest{VertexField<Vec3>(count, Vec3::Zero())};
+  InterfaceMotion velocity = rest;
+  velocity[0][VertexId{7}] = Vec3(0.0, 0.3, 0.4);
+  const double dt = 0.1, rate = capillary_rate(scene);
+  const WaveSpectrum waves = wave_spectrum(scene, rest, velocity, dt);
+  EXPECT_NEAR(waves.decay, rate * dt, 1e-12);
+  EXPECT_NEAR(waves.ratio, 2.0 * (1.0 + 3.0) * 0.5 / scene.interfaces[0].tension, 1e-12);
+  const double h = mean_edges(scene.interfaces[0].mesh)[VertexId{7}];
+  EXPECT_NEAR(waves.convection, std::sqrt(6.0) * 0.5 * dt / h, 1e-12);
+  // A vertex that goes along sees no waves pass.
+  EXPECT_EQ(wave_spectrum(scene, velocity, velocity, dt).convection, 0.0);
 }
 
 /// Excess of a drop's area over that of the sphere it ends as, at steps of ten times the midpoint
