@@ -1,5 +1,9 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -46,6 +50,71 @@ class CornerMerger {
   PolygonSoup soup_;
   std::map<std::array<double, 3>, std::int64_t> point_;
 };
+
+/// Points this near each other, over the extent of all, are one: seams of single precision.
+constexpr double kSeam = 1e-6;
+
+/// Numbers points afresh, the same for those within `distance` of an earlier one.
+class SeamWelder {
+ public:
+  explicit SeamWelder(double distance) : distance_(distance) {}
+
+  std::int64_t number_of(const Vec3& x) {
+    const Cell least = cell_of(x.array() - distance_), most = cell_of(x.array() + distance_);
+    for (std::int64_t i = least[0]; i <= most[0]; ++i)
+      for (std::int64_t j = least[1]; j <= most[1]; ++j)
+        for (std::int64_t k = least[2]; k <= most[2]; ++k)
+          if (const auto in_cell = by_cell_.find({i, j, k}); in_cell != by_cell_.end())
+            for (const std::int64_t other : in_cell->second)
+              if ((points_[static_cast<std::size_t>(other)] - x).norm() <= distance_) return other;
+    const auto number = static_cast<std::int64_t>(points_.size());
+    points_.push_back(x);
+    by_cell_[cell_of(x)].push_back(number);
+    return number;
+  }
+  [[nodiscard]] std::vector<Vec3> take_points() { return std::move(points_); }
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+  /// Cells are so large that most points see no other than their own.
+  [[nodiscard]] Cell cell_of(const Vec3& x) const {
+    const Vec3 place = x / (16.0 * distance_);
+    return {std::int64_t(std::floor(place[0])), std::int64_t(std::floor(place[1])),
+            std::int64_t(std::floor(place[2]))};
+  }
+
+  double distance_;
+  std::vector<Vec3> points_;
+  std::map<Cell, std::vector<std::int64_t>> by_cell_;
+};
+
+/// Merges the points along seams. Faces that lose a side go.
+PolygonSoup welded(const PolygonSoup& soup) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& x : soup.points) box.extend(x);
+  const double distance = soup.points.empty() ? 0.0 : kSeam * box.sizes().maxCoeff();
+  const auto are_near = [&](const Vec3& x) { return x.cwiseAbs().maxCoeff() < 1e18 * distance; };
+  if (!(distance > 0.0) || !std::ranges::all_of(soup.points, are_near)) return soup;
+  SeamWelder welder(distance);
+  std::vector<std::int64_t> number;
+  number.reserve(soup.points.size());
+  for (const Vec3& x : soup.points) number.push_back(welder.number_of(x));
+  PolygonSoup result;
+  result.points = welder.take_points();
+  for (std::size_t f = 0; f < soup.num_faces(); ++f) {
+    std::vector<std::int64_t> corners;
+    for (const std::int64_t corner : soup.face(f))
+      if (const std::int64_t next = number[static_cast<std::size_t>(corner)];
+          corners.empty() || corners.back() != next)
+        corners.push_back(next);
+    if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+    if (corners.size() < 3) continue;
+    result.corners.insert(result.corners.end(), corners.begin(), corners.end());
+    result.end_face();
+    result.tags.push_back(soup.tags[f]);
+  }
+  return result;
+}
 
 /// Whether the length is that of a binary file. (Some of them begin with "solid" all the same.)
 bool is_binary(std::string_view bytes) {
@@ -101,7 +170,7 @@ void store_point(std::string& bytes, const Vec3& x) {
 }  // namespace
 
 PolygonSoup parse_stl(const std::filesystem::path& path, std::string_view bytes) {
-  if (is_binary(bytes)) return parse_binary(bytes);
+  if (is_binary(bytes)) return welded(parse_binary(bytes));
   TextScanner scanner(path, bytes);
   TextScanner first = scanner;
   if (!first.next_line() || first.words()[0] != "solid") {
@@ -110,7 +179,7 @@ PolygonSoup parse_stl(const std::filesystem::path& path, std::string_view bytes)
         "of a binary one",
         path.string());
   }
-  return parse_ascii(scanner);
+  return welded(parse_ascii(scanner));
 }
 
 std::string format_stl(const SurfaceMesh& mesh) {

@@ -7,12 +7,13 @@
 
 namespace meniscus::io {
 
-/// Reads the faces of a surface by the file's extension: stl, ply, obj, off, vtp, vtu. Coincident
-/// points of an STL file are merged; curved faces are read by their corners. Tags come from the
-/// cell array `patch` of a vtp or vtu file. In an obj file groups, in an ascii STL file solids give
-/// them, in the order in which they first get a face. Else all are 0. Throws InvalidInput naming
-/// the file and the fault (missing, empty, unreadable, faces of fewer than three corners, corners
-/// without a point, coordinates not finite).
+/// Reads the faces of a surface by the file's extension: stl, ply, obj, off, vtp, vtu. Points of an
+/// STL file within 1e-6 of its extent become one, and faces that lose a side by that are dropped.
+/// Curved faces are read by their corners. Tags come from the cell array `patch` of a vtp or vtu
+/// file. In an obj file groups, in an ascii STL file solids give them, in the order in which they
+/// first get a face. Else all are 0. Throws InvalidInput naming the file and the fault (missing,
+/// empty, unreadable, faces of fewer than three corners, corners without a point, coordinates not
+/// finite).
 [[nodiscard]] PolygonSoup read_polygons(const std::filesystem::path& path);
 
 /// The surface of a file's faces: triangulated, oriented and, if wished, mended (`surface_of`).

@@ -99,6 +99,45 @@ TEST(SurfaceFile, ReadsAsciiStlWithASolidPerTag) {
   EXPECT_EQ(surface.mesh.x[VertexId{3}], Vec3(1, 1, 0.5));
 }
 
+/// Facets each of which has its corners a little elsewhere than its neighbours have them.
+std::string facets_apart(const SurfaceMesh& mesh, double distance) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> shift(-distance, distance);
+  std::string text = "solid\n";
+  for (const FaceVertices& face : mesh.faces) {
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (const VertexId v : face)
+      text += fmt::format("vertex {} {} {}\n", mesh.x[v].x() + shift(random),
+                          mesh.x[v].y() + shift(random), mesh.x[v].z() + shift(random));
+    text += "endloop\nendfacet\n";
+  }
+  return text + "endsolid\n";
+}
+
+TEST(SurfaceFile, StlFacetsMeetThatRoundingPutApart) {
+  const SurfaceMesh mesh = sphere(150);
+  for (const double distance : {1e-16, 1e-9, 4e-7}) {
+    const SurfaceMesh back = read_text(".stl", facets_apart(mesh, distance)).mesh;
+    EXPECT_EQ(back.num_vertices(), mesh.num_vertices()) << distance;
+    EXPECT_EQ(back.num_faces(), mesh.num_faces()) << distance;
+    EXPECT_NEAR(enclosed_volume(back), enclosed_volume(mesh), 20.0 * distance);
+  }
+  // Farther apart they are edges of their own.
+  EXPECT_EQ(read_text(".stl", facets_apart(mesh, 1e-4)).mesh.num_vertices(), 3 * mesh.num_faces());
+}
+
+TEST(SurfaceFile, StlFacetsWithoutAWidthAreDropped) {
+  const auto facet = [](const char* corners) {
+    return fmt::format("facet normal 0 0 0\nouter loop\n{}endloop\nendfacet\n", corners);
+  };
+  const TaggedSurface surface = read_text(
+      ".stl", "solid a\n" + facet("vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n") +
+                  facet("vertex 0 0 0\nvertex 1e-9 0 0\nvertex 0 1 0\n") + "endsolid a\nsolid b\n" +
+                  facet("vertex 0 1 0\nvertex 1 0 0\nvertex 1 1 1\n") + "endsolid b\n");
+  EXPECT_EQ(surface.mesh.num_faces(), 2);
+  EXPECT_EQ(surface.tag, FaceField<int>(std::vector<int>{0, 1}));
+}
+
 TEST(SurfaceFile, ReadsBinaryStlThatBeginsWithSolid) {
   std::string bytes = "solid by a program that should not";
   bytes.resize(80, ' ');
