@@ -50,6 +50,13 @@ struct Wording {
         "the flow jumps at t = {:g}, and the liquids have inertia: a ramp would be smoother",
         jump.time);
   }
+  std::string operator()(const LeftCenter& left) const {
+    return fmt::format(
+        "t = {:.6g}: the drops have gone {:.3g} R0 from their place, where this flow keeps "
+        "nothing; "
+        "domain.frame = \"drops\" moves along",
+        t, left.distance);
+  }
 };
 
 }  // namespace

@@ -48,6 +48,8 @@ inline constexpr double kDefaultLongestStep = 1.0;
 /// [(ρ_out R0³/σ)^½] The same where tension alone drives liquids with inertia and this is longer: a
 /// fortieth of the slowest period, 2π(5/24)^½ for equal densities.
 inline constexpr double kDefaultLongestWave = 0.07;
+/// [R0] Drops that have gone so far from their place in a flow that keeps nothing there have left.
+inline constexpr double kLeft = 1.0;
 /// Edges around a neck where a case does not say how many and faces are splined. In a thinning
 /// filament the flow's power is then off by 2 % of what tension gives in the median, by 7 % at
 /// most. With ten it is off by 29 to 58 %.

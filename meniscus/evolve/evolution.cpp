@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "meniscus/core/error.hpp"
@@ -63,6 +64,13 @@ RegionSources liquid_sources(std::span<const TopologyEvent> events) {
   return sources;
 }
 
+/// Whether a linear flow takes what is off its centre further away: exponentially, not as shear.
+bool is_repelling(const Mat3& gradient) {
+  constexpr double kRoundOff = 1e-6;  // the rate of shear is a double root, 0 to half of the digits
+  const Eigen::EigenSolver<Mat3> eigen(gradient, false);
+  return eigen.eigenvalues().real().maxCoeff() > kRoundOff;
+}
+
 }  // namespace
 
 Evolution::Evolution(Scene scene, const EvolutionOptions& options, std::unique_ptr<FlowSolver> flow,
@@ -115,7 +123,7 @@ Report Evolution::advance() {
     attempt_ = {};
     report = try_step(start.scene(), plan.dt);
     if (report.ok()) {
-      accept_step(plan);
+      accept_step(start.scene(), plan);
       return report;
     }
     start.restore(state_);
@@ -138,7 +146,7 @@ void Evolution::report_refusal(double dt, const Fault& fault) {
     give_notice(RefusedStep{state_.step + 1, dt, fault.text});
 }
 
-void Evolution::accept_step(const StepPlan& plan) {
+void Evolution::accept_step(const Scene& start, const StepPlan& plan) {
   const double dt = plan.dt;
   MENISCUS_ASSERT(dt >= options_.min_step && dt <= options_.max_step, "a step of length {:g}", dt);
   if (state_.mesh) widen(state_.field_excess, state_.mesh->field_excess());
@@ -147,6 +155,19 @@ void Evolution::accept_step(const StepPlan& plan) {
   state_.record = attempt_;
   state_.record.bound = plan.bound;
   ++state_.step;
+  notice_departure(start);
+}
+
+/// Tells once of drops that an extensional flow has carried off, as it does from any small
+/// distance.
+void Evolution::notice_departure(const Scene& start) {
+  const auto distance = [&](const Scene& scene) {
+    return (centroid_of_drops(scene) - state_.start_centroid).norm();
+  };
+  if (state_.scene.interfaces.empty() || distance(state_.scene) <= kLeft) return;
+  if (!start.interfaces.empty() && distance(start) > kLeft) return;
+  if (is_repelling(state_.scene.flow.gradient(state_.t)))
+    give_notice(LeftCenter{distance(state_.scene)});
 }
 
 /// Table 1 of hooper2001 after the solve at t_k. The stages of the scheme find the mean motion of

@@ -99,7 +99,8 @@ class Evolution {
   Report exchange_with_liquids(const Scene& start, const FlowSolution& flow, double dt);
   Report judge_motion(const Scene& start, const StageFlow& whole, double dt);
   void report_refusal(double dt, const Fault& fault);
-  void accept_step(const StepPlan& plan);
+  void accept_step(const Scene& start, const StepPlan& plan);
+  void notice_departure(const Scene& start);
   Report carry_fields_of_mesh(const Scene& start, const Scene& moved, const FlowSolution& flow,
                               double dt);
   Report follow_interfaces(const Scene& before, double t, const RegionSources& sources = {});

@@ -35,11 +35,17 @@ struct FlowJump {
   double time = 0.0;
 };
 
+/// The drops' common centroid has gone this far [R0] from where it was at first, in an imposed flow
+/// that takes what is off its centre further away. The notice is given once.
+struct LeftCenter {
+  double distance = 0.0;
+};
+
 /// Something that happened in a run and that its user should know.
 struct Notice {
   double t = 0.0;
   std::variant<RefusedStep, InterfaceRemesh, FailedSurgery, FailedSolver, LargeVolumeShift,
-               FlowJump>
+               FlowJump, LeftCenter>
       what;
 };
 

@@ -26,6 +26,9 @@ TEST(Wording, SaysWhatHappenedWhenAndWhere) {
   EXPECT_EQ(text_of(Notice{0.25, LargeVolumeShift{0.0234}}),
             "t = 0.25: restoring the volume shifts a vertex by 0.023 of its edges, and by as much "
             "after a shorter step");
+  EXPECT_EQ(text_of(Notice{4.5, LeftCenter{1.0625}}),
+            "t = 4.5: the drops have gone 1.06 R0 from their place, where this flow keeps nothing; "
+            "domain.frame = \"drops\" moves along");
 }
 
 TEST(Wording, AnnouncesEventsByTheirKind) {
