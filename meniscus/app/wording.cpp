@@ -52,8 +52,8 @@ struct Wording {
   }
   std::string operator()(const LeftCenter& left) const {
     return fmt::format(
-        "t = {:.6g}: the drops have gone {:.3g} R0 from their place, where this flow keeps "
-        "nothing; "
+        "t = {:.6g}: the drops are {:.3g} R0 from where they began, an unstable place in this "
+        "flow; "
         "domain.frame = \"drops\" moves along",
         t, left.distance);
   }

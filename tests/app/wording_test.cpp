@@ -27,7 +27,7 @@ TEST(Wording, SaysWhatHappenedWhenAndWhere) {
             "t = 0.25: restoring the volume shifts a vertex by 0.023 of its edges, and by as much "
             "after a shorter step");
   EXPECT_EQ(text_of(Notice{4.5, LeftCenter{1.0625}}),
-            "t = 4.5: the drops have gone 1.06 R0 from their place, where this flow keeps nothing; "
+            "t = 4.5: the drops are 1.06 R0 from where they began, an unstable place in this flow; "
             "domain.frame = \"drops\" moves along");
 }
 
