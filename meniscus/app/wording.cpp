@@ -89,7 +89,8 @@ void log_notice(const Notice& notice) {
     log::warning("{}; trying a shorter one", text_of(notice));
   else if (std::holds_alternative<InterfaceRemesh>(notice.what) ||
            std::holds_alternative<LargeVolumeShift>(notice.what) ||
-           std::holds_alternative<FlowJump>(notice.what))
+           std::holds_alternative<FlowJump>(notice.what) ||
+           std::holds_alternative<LeftCenter>(notice.what))
     log::warning("{}", text_of(notice));
 }
 
