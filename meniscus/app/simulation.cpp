@@ -71,7 +71,7 @@ Outcome Simulation::run(Progress& progress) {
   }
 }
 
-void Simulation::record_state(const RowObserver& show) {
+HistoryRow Simulation::record_state(const RowObserver& show) {
   keep_state();
   if (!is_begun_ || evolution_.is_finished() || is_after_event_ ||
       evolution_.step() % output_.checkpoint_every == 0)
@@ -88,9 +88,11 @@ void Simulation::record_state(const RowObserver& show) {
       [&] { write_volume_frame(volume_frame); });
   on_first_rank([&] { record(rows, !volume_frame.empty(), show); });
   has_ended_ = evolution_.is_finished();
-  if (!judge_ || has_ended_) return;
-  has_ended_ = any_rank(end_.has_value());
-  if (has_ended_) write_checkpoint();
+  if (judge_ && !has_ended_) {
+    has_ended_ = any_rank(end_.has_value());
+    if (has_ended_) write_checkpoint();
+  }
+  return rows.history;
 }
 
 void Simulation::solve() {

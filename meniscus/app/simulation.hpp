@@ -43,8 +43,9 @@ class Simulation {
   Outcome run(Progress& progress);
 
   /// Solves the flow at t_k and records the state: rows, and frames and checkpoint where due.
-  /// `show` gets the rows, on rank 0. Throws RunFailure when there is no flow. Collective.
-  void record_state(const RowObserver& show = {});
+  /// `show` gets the rows, on rank 0; all ranks get the one of history.csv. Throws RunFailure when
+  /// there is no flow. Collective.
+  HistoryRow record_state(const RowObserver& show = {});
   /// Takes the step from the recorded state at t_k to t_{k+1}. Throws RunFailure when none can be
   /// taken; the state is the recorded one then, and its checkpoint is written. Collective.
   void advance();

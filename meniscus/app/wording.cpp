@@ -53,9 +53,9 @@ struct Wording {
   std::string operator()(const LeftCenter& left) const {
     return fmt::format(
         "t = {:.6g}: the drops are {:.3g} R0 from where they began, an unstable place in this "
-        "flow; "
-        "domain.frame = \"drops\" moves along",
-        t, left.distance);
+        "flow{}",
+        t, left.distance,
+        left.may_be_followed ? "; domain.frame = \"drops\" moves the domain along" : "");
   }
 };
 

@@ -6,7 +6,8 @@
 
 namespace meniscus {
 
-/// Finds the numbers of items first, …, end − 1, one item after the other.
+/// Finds the numbers of items first, …, end − 1, one item after the other. Must not throw: a rank
+/// that throws alone would leave the others waiting.
 using FindNumbers = std::function<std::vector<double>(std::size_t first, std::size_t end)>;
 /// Gives the `width` numbers of each of `count` items, one item after the other. Ranks may each
 /// find those of some of the items.

@@ -19,9 +19,10 @@ struct WaveSpectrum {
 ///   y_j = (1 − μ_j − ν_j) y_0 + μ_j y_{j−1} + ν_j y_{j−2} + Δt (μ̃_j F_{j−1} + γ̃_j F_0).
 /// On y' = −r y the end is y_s = P(−rΔt) y_0 with
 ///   P(z) = a_s + b_s T_s(w0 + w1 z),
-/// |P| < 1 on the interval of stability, two thirds for short waves. T_s is taken at w0 = 1 + ε/s².
-/// A damping ε of 2/13 makes the interval long, but leaves next to no room off the real axis; a
-/// larger one takes more stages and leaves room for waves that are convected.
+/// |P| < 1 on the interval of stability, about a_s for short waves: ⅔ for the least damping ε, ⅓
+/// for the largest. T_s is taken at w0 = 1 + ε/s². An ε of 2/13 makes the interval long, but leaves
+/// next to no room off the real axis. A larger one takes more stages and leaves room for waves that
+/// are convected.
 class ChebyshevScheme {
  public:
   struct Stage {
@@ -31,8 +32,8 @@ class ChebyshevScheme {
 
   static constexpr double kLeastDamping = 2.0 / 13.0, kMostDamping = 5.0;
   explicit ChebyshevScheme(int num_stages, double damping = kLeastDamping);
-  /// The one of fewest stages that is stable for all waves, of the least damping among those tried.
-  /// With `most_stages` and the most damping where none is.
+  /// The one of fewest stages that lets no wave grow, of the least damping among those tried. Where
+  /// none does, that which lets them grow least; more stages have to be worth 1 %.
   static ChebyshevScheme for_waves(const WaveSpectrum& waves, int most_stages);
 
   /// The stages from y_1 to y_s.
@@ -40,8 +41,9 @@ class ChebyshevScheme {
   /// P(z), from its closed form.
   [[nodiscard]] std::complex<double> stability_polynomial(std::complex<double> z) const;
   [[nodiscard]] double stability_polynomial(double z) const;
-  /// Whether |P| ≤ 1 wherever the rates of these waves lie, tested along the edge of that region.
-  [[nodiscard]] bool is_stable_for(const WaveSpectrum& waves) const;
+  /// The largest |P| wherever the rates of these waves lie, found along the edge of that region.
+  /// Infinite where waves decay beyond the interval of stability.
+  [[nodiscard]] double largest_growth(const WaveSpectrum& waves) const;
 
   /// β(s): |P(z)| ≤ 1 for −β ≤ z ≤ 0.
   [[nodiscard]] static double stability_interval(int num_stages, double damping = kLeastDamping);

@@ -123,7 +123,7 @@ Report Evolution::advance() {
     attempt_ = {};
     report = try_step(start.scene(), plan.dt);
     if (report.ok()) {
-      accept_step(start.scene(), plan);
+      accept_step(plan);
       return report;
     }
     start.restore(state_);
@@ -146,7 +146,7 @@ void Evolution::report_refusal(double dt, const Fault& fault) {
     give_notice(RefusedStep{state_.step + 1, dt, fault.text});
 }
 
-void Evolution::accept_step(const Scene& start, const StepPlan& plan) {
+void Evolution::accept_step(const StepPlan& plan) {
   const double dt = plan.dt;
   MENISCUS_ASSERT(dt >= options_.min_step && dt <= options_.max_step, "a step of length {:g}", dt);
   if (state_.mesh) widen(state_.field_excess, state_.mesh->field_excess());
@@ -155,19 +155,19 @@ void Evolution::accept_step(const Scene& start, const StepPlan& plan) {
   state_.record = attempt_;
   state_.record.bound = plan.bound;
   ++state_.step;
-  notice_departure(start);
+  notice_departure();
 }
 
-/// Tells once of drops that an extensional flow has carried off, as it does from any small
-/// distance.
-void Evolution::notice_departure(const Scene& start) {
-  const auto distance = [&](const Scene& scene) {
-    return (centroid_of_drops(scene) - state_.start_centroid).norm();
+/// Tells once of drops that an extensional flow carries off, as it does from any small distance.
+void Evolution::notice_departure() {
+  if (state_.scene.interfaces.empty() || !is_repelling(state_.scene.flow.gradient(state_.t)))
+    return;
+  const double distance = (centroid_of_drops(state_.scene) - state_.start_centroid).norm();
+  const auto is_told = [](const Notice& notice) {
+    return std::holds_alternative<LeftCenter>(notice.what);
   };
-  if (state_.scene.interfaces.empty() || distance(state_.scene) <= kLeft) return;
-  if (!start.interfaces.empty() && distance(start) > kLeft) return;
-  if (is_repelling(state_.scene.flow.gradient(state_.t)))
-    give_notice(LeftCenter{distance(state_.scene)});
+  if (distance > kLeft && std::ranges::none_of(notices_, is_told))
+    give_notice(LeftCenter{distance, !has_inertia(state_.scene) && state_.scene.scalars.empty()});
 }
 
 /// Table 1 of hooper2001 after the solve at t_k. The stages of the scheme find the mean motion of
@@ -550,7 +550,7 @@ Evolution::Rows Evolution::rows() const {
       linear::Communicator::of(options_.processes), std::array{2.0, 1.0},
       [&](std::size_t k, Archive& archive) {
         if (k == 0) {
-          rows.drops = drop_rows(faces, scalars);
+          rows.drops = moving_drop_rows(faces, scalars);
         } else {
           totals = interface_totals(state_, first_.flow, first_.motion, faces);
           meniscus::save(totals, archive);
@@ -561,8 +561,21 @@ Evolution::Rows Evolution::rows() const {
       });
   rows.history = history_row(state_, first_.flow, totals);
   rows.history.scalars = scalar_totals(scalars, state_.scalars);
-  for (std::size_t i = 0; i < rows.drops.size(); ++i)
-    rows.drops[i].motion = drop_motion(state_.scene, state_.t, i, rows.drops[i].shape, first_.flow);
+  return rows;
+}
+
+std::vector<DropRow> Evolution::moving_drop_rows() const {
+  const std::vector<ScalarMeasures> scalars = scalar_measures();
+  const PhaseTimer timer(times_, "diagnostics");
+  return moving_drop_rows(
+      reconstructed_interfaces(state_.scene, options_.surface, *state_.surfaces), scalars);
+}
+
+std::vector<DropRow> Evolution::moving_drop_rows(const InterfaceSurfaces& faces,
+                                                 std::span<const ScalarMeasures> scalars) const {
+  std::vector<DropRow> rows = drop_rows(faces, scalars);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    rows[i].motion = drop_motion(state_.scene, state_.t, i, rows[i].shape, first_.flow);
   return rows;
 }
 

@@ -61,12 +61,14 @@ class Evolution {
   [[nodiscard]] double step_length() const { return step_plan(state_, options_).dt; }
 
   /// The rows of history.csv and drops.csv after the last solve. The processes of the options share
-  /// the measures; the first of them has the drops.
+  /// the measures; the first of them alone has the drops. Collective.
   struct Rows {
     HistoryRow history;
     std::vector<DropRow> drops;
   };
   [[nodiscard]] Rows rows() const;
+  /// The drops of `rows`, on any process.
+  [[nodiscard]] std::vector<DropRow> moving_drop_rows() const;
   /// Those of drops.csv alone, which need no flow.
   [[nodiscard]] std::vector<DropRow> drop_rows() const;
 
@@ -99,8 +101,8 @@ class Evolution {
   Report exchange_with_liquids(const Scene& start, const FlowSolution& flow, double dt);
   Report judge_motion(const Scene& start, const StageFlow& whole, double dt);
   void report_refusal(double dt, const Fault& fault);
-  void accept_step(const Scene& start, const StepPlan& plan);
-  void notice_departure(const Scene& start);
+  void accept_step(const StepPlan& plan);
+  void notice_departure();
   Report carry_fields_of_mesh(const Scene& start, const Scene& moved, const FlowSolution& flow,
                               double dt);
   Report follow_interfaces(const Scene& before, double t, const RegionSources& sources = {});
@@ -119,6 +121,8 @@ class Evolution {
   [[nodiscard]] std::vector<ScalarMeasures> scalar_measures() const;
   [[nodiscard]] std::vector<DropRow> drop_rows(const InterfaceSurfaces& faces,
                                                std::span<const ScalarMeasures> scalars) const;
+  [[nodiscard]] std::vector<DropRow> moving_drop_rows(
+      const InterfaceSurfaces& faces, std::span<const ScalarMeasures> scalars) const;
   void give_notice(Notice notice);
   template <class What>
   void give_notice(What what) {

@@ -35,10 +35,11 @@ struct FlowJump {
   double time = 0.0;
 };
 
-/// The drops' common centroid has gone this far [R0] from where it was at first, in an imposed flow
-/// that takes what is off its centre further away. The notice is given once.
+/// The drops' common centroid has gone this far [R0] from its first place. The imposed flow takes
+/// what is off its centre further away. The notice is given once.
 struct LeftCenter {
   double distance = 0.0;
+  bool may_be_followed = true;  ///< by domain.frame, which fields of the bulk do not allow
 };
 
 /// Something that happened in a run and that its user should know.

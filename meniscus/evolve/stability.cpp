@@ -86,12 +86,13 @@ WaveSpectrum wave_spectrum(const Scene& scene, const InterfaceMotion& motion,
   WaveSpectrum waves{.decay = fastest_rate(scene, TimeScheme::rkc) * dt};
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const Interface& interface = scene.interfaces[i];
-    const VertexField<double> edges = mean_edges(interface.mesh);
     if (interface.tension == 0.0) continue;  // nothing decays
-    const double tension = interface.tension, viscosities = sum_of_viscosities(scene, interface);
+    const VertexField<double> edges = mean_edges(interface.mesh),
+                              tension = vertex_tension(interface);
+    const double viscosities = sum_of_viscosities(scene, interface);
     for (const VertexId v : edges.ids()) {
       const double past = (velocity[i][v] - motion[i][v]).norm();
-      waves.ratio = std::max(waves.ratio, convection_ratio(past, viscosities, tension));
+      waves.ratio = std::max(waves.ratio, convection_ratio(past, viscosities, tension[v]));
       waves.convection = std::max(waves.convection, kLargestWave * past * dt / edges[v]);
     }
   }

@@ -31,9 +31,10 @@ namespace meniscus {
 /// wave that goes the way z/k grow by z⁴/8; tension takes z/ρ of it.
 [[nodiscard]] double aimed_slip(double speed, double viscosities, double tension);
 
-/// Where the rates of an interface's waves lie in a step of length dt. They decay by tension, and
-/// the liquid carries them past the vertices, with u = |velocity − motion|: Im z ≤ √6 u Δt/h, and
-/// ρ |Re z| with ρ as above.
+/// Where the rates of the waves of shapes lie in a step of length dt. They decay by tension; the
+/// diffusion of a surfactant counts as decay. The liquid carries them past the vertices with
+/// u = |velocity − motion|: |Im z| ≤ √6 uΔt/h and ρ|Re z|, with ρ as above. Of an interface without
+/// tension there are none.
 [[nodiscard]] WaveSpectrum wave_spectrum(const Scene& scene, const InterfaceMotion& motion,
                                          std::span<const VertexField<Vec3>> velocity, double dt);
 

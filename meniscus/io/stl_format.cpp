@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -51,8 +52,9 @@ class CornerMerger {
   std::map<std::array<double, 3>, std::int64_t> point_;
 };
 
-/// Points this near each other, over the extent of all, are one: seams of single precision.
-constexpr double kSeam = 1e-6;
+/// A point this near an earlier one, over the extent of all, becomes that one. So it does within
+/// two units of single precision at the largest coordinate.
+constexpr double kSeam = 1e-6, kSingle = 0x1p-22;
 
 /// Numbers points afresh, the same for those within `distance` of an earlier one.
 class SeamWelder {
@@ -91,8 +93,13 @@ class SeamWelder {
 /// Merges the points along seams. Faces that lose a side go.
 PolygonSoup welded(const PolygonSoup& soup) {
   Eigen::AlignedBox3d box;
-  for (const Vec3& x : soup.points) box.extend(x);
-  const double distance = soup.points.empty() ? 0.0 : kSeam * box.sizes().maxCoeff();
+  double largest = 0.0;
+  for (const Vec3& x : soup.points) {
+    box.extend(x);
+    largest = std::max(largest, x.cwiseAbs().maxCoeff());
+  }
+  const double distance =
+      soup.points.empty() ? 0.0 : std::max(kSeam * box.sizes().maxCoeff(), kSingle * largest);
   const auto are_near = [&](const Vec3& x) { return x.cwiseAbs().maxCoeff() < 1e18 * distance; };
   if (!(distance > 0.0) || !std::ranges::all_of(soup.points, are_near)) return soup;
   SeamWelder welder(distance);

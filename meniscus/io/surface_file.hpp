@@ -7,8 +7,9 @@
 
 namespace meniscus::io {
 
-/// Reads the faces of a surface by the file's extension: stl, ply, obj, off, vtp, vtu. Points of an
-/// STL file within 1e-6 of its extent become one, and faces that lose a side by that are dropped.
+/// Reads the faces of a surface by the file's extension: stl, ply, obj, off, vtp, vtu. A point of
+/// an STL file within 1e-6 of its extent of an earlier one becomes that one. Faces that lose a side
+/// by it are dropped.
 /// Curved faces are read by their corners. Tags come from the cell array `patch` of a vtp or vtu
 /// file. In an obj file groups, in an ascii STL file solids give them, in the order in which they
 /// first get a face. Else all are 0. Throws InvalidInput naming the file and the fault (missing,

@@ -116,13 +116,11 @@ void DrivenRun::record_state() {
   surfaces_.reset();
   volume_.reset();
   settings_at_step_ = 0;
-  simulation_.record_state([&](const HistoryRow& history, const std::vector<DropRow>& drops) {
-    add_rows(history, drops);
-  });
-  if (!is_first_rank()) {
-    const auto [history, drops] = evolution().rows();
-    add_rows(history, drops);
-  }
+  const HistoryRow row =
+      simulation_.record_state([&](const HistoryRow& history, const std::vector<DropRow>& drops) {
+        add_rows(history, drops);
+      });
+  if (!is_first_rank()) add_rows(row, evolution().moving_drop_rows());
   if (simulation_.has_ended()) end("done");
 }
 

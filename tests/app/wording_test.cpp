@@ -28,7 +28,9 @@ TEST(Wording, SaysWhatHappenedWhenAndWhere) {
             "after a shorter step");
   EXPECT_EQ(text_of(Notice{4.5, LeftCenter{1.0625}}),
             "t = 4.5: the drops are 1.06 R0 from where they began, an unstable place in this flow; "
-            "domain.frame = \"drops\" moves along");
+            "domain.frame = \"drops\" moves the domain along");
+  EXPECT_EQ(text_of(Notice{4.5, LeftCenter{1.0625, false}}),
+            "t = 4.5: the drops are 1.06 R0 from where they began, an unstable place in this flow");
 }
 
 TEST(Wording, AnnouncesEventsByTheirKind) {

@@ -107,17 +107,33 @@ double largest_at_random(const ChebyshevScheme& scheme, const WaveSpectrum& wave
 TEST(Chebyshev, IsStableForWavesThatAreConvected) {
   for (const WaveSpectrum& waves :
        {WaveSpectrum{9.0, 0.2, 2.0}, WaveSpectrum{6.0, 0.5, 3.0}, WaveSpectrum{3.0, 1.0, 3.4},
-        WaveSpectrum{40.0, 0.1, 3.4}, WaveSpectrum{150.0, 0.05, 3.4}}) {
+        WaveSpectrum{40.0, 0.1, 3.4}, WaveSpectrum{150.0, 0.05, 3.4},
+        WaveSpectrum{42.3, 7.04, 1.894}, WaveSpectrum{200.0, 8.0, 1.9}}) {
     const ChebyshevScheme scheme = ChebyshevScheme::for_waves(waves, 24);
     EXPECT_LE(largest_at_random(scheme, waves), 1.0 + 1e-12) << waves.decay;
-    EXPECT_TRUE(scheme.is_stable_for(waves));
+    EXPECT_LE(scheme.largest_growth(waves), 1.0 + 1e-12);
+    const double corner = std::min(waves.decay, waves.convection / waves.ratio);
+    EXPECT_LE(
+        std::abs(scheme.stability_polynomial(std::complex<double>(-corner, waves.ratio * corner))),
+        1.0 + 1e-12);
     const auto stages = static_cast<int>(scheme.stages().size());
     EXPECT_LT(stages, 24);
     // What is stable on the real axis alone lets such waves grow.
     const ChebyshevScheme least(ChebyshevScheme::num_stages_for(waves.decay));
     EXPECT_GT(largest_at_random(least, waves), 1.03) << waves.decay;
-    EXPECT_FALSE(least.is_stable_for(waves));
+    EXPECT_GE(least.largest_growth(waves), largest_at_random(least, waves) - 1e-3);
   }
+}
+
+TEST(Chebyshev, WavesThatNoneBearsGrowAsLittleAsIsWorthTheStages) {
+  const WaveSpectrum waves{11.76, 11.55, 1.969};
+  const ChebyshevScheme scheme = ChebyshevScheme::for_waves(waves, 24);
+  const double growth = scheme.largest_growth(waves);
+  EXPECT_GT(growth, 1.0);
+  EXPECT_LE(growth, ChebyshevScheme(3).largest_growth(waves));
+  for (int s = 3; s <= 24; ++s)
+    for (const double damping : {ChebyshevScheme::kLeastDamping, ChebyshevScheme::kMostDamping})
+      EXPECT_GT(ChebyshevScheme(s, damping).largest_growth(waves), 0.98 * growth) << s;
 }
 
 TEST(Chebyshev, WavesAtRestTakeTheFewestStages) {

@@ -103,6 +103,11 @@ TEST(Stability, SpectrumHasWhatTheLiquidCarriesPastTheVertices) {
   EXPECT_NEAR(waves.convection, std::sqrt(6.0) * 0.5 * dt / h, 1e-12);
   // A vertex that goes along sees no waves pass.
   EXPECT_EQ(wave_spectrum(scene, velocity, velocity, dt).convection, 0.0);
+  Scene slack = scene;
+  slack.interfaces[0].tension = 0.0;
+  const WaveSpectrum none = wave_spectrum(slack, rest, velocity, dt);
+  EXPECT_EQ(none.decay + none.ratio + none.convection, 0.0);
+  EXPECT_EQ(ChebyshevScheme::for_waves(none, kMostStages).stages().size(), 3U);
 }
 
 /// Excess of a drop's area over that of the sphere it ends as, at steps of ten times the midpoint
