@@ -104,7 +104,9 @@ SurfaceExtremes::Around SurfaceExtremes::around(VertexId v) {
     h += (mesh_.x[w] - mesh_.x[v]).norm() / topology_.valence(v);
   }
   nearest_first(mesh_.x[v], points);
-  return {fit, axes, SplinePatch(axes, fit.half_sum(), points, SplinePatch::Coordinates::unrolled),
+  return {fit, axes,
+          SplinePatch(axes, OsculatingQuadric::sphere(fit.half_sum()), points,
+                      SplinePatch::Coordinates::unrolled),
           h};
 }
 

@@ -40,9 +40,11 @@ std::vector<double> middles_on_splines(const SurfaceMesh& mesh, const SurfaceTop
     const VertexCurvature &at_a = curvature[edge.a], &at_b = curvature[edge.b];
     const Vec3 a = mesh.x[edge.a], b = mesh.x[edge.b];
     gather(rings, edge, points);
+    const Vec3 n = (at_a.n + at_b.n).normalized();
+    const HeightPatch axes = flat_patch(smooth.edge_point(edge.a, edge.b, 0.5), n);
+    const Mat3 tensor = 0.5 * (curvature_tensor(at_a, n) + curvature_tensor(at_b, n));
     const Vec3 middle =
-        point_on_spline(smooth.edge_point(edge.a, edge.b, 0.5), (at_a.n + at_b.n).normalized(),
-                        0.5 * (at_a.half_sum() + at_b.half_sum()), points,
+        point_on_spline(axes, osculating_quadric(axes, tensor), points,
                         SplinePatch::Coordinates::flat, 0.5 * (a + b), (b - a).norm());
     coordinates.insert(coordinates.end(), middle.begin(), middle.end());
   }

@@ -59,7 +59,8 @@ void lift_to_splines(RemeshState& state, const SurfaceMesh& mesh, const SurfaceT
       half_sum += at.weights[static_cast<int>(k)] * curvature[corners[k]].half_sum();
       longest = std::max(longest, (mesh.x[corners[k]] - mesh.x[corners[(k + 1) % 3]]).norm());
     }
-    const Vec3 shift = point_on_spline(x, n, half_sum, points, SplinePatch::Coordinates::unrolled,
+    const Vec3 shift = point_on_spline(flat_patch(x, n), OsculatingQuadric::sphere(half_sum),
+                                       points, SplinePatch::Coordinates::unrolled,
                                        state.reference.walk.flat_point(at), longest) -
                        x;
     state.vertices[v].x = x + trust(shift.norm(), kMostShift * longest) * shift;

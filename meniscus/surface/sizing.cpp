@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/surface/constants.hpp"
 #include "meniscus/surface/gap.hpp"
 
 namespace meniscus {
@@ -243,7 +244,10 @@ VertexField<double> rest_lengths(const SurfaceMesh& mesh, const SurfaceTopology&
     if (options.size_bound) l = std::min(l, options.size_bound(mesh.x[v]));
     length[v] = l;
   }
-  if (options.neck_edges > 0.0) bound_by_necks(length, curvature, options.neck_edges);
+  if (options.neck_edges > 0.0) {
+    bound_by_necks(length, curvature, options.neck_edges);
+    limit_gradation(length, mesh, topology, std::min(options.gradation, kNeckGradation));
+  }
   if (options.gap_layers > 0.0)
     bound_by_gaps(length, mesh, surface.vertex_normals(), options.gap_layers, options.neighbours);
   for (double& l : length) l = std::max(l, edge_floor);

@@ -26,7 +26,7 @@ void limit_gradation(VertexField<double>& length, const SurfaceMesh& mesh,
 ///   ρ = C0⟨κ⟩² (eq. 1), ⟨κ⟩² = ½(k1² + k2²) = 2H² − K averaged over the vertex's cell (the faces
 ///   around it), from the turn of the smooth surface's normals over the faces;
 ///   l0 = (2/(√3 ρ))^½, at most edge_ceiling and size_bound(x), on necks about 2π r/neck_edges or
-///   less, at least edge_floor;
+///   less and then of slope kNeckGradation or less, at least edge_floor;
 ///   then lowered until l0(a) ≤ l0(b) + gradation |x_a − x_b| along every edge.
 /// Before, C0 is raised to min_vertices/∮⟨κ⟩² dS where it is less. The floor is lowered to half the
 /// edge that min_vertices spread evenly would have, where it is more.
