@@ -86,7 +86,7 @@ std::string resting_drop(int nodes, double step, const std::string& surfactant) 
 }
 
 std::string stretched_drop(double step) {
-  return soluble_drop(60, "kind = \"uniaxial-extension\"\ncapillary-number = 0.1",
+  return soluble_drop(80, "kind = \"uniaxial-extension\"\ncapillary-number = 0.1",
                       "elasticity = 0.2\npeclet = 10.0",
                       fmt::format("end = 0.1999\nmax-step = {}", step));
 }
@@ -185,7 +185,8 @@ TEST(SolubleSurfactant, WhatIsAdsorbedInAStepIsCarriedInIt) {
     for (const VertexId v : a.ids()) squares += std::pow(a[v] - b[v], 2);
     return std::sqrt(squares / a.size());
   };
-  // Measured: 4.0e-5 and 1.8e-5; L differs by 4.9e-5 and 1.7e-5.
+  // Measured: 4.0e-5 and 1.5e-5, and 3.9e-5 and 1.4e-5 with 100 vertices. With 60 the fits jump by
+  // some 1e-5 as the vertices move.
   EXPECT_LT(difference(ends[0], ends[1]), 6e-5);
   EXPECT_LT(difference(ends[1], ends[2]), 2.5e-5);
 }

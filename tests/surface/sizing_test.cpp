@@ -51,7 +51,8 @@ TEST(RestLengths, AThreadHasItsEdgesAround) {
       EXPECT_DOUBLE_EQ(bounded[v], plain[v]);
     }
   }
-  for (const SurfaceEdge& e : SurfaceTopology(thread).edges()) {
+  const SurfaceTopology topology(thread);
+  for (const SurfaceEdge& e : topology.edges()) {
     EXPECT_LE(std::abs(bounded[e.a] - bounded[e.b]),
               kNeckGradation * (thread.x[e.a] - thread.x[e.b]).norm() * (1.0 + 1e-9));
   }
