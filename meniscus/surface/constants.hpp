@@ -8,8 +8,8 @@ namespace meniscus {
 
 /// Largest |∇l0| of the rest length that a surface is remeshed with.
 inline constexpr double kGradation = 0.5;
-/// And where edges around necks are asked for. The cone from a thread to its bulb bends less than
-/// the neck, yet the flow varies there over its radius.
+/// Largest |∇l0| where edges around necks are asked for. The cone from a thread to its bulb bends
+/// less than the neck, yet the flow varies there over its radius.
 inline constexpr double kNeckGradation = 0.3;
 /// Fewest vertices of a drop, however small or round: those of an icosahedron whose faces are
 /// divided in four. Fewer cannot hold a drop's shape through a remeshing.

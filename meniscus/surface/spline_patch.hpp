@@ -20,6 +20,7 @@ namespace meniscus {
 struct OsculatingQuadric {
   double uu = 0.0, uv = 0.0, vv = 0.0, zz = 0.0;  ///< [1/R0]
 
+  /// The sphere of the half-sum of curvatures. Unrolled coordinates go with it.
   [[nodiscard]] static OsculatingQuadric sphere(double half_sum) {
     return {.uu = half_sum, .vv = half_sum, .zz = half_sum};
   }
@@ -42,7 +43,7 @@ struct OsculatingQuadric {
 /// Hz, H the half-sum of curvatures, the coordinates unroll the surface, as the stereographic
 /// projection, s = 1/(1 + Hz/2), does to second order. Then a patch may reach around half of a
 /// drop. The function g(u, v) is interpolated from the vertices by polyharmonic splines Σ c_i |(u,
-/// v) − (u_i, v_i)|⁷ plus a polynomial of degree four. Exact on spheres and cylinders, else of an
+/// v) − (u_i, v_i)|⁷ plus a polynomial of degree four. Exact on the quadric itself, else of an
 /// error of about O(h⁶). It needs 15 vertices or more, and takes the 32 nearest.
 class SplinePatch {
  public:
