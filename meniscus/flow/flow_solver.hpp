@@ -98,6 +98,10 @@ class FlowSolver {
   /// Throws InvalidInput when the archive's state is damaged or does not fit the domain.
   virtual void load(const Archive& archive, const FlowDomain& domain) = 0;
 
+  /// Whether the solver represents the interfaces on a mesh that has moved as well as it did when
+  /// the mesh was new.
+  [[nodiscard]] virtual bool is_fit(const FlowDomain& /*moved*/) { return true; }
+
   [[nodiscard]] virtual const PhaseTimes& times() const = 0;
 };
 

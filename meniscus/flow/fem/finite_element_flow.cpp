@@ -16,6 +16,7 @@
 #include "meniscus/flow/fem/node_sources.hpp"
 #include "meniscus/flow/fem/region_motions.hpp"
 #include "meniscus/flow/fem/scalar_coupling.hpp"
+#include "meniscus/flow/fem/solution_history.hpp"
 #include "meniscus/flow/fem/solver_archive.hpp"
 #include "meniscus/flow/fem/stokes_residual.hpp"
 #include "meniscus/flow/fem/stokes_solver.hpp"
@@ -100,6 +101,8 @@ class FiniteElementFlow final : public FlowSolver {
   void save(Archive& archive, const FlowDomain& domain) const override;
   void load(const Archive& archive, const FlowDomain& domain) override;
 
+  bool is_fit(const FlowDomain& moved) override;
+
   const PhaseTimes& times() const override { return times_; }
 
  private:
@@ -107,12 +110,12 @@ class FiniteElementFlow final : public FlowSolver {
   [[nodiscard]] bool has_connectivity_of(const FlowDomain& domain) const {
     return stokes_ && connectivity_ == domain.connectivity;
   }
-  [[nodiscard]] StokesState first_guess(const FlowDomain& domain,
+  [[nodiscard]] StokesState first_guess(const FlowDomain& domain, double t,
                                         const StokesProblem& problem) const;
   [[nodiscard]] FlowSolution first_flow(const FlowDomain& domain, double t);
   [[nodiscard]] StageProjection projection(const FlowDomain& domain, double t);
   [[nodiscard]] StokesReport settle(const FlowDomain& domain, double t, StokesState& state);
-  void keep_solution(const StokesProblem& problem, StokesState state);
+  void keep_solution(const StokesProblem& problem, double t, StokesState state);
   [[nodiscard]] FlowSolution solution(const FlowDomain& domain, const InstantProblem& problem,
                                       const StokesState& state, const StokesPower& power);
   void restore_preconditioner(const Archive& archive, const FlowDomain& domain);
@@ -122,10 +125,9 @@ class FiniteElementFlow final : public FlowSolver {
   std::int64_t connectivity_ = 0;  // that all below is made for
   std::shared_ptr<const FlowSpace> space_;
   std::optional<StokesSolver> stokes_;
-  /// The last solution less the undisturbed flow, or less what the stage began with: the next
-  /// solve's first guess.
-  std::optional<StokesState> guess_;
-  double guess_duration_ = 0.0;  // of the stage that it comes from; 0: of none
+  std::optional<int> made_straightened_;  // edges, when the flow was first solved on the mesh
+  SolutionHistory history_;               // for the next solve's first guess
+  double guess_duration_ = 0.0;  // of the stage that the last solution comes from; 0: of none
   KeptPreconditioner preconditioner_;
   double last_duration_ = 0.0;  // of the last stage
   PhaseTimes times_;
@@ -135,31 +137,41 @@ void FiniteElementFlow::use_connectivity(const FlowDomain& domain) {
   stokes_.reset();
   space_ = elements_->space(domain);
   stokes_.emplace(*space_, options_);
-  guess_.reset();
+  history_.clear();
+  made_straightened_.reset();
   preconditioner_.at.reset();
   connectivity_ = domain.connectivity;
 }
 
-void FiniteElementFlow::follow(const MeshChange& change, const FlowDomain& domain) {
-  if (!guess_) return;
+bool FiniteElementFlow::is_fit(const FlowDomain& moved) {
+  if (!has_connectivity_of(moved) || !made_straightened_) return true;
   const RemainderTimer timer(times_, "assemble");
-  const StokesState guess = *std::move(guess_);
+  return elements_->positions(moved)->num_straightened <= *made_straightened_;
+}
+
+void FiniteElementFlow::follow(const MeshChange& change, const FlowDomain& domain) {
+  if (history_.empty()) return;
+  const RemainderTimer timer(times_, "assemble");
+  SolutionHistory history = std::move(history_);
   stokes_.reset();  // refers to the space
   const std::shared_ptr<const FlowSpace> before = space_;
   use_connectivity(domain);
   // The scalars will look for the same places.
   const auto places = domain.scene.scalars.empty() ? nullptr : elements_->sources(change, domain);
-  guess_ =
-      interpolated_state(guess, {change.before, *before}, {*domain.mesh, *space_}, change.sources,
-                         places ? std::span(*places) : std::span<const NodeSource>());
+  std::vector<StokesState> states = interpolated_states(
+      history.states(), {change.before, *before}, {*domain.mesh, *space_}, change.sources,
+      places ? std::span(*places) : std::span<const NodeSource>(), stokes_->cells());
+  for (StokesState& state : states) stokes_->share(state);
+  history.put_on_mesh(std::move(states));
+  history_ = std::move(history);
 }
 
 /// Undisturbed flow and drops change on their own. The one is known at once, what the drops add to
-/// it is taken from the last solution. With inertia the undisturbed flow is what a stage begins
-/// with, and each node goes on with its acceleration.
-StokesState FiniteElementFlow::first_guess(const FlowDomain& domain,
+/// it goes on as it did last. With inertia the undisturbed flow is what a stage begins with, and
+/// each node goes on with its acceleration.
+StokesState FiniteElementFlow::first_guess(const FlowDomain& domain, double t,
                                            const StokesProblem& problem) const {
-  StokesState state = guess_ ? *guess_ : stokes_->state_at_rest();
+  StokesState state = history_.empty() ? stokes_->state_at_rest() : history_.at(t);
   const double longer = domain.stage != nullptr && guess_duration_ > 0.0
                             ? domain.stage->duration / guess_duration_
                             : 1.0;
@@ -167,9 +179,10 @@ StokesState FiniteElementFlow::first_guess(const FlowDomain& domain,
   return state;
 }
 
-void FiniteElementFlow::keep_solution(const StokesProblem& problem, StokesState state) {
+void FiniteElementFlow::keep_solution(const StokesProblem& problem, double t, StokesState state) {
   for (const NodeId i : state.v.ids()) state.v[i] -= problem.undisturbed[i];
-  guess_ = std::move(state);
+  if (problem.inertia) history_.clear();
+  history_.add(std::move(state), t);
   guess_duration_ = problem.inertia ? problem.inertia->duration : 0.0;
 }
 
@@ -193,7 +206,8 @@ FlowSolution FiniteElementFlow::first_flow(const FlowDomain& domain, double t) {
   const int iterations = result.iterations;
   result = solution(domain, problem, state, stokes_->power(problem.stokes, state));
   result.iterations = iterations;
-  guess_ = StokesState{stokes_->state_at_rest().v, std::move(state.p)};
+  history_.clear();
+  history_.add({stokes_->state_at_rest().v, std::move(state.p)}, t);
   guess_duration_ = 0.0;
   return result;
 }
@@ -267,7 +281,7 @@ TransferredFlow FiniteElementFlow::transferred(const MeshChange& change, const S
   const Field<NodeId, Vec3>& x = projection.positions().x;
   result.flow = {{x.begin(), x.end()},
                  {v.begin(), v.end()},
-                 guess_ ? guess_->p : stokes_->state_at_rest().p,
+                 history_.empty() ? stokes_->state_at_rest().p : history_.states().front().p,
                  flow.power};
   const MotionLost lost = motion_lost(then, flow.v, now, result.flow.v);
   result.momentum_lost = lost.momentum;
@@ -293,7 +307,8 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
   const InstantProblem problem = instant_problem(domain, *space_, *elements_->positions(domain),
                                                  options_.capillary, instant.t);
   if (problem.fault) return failed_flow(*problem.fault);
-  StokesState state = first_guess(domain, problem.stokes);
+  if (!made_straightened_) made_straightened_ = problem.stokes.positions.num_straightened;
+  StokesState state = first_guess(domain, instant.t, problem.stokes);
   if (domain.stage != nullptr) {
     last_duration_ = domain.stage->duration;
     preconditioner_.drop_unless_of_stage(last_duration_);
@@ -314,7 +329,7 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
     level_pressure(mesh, space_->pressure, state.p);
   FlowSolution result =
       report.ok() ? solution(domain, problem, state, report.power) : failed_flow(*report.fault);
-  if (report.ok()) keep_solution(problem.stokes, std::move(state));
+  if (report.ok()) keep_solution(problem.stokes, instant.t, std::move(state));
   result.iterations = report.iterations;
   if (const int straight = problem.stokes.positions.num_straightened; straight > 0)
     result.warnings.push_back(
@@ -370,8 +385,10 @@ FlowSolution FiniteElementFlow::solution(const FlowDomain& domain, const Instant
 
 void FiniteElementFlow::save(Archive& archive, const FlowDomain& domain) const {
   if (!has_connectivity_of(domain)) return;
-  if (guess_) fem::save(*guess_, archive, "flow/guess");
-  if (guess_ && guess_duration_ > 0.0) archive.reals["flow/guess/duration"] = {guess_duration_};
+  history_.save(archive);
+  if (!history_.empty() && guess_duration_ > 0.0)
+    archive.reals["flow/guess/duration"] = {guess_duration_};
+  if (made_straightened_) archive.integers["flow/made-straightened"] = {*made_straightened_};
   preconditioner_.save(archive);
 }
 
@@ -395,14 +412,13 @@ void FiniteElementFlow::restore_preconditioner(const Archive& archive, const Flo
 
 void FiniteElementFlow::load(const Archive& archive, const FlowDomain& domain) {
   use_connectivity(domain);
+  if (archive.integers.contains("flow/made-straightened"))
+    made_straightened_ =
+        static_cast<int>(entry_of_size(archive.integers, "flow/made-straightened", 1).front());
   restore_preconditioner(archive, domain);
-  if (!archive.reals.contains("flow/guess/velocity")) return;
-  guess_ = load_state(archive, "flow/guess");
+  history_.load(archive, stokes_->state_at_rest());
   if (archive.reals.contains("flow/guess/duration"))
     guess_duration_ = entry_of_size(archive.reals, "flow/guess/duration", 1).front();
-  const StokesState rest = stokes_->state_at_rest();
-  if (guess_->v.size() != rest.v.size() || guess_->p.size() != rest.p.size())
-    reject_input("checkpoint: flow/guess does not fit the volume mesh");
 }
 
 }  // namespace

@@ -109,23 +109,29 @@ Vec3 node_position(const TetMesh& mesh, CellId c, std::size_t k) {
 
 }  // namespace
 
-StokesState interpolated_state(const StokesState& state, const MeshedSpace& from,
-                               const MeshedSpace& to, const RegionSources& sources,
-                               std::span<const NodeSource> places) {
+std::vector<StokesState> interpolated_states(std::span<const StokesState> states,
+                                             const MeshedSpace& from, const MeshedSpace& to,
+                                             const RegionSources& sources,
+                                             std::span<const NodeSource> places,
+                                             std::span<const CellId> cells) {
   MENISCUS_ASSERT(from.space.elements == to.space.elements, "other elements");
-  MENISCUS_ASSERT(state.v.size() == from.space.velocity.num_nodes, "{} {}", state.v.size(),
-                  from.space.velocity.num_nodes);
   const CellWalk walk(from.mesh);
   const CellsByRegion old_cells = cells_by_region(from.mesh);
   Field<RegionId, Source> source = sources_of_regions(from.mesh, to.mesh, sources);
-  StokesState result = state_at_rest(to.space);
-  if (!places.empty())
-    result.v = Field<NodeId, Vec3>(interpolated_values<Vec3>(state.v.span(), from.space, places));
-  std::vector<CellId> hit_cells(result.p.size());  // where pressures were found
+  std::vector<StokesState> results(states.size(), state_at_rest(to.space));
+  for (std::size_t n = 0; n < states.size(); ++n) {
+    MENISCUS_ASSERT(states[n].v.size() == from.space.velocity.num_nodes, "{} {}",
+                    states[n].v.size(), from.space.velocity.num_nodes);
+    if (!places.empty())
+      results[n].v =
+          Field<NodeId, Vec3>(interpolated_values<Vec3>(states[n].v.span(), from.space, places));
+  }
+  std::vector<CellId> hit_cells(
+      at(to.space.pressure.nodes.num_nodes));  // where pressures were found
   // A vertex on an interface is looked for in the liquids on both sides: the nearer point counts.
   Field<NodeId, double> distance(to.space.velocity.num_nodes,
                                  std::numeric_limits<double>::infinity());
-  for (const CellId c : to.mesh.cells.ids()) {
+  for (const CellId c : cells) {
     const auto nodes = to.space.velocity.of(c), pressures = to.space.pressure.nodes.of(c);
     auto& [is_allowed, near] = source[to.mesh.region[c]];
     for (std::size_t k = 0; k < 4; ++k)
@@ -145,15 +151,17 @@ StokesState interpolated_state(const StokesState& state, const MeshedSpace& from
       near = hit.cell;
       if (places.empty() && hit.squared_distance < distance[i]) {
         distance[i] = hit.squared_distance;
-        result.v[i] = velocity_at(state, from.space.velocity.of(hit.cell), hit.weights);
+        for (std::size_t n = 0; n < states.size(); ++n)
+          results[n].v[i] = velocity_at(states[n], from.space.velocity.of(hit.cell), hit.weights);
       }
       if (k >= 4) continue;
       hit_cells[at(pressures[k])] = hit.cell;
-      result.p[at(pressures[k])] =
-          pressure_at(state, from.space.pressure.nodes.of(hit.cell), hit.weights);
+      for (std::size_t n = 0; n < states.size(); ++n)
+        results[n].p[at(pressures[k])] =
+            pressure_at(states[n], from.space.pressure.nodes.of(hit.cell), hit.weights);
     }
   }
-  return result;
+  return results;
 }
 
 }  // namespace meniscus::fem

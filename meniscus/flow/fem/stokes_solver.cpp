@@ -78,6 +78,16 @@ StokesSolver::StokesSolver(const FlowSpace& space, const Options& options)
 
 StokesState StokesSolver::state_at_rest() const { return fem::state_at_rest(space_); }
 
+std::vector<CellId> StokesSolver::cells() const {
+  if (partition_) return partition_->global_cell;
+  const auto all = ids<CellId>(space_.velocity.num_cells());
+  return {all.begin(), all.end()};
+}
+
+void StokesSolver::share(StokesState& state) const {
+  if (partition_) gather_state(local_part(state, *partition_), *partition_, state);
+}
+
 linear::SaddleSolver& StokesSolver::linear_solver(LinearSolver which) {
   const auto found = linear_solvers_.find(which);
   if (found != linear_solvers_.end()) return found->second;

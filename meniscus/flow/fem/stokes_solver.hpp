@@ -47,6 +47,11 @@ class StokesSolver {
 
   [[nodiscard]] StokesState state_at_rest() const;
 
+  /// The cells around the nodes that this process owns; all of them where there is one process.
+  [[nodiscard]] std::vector<CellId> cells() const;
+  /// Gives every process the values that the others have at the nodes they own. Collective.
+  void share(StokesState& state) const;
+
   /// Makes and keeps the preconditioner that a fresh solve of this problem would make.
   void prepare(const StokesProblem& problem);
 

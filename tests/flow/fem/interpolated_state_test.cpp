@@ -38,6 +38,16 @@ StokesState exact_state(const TestSpace& test, int low) {
   return state;
 }
 
+/// One state at the nodes of all cells.
+StokesState interpolated_state(const StokesState& state, const MeshedSpace& from,
+                               const MeshedSpace& to, const RegionSources& sources,
+                               std::span<const NodeSource> places = {}) {
+  const auto all = to.mesh.cells.ids();
+  return interpolated_states({&state, 1}, from, to, sources, places,
+                             std::vector<CellId>(all.begin(), all.end()))
+      .front();
+}
+
 class InterpolatedState : public testing::TestWithParam<Elements> {};
 INSTANTIATE_TEST_SUITE_P(EitherElement, InterpolatedState,
                          testing::Values(Elements::p1_p1, Elements::p2_p1));
