@@ -1,5 +1,7 @@
 #include "meniscus/linear/ghost_values.hpp"
 
+#include <array>
+
 #include "meniscus/core/error.hpp"
 #include "meniscus/linear/petsc_objects.hpp"
 
@@ -9,8 +11,8 @@ namespace {
 using IndexSet = Owned<IS, ISDestroy>;
 using Scatter = Owned<VecScatter, VecScatterDestroy>;
 
-/// The array that a vector has during this object's lifetime. PETSc does not write to one that is
-/// read.
+/// The array that a vector has during this object's lifetime. PETSc writes to the one that a
+/// scatter goes to.
 class PlacedArray {
  public:
   PlacedArray(Vec vector, const double* values) : vector_(vector) {
@@ -48,18 +50,27 @@ class GhostValues::Implementation {
   }
 
   void fetch(std::span<const double> owned, std::span<double> wanted) const {
-    MENISCUS_ASSERT(owned.size() == num_owned_ && wanted.size() == num_wanted_, "{} and {} values",
-                    owned.size(), wanted.size());
-    const PlacedArray from(all_.get(), owned.data()), to(ghosts_.get(), wanted.data());
-    petsc_check(
-        VecScatterBegin(scatter_.get(), all_.get(), ghosts_.get(), INSERT_VALUES, SCATTER_FORWARD),
-        "VecScatterBegin");
-    petsc_check(
-        VecScatterEnd(scatter_.get(), all_.get(), ghosts_.get(), INSERT_VALUES, SCATTER_FORWARD),
-        "VecScatterEnd");
+    const auto placed = place(owned, wanted);
+    scatter(all_.get(), ghosts_.get(), INSERT_VALUES, SCATTER_FORWARD);
+  }
+
+  void give(std::span<const double> wanted, std::span<double> owned) const {
+    const auto placed = place(owned, wanted);
+    scatter(ghosts_.get(), all_.get(), ADD_VALUES, SCATTER_REVERSE);
   }
 
  private:
+  [[nodiscard]] std::array<PlacedArray, 2> place(std::span<const double> owned,
+                                                 std::span<const double> wanted) const {
+    MENISCUS_ASSERT(owned.size() == num_owned_ && wanted.size() == num_wanted_, "{} and {} values",
+                    owned.size(), wanted.size());
+    return {PlacedArray(all_.get(), owned.data()), PlacedArray(ghosts_.get(), wanted.data())};
+  }
+  void scatter(Vec from, Vec to, InsertMode insert, ScatterMode direction) const {
+    petsc_check(VecScatterBegin(scatter_.get(), from, to, insert, direction), "VecScatterBegin");
+    petsc_check(VecScatterEnd(scatter_.get(), from, to, insert, direction), "VecScatterEnd");
+  }
+
   std::size_t num_owned_, num_wanted_;
   Vector all_, ghosts_;
   Scatter scatter_;
@@ -73,6 +84,10 @@ GhostValues::~GhostValues() = default;
 
 void GhostValues::fetch(std::span<const double> owned, std::span<double> wanted) const {
   implementation_->fetch(owned, wanted);
+}
+
+void GhostValues::give(std::span<const double> wanted, std::span<double> owned) const {
+  implementation_->give(wanted, owned);
 }
 
 }  // namespace meniscus::linear

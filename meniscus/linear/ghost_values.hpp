@@ -8,8 +8,8 @@
 
 namespace meniscus::linear {
 
-/// Fetches values of items that other ranks own. Items are numbered rank by rank, and each has as
-/// many values, side by side. Both functions are collective.
+/// Fetches values of items that other ranks own, and gives them values. Items are numbered rank by
+/// rank, and each has as many values, side by side. All functions are collective.
 class GhostValues {
  public:
   /// This rank owns `num_owned` items, and wants those with these numbers.
@@ -21,6 +21,8 @@ class GhostValues {
 
   /// Writes the values of the wanted items, in their order, from what each rank has of its own.
   void fetch(std::span<const double> owned, std::span<double> wanted) const;
+  /// The transpose of `fetch`: adds to the owned items what this and other ranks have of them.
+  void give(std::span<const double> wanted, std::span<double> owned) const;
 
  private:
   class Implementation;

@@ -217,16 +217,25 @@ TEST(GraphPartition, HeavyVerticesHaveFewerCompanions) {
   }
 }
 
-// Each rank owns two items more than the one before it, and wants the last of every other one.
-TEST(Ranks, FetchWhatOthersOwn) {
-  const auto number_owned = [](int rank) { return 1 + 2 * rank; };
-  std::vector<std::int32_t> wanted;
-  std::int32_t end = 0, first = 0;
-  for (int rank = 0; rank < world().size(); ++rank) {
-    if (rank == world().rank()) first = end;
-    end += number_owned(rank);
-    if (rank != world().rank()) wanted.insert(wanted.begin(), end - 1);
+/// Each rank owns two items more than the one before it, and wants the last of every other one.
+struct WantedOfOthers {
+  static std::int32_t number_owned(int rank) { return 1 + 2 * rank; }
+  WantedOfOthers() {
+    std::int32_t end = 0;
+    for (int rank = 0; rank < world().size(); ++rank) {
+      if (rank == world().rank()) first = end;
+      end += number_owned(rank);
+      if (rank != world().rank()) wanted.insert(wanted.begin(), end - 1);
+    }
   }
+  std::vector<std::int32_t> wanted;
+  std::int32_t first = 0;  // of this rank
+};
+
+TEST(Ranks, FetchWhatOthersOwn) {
+  const WantedOfOthers of_others;
+  const auto& [wanted, first] = of_others;
+  const auto number_owned = WantedOfOthers::number_owned;
   const GhostValues ghosts(world(), number_owned(world().rank()), wanted, 2);
   for (const double sign : {1.0, -1.0}) {
     std::vector<double> owned, found(2 * wanted.size());
@@ -238,6 +247,23 @@ TEST(Ranks, FetchWhatOthersOwn) {
       EXPECT_EQ(found[2 * k + 1], sign * (wanted[k] + 0.5));
     }
   }
+}
+
+// The last item gets a number from every other rank, the others keep what they have.
+TEST(Ranks, GiveToThoseThatOwn) {
+  const WantedOfOthers of_others;
+  const std::int32_t num_owned = WantedOfOthers::number_owned(world().rank());
+  const GhostValues ghosts(world(), num_owned, of_others.wanted, 2);
+  std::vector<double> given, owned(2 * static_cast<std::size_t>(num_owned), 0.125);
+  for (const std::int32_t number : of_others.wanted) {
+    given.push_back(1.0 + number);
+    given.push_back(-2.0 - number);
+  }
+  ghosts.give(given, owned);
+  const double others = world().size() - 1.0, last = of_others.first + num_owned - 1.0;
+  EXPECT_EQ(owned[owned.size() - 2], 0.125 + others * (1.0 + last));
+  EXPECT_EQ(owned.back(), 0.125 - others * (2.0 + last));
+  for (std::size_t i = 0; i + 2 < owned.size(); ++i) EXPECT_EQ(owned[i], 0.125) << i;
 }
 
 }  // namespace

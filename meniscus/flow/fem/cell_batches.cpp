@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "meniscus/flow/fem/elements.hpp"
+#include "meniscus/flow/fem/partition.hpp"
 
 namespace meniscus::fem {
 
@@ -37,11 +38,15 @@ void set_points(std::span<CurvedCells> batches, const double* x) {
   }
 }
 
+std::size_t num_batches(std::span<const CellId> cells) {
+  return (cells.size() + kLanes - 1) / kLanes;
+}
+
 /// The cells by fours, without their shapes. The last lanes repeat a cell, which then gets no
 /// volume.
 template <class Batch>
 std::vector<Batch> batches_of(const StokesProblem& problem, std::span<const CellId> cells) {
-  std::vector<Batch> batches((cells.size() + kLanes - 1) / kLanes);
+  std::vector<Batch> batches(num_batches(cells));
   for (std::size_t n = 0; n < kLanes * batches.size(); ++n) {
     const CellId c = cells[std::min(n, cells.size() - 1)];
     Batch& batch = batches[n / kLanes];
@@ -54,26 +59,49 @@ std::vector<Batch> batches_of(const StokesProblem& problem, std::span<const Cell
   return batches;
 }
 
-void set_shapes(const StokesProblem& problem, const std::vector<CellId>& cells,
+/// Whether the cell in lane n is there for the first time.
+bool is_first(std::span<const CellId> cells, std::size_t n) {
+  return n < cells.size() && (n == 0 || cells[n] != cells[n - 1]);
+}
+
+void set_shapes(const StokesProblem& problem, std::span<const CellId> cells,
                 std::vector<StraightCells>& batches) {
   for (std::size_t n = 0; n < kLanes * batches.size(); ++n)
     set(batches[n / kLanes], n % kLanes, problem, cells[std::min(n, cells.size() - 1)],
-        n < cells.size() ? 1.0 : 0.0);
+        is_first(cells, n) ? 1.0 : 0.0);
 }
 
-void set_shapes(const StokesProblem& problem, const std::vector<CellId>& cells,
+void set_shapes(const StokesProblem& problem, std::span<const CellId> cells,
                 std::vector<CurvedCells>& batches) {
   set_points(batches, numbers(problem.positions.x).data());
-  for (std::size_t n = cells.size(); n < kLanes * batches.size(); ++n)
-    for (CurvedPoint& point : batches.back().points) point.weight[n % kLanes] = 0.0;
+  for (std::size_t n = 0; n < kLanes * batches.size(); ++n)
+    if (!is_first(cells, n))
+      for (CurvedPoint& point : batches[n / kLanes].points) point.weight[n % kLanes] = 0.0;
+}
+
+/// Repeats the last cell until the last batch is full.
+void fill_batch(std::vector<CellId>& cells) {
+  while (cells.size() % kLanes != 0) cells.push_back(cells.back());
 }
 
 }  // namespace
 
 CellBatches cell_batches(const StokesProblem& problem) {
   CellBatches batches;
-  for (const CellId c : problem.mesh.cells.ids())
-    (problem.positions.is_curved[c] ? batches.curved_cells : batches.straight_cells).push_back(c);
+  const auto take = [&](std::int32_t begin, std::int32_t end) {
+    for (CellId c{begin}; c.value < end; ++c.value)
+      (problem.positions.is_curved[c] ? batches.curved_cells : batches.straight_cells).push_back(c);
+  };
+  const std::int32_t num_owned = owned_counts(problem).num_cells,
+                     num_cells = problem.mesh.num_cells();
+  take(0, num_owned);
+  if (num_owned < num_cells) {
+    fill_batch(batches.straight_cells);
+    fill_batch(batches.curved_cells);
+  }
+  batches.num_owned_straight = num_batches(batches.straight_cells);
+  batches.num_owned_curved = num_batches(batches.curved_cells);
+  take(num_owned, num_cells);
   batches.straight = batches_of<StraightCells>(problem, batches.straight_cells);
   batches.curved = batches_of<CurvedCells>(problem, batches.curved_cells);
   set_shapes(problem, batches.straight_cells, batches.straight);

@@ -10,12 +10,15 @@
 
 namespace meniscus::fem {
 
-/// The cells of a problem by fours, and which they are, in the order of the lanes.
+/// The cells of a problem by fours, and which they are, in the order of the lanes. Those that this
+/// rank owns come first, in batches of their own; a cell that is there again to fill one has no
+/// volume then.
 struct CellBatches {
   std::vector<lanes::StraightCells> straight;
   std::vector<lanes::CurvedCells> curved;
   std::vector<lanes::StraightCells> straightened;  ///< the curved ones, between their corners
   std::vector<CellId> straight_cells, curved_cells;
+  std::size_t num_owned_straight = 0, num_owned_curved = 0;  ///< batches
 };
 [[nodiscard]] CellBatches cell_batches(const StokesProblem& problem);
 

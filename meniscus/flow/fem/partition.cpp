@@ -295,6 +295,16 @@ std::vector<double> pressures_with_ghosts(std::span<const double> owned,
   return with_fetched(owned, *partition.ghost_pressures, partition.pressure_number.size());
 }
 
+void add_of_ghosts(const Partition& partition, std::span<double> velocities,
+                   std::span<double> pressures) {
+  const auto give = [](const linear::GhostValues& ghosts, std::span<double> local,
+                       std::size_t num_owned) {
+    if (!local.empty()) ghosts.give(local.subspan(num_owned), local.first(num_owned));
+  };
+  give(*partition.ghost_velocities, velocities, 3 * at(partition.owned.num_nodes));
+  give(*partition.ghost_pressures, pressures, at(partition.owned.num_pressures));
+}
+
 std::vector<double> with_ghosts(std::span<const double> owned, const Partition& partition) {
   const std::size_t num_velocities = 3 * at(partition.owned.num_nodes);
   std::vector<double> local = velocities_with_ghosts(owned.first(num_velocities), partition);

@@ -77,6 +77,10 @@ struct Partition {
                                                          const Partition& partition);
 [[nodiscard]] std::vector<double> pressures_with_ghosts(std::span<const double> owned,
                                                         const Partition& partition);
+/// Adds to what each rank has of the owned velocities and pressures (or of what is tested with
+/// them) what other ranks have of them as ghosts. Collective.
+void add_of_ghosts(const Partition& partition, std::span<double> velocities,
+                   std::span<double> pressures);
 /// Gathers the owned parts of all ranks' states into every rank's global state. Collective.
 void gather_state(const StokesState& local, const Partition& partition, StokesState& global);
 

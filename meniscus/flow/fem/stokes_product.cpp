@@ -6,6 +6,7 @@
 #include "meniscus/flow/fem/cell_batches.hpp"
 #include "meniscus/flow/fem/cell_inertia.hpp"
 #include "meniscus/flow/fem/inertia_product.hpp"
+#include "meniscus/flow/fem/partition.hpp"
 
 namespace meniscus::fem {
 
@@ -151,12 +152,39 @@ void add_pressures(std::span<const StraightCells> batches, const double* from, d
   }
 }
 
+/// The batches whose cells a rank takes: those it owns, or all.
+Batches taken(const CellBatches& cells, bool owned) {
+  const Batches all = {cells.straight, cells.curved};
+  return owned ? Batches{all.straight.first(cells.num_owned_straight),
+                         all.curved.first(cells.num_owned_curved)}
+               : all;
+}
+
+/// Zeros stand for the numbers of an array during this object's lifetime.
+class PutAside {
+ public:
+  explicit PutAside(std::span<double> numbers)
+      : numbers_(numbers), before_(numbers.begin(), numbers.end()) {
+    std::ranges::fill(numbers_, 0.0);
+  }
+  PutAside(const PutAside&) = delete;
+  PutAside& operator=(const PutAside&) = delete;
+  ~PutAside() { std::ranges::copy(before_, numbers_.begin()); }
+
+ private:
+  std::span<double> numbers_;
+  std::vector<double> before_;
+};
+
 }  // namespace
 
 StokesProduct::StokesProduct(const StokesProblem& problem) {
   MENISCUS_ASSERT(has_product(problem), "linear elements, or a viscosity that depends on the rate");
   cells_ = std::make_unique<CellBatches>(cell_batches(problem));
-  if (problem.inertia) inertia_ = std::make_unique<InertiaProduct>(problem, *cells_);
+  if (problem.inertia)
+    inertia_ = std::make_unique<InertiaProduct>(problem, *cells_);
+  else
+    partition_ = problem.partition;
 }
 StokesProduct::StokesProduct(StokesProduct&&) noexcept = default;
 StokesProduct& StokesProduct::operator=(StokesProduct&&) noexcept = default;
@@ -166,10 +194,25 @@ void StokesProduct::convect(std::span<const double> v) {
   if (inertia_) inertia_->convect(v);
 }
 
+/// Calls `add` with the batches to take, then exchanges what it has added to rows of other ranks.
+template <class Add>
+void StokesProduct::add_by_ranks(std::span<double> momentum, std::span<double> continuity,
+                                 const Add& add) const {
+  const Batches cells = taken(*cells_, partition_ != nullptr);
+  if (partition_ == nullptr) return add(cells);
+  const auto beyond = [](std::span<double> local, std::int32_t num_owned) {
+    return local.subspan(std::min(local.size(), static_cast<std::size_t>(num_owned)));
+  };
+  const PutAside other_nodes(beyond(momentum, 3 * partition_->owned.num_nodes)),
+      other_pressures(beyond(continuity, partition_->owned.num_pressures));
+  add(cells);
+  add_of_ghosts(*partition_, momentum, continuity);
+}
+
 void StokesProduct::add(std::span<const double> v, std::span<const double> p,
                         std::span<double> momentum, std::span<double> continuity) const {
   if (!inertia_) return add_stress(v, p, momentum, continuity);
-  const Batches cells = {cells_->straight, cells_->curved};
+  const Batches cells = taken(*cells_, false);
   const Fields fields = {v.data(), p.data(), momentum.data(), continuity.data()};
   if (inertia_->convects())
     add_stresses(cells, inertia_->by_convected_cells(), fields);
@@ -180,21 +223,26 @@ void StokesProduct::add(std::span<const double> v, std::span<const double> p,
 
 void StokesProduct::add_stress(std::span<const double> v, std::span<const double> p,
                                std::span<double> momentum, std::span<double> continuity) const {
-  add_stresses({cells_->straight, cells_->curved},
-               {v.data(), p.data(), momentum.data(), continuity.data()});
+  add_by_ranks(momentum, continuity, [&](const Batches& cells) {
+    add_stresses(cells, {v.data(), p.data(), momentum.data(), continuity.data()});
+  });
 }
 
 void StokesProduct::add_stress_of_few(std::span<const double> v, std::span<const double> p,
                                       std::span<double> momentum,
                                       std::span<double> continuity) const {
-  add_stresses({cells_->straight, cells_->curved},
-               {v.data(), p.data(), momentum.data(), continuity.data(), true});
+  add_by_ranks(momentum, continuity, [&](const Batches& cells) {
+    add_stresses(cells, {v.data(), p.data(), momentum.data(), continuity.data(), true});
+  });
 }
 
 void StokesProduct::add_straight_gradient(std::span<const double> p,
                                           std::span<double> momentum) const {
-  add_pressures(cells_->straight, p.data(), momentum.data());
-  add_pressures(cells_->straightened, p.data(), momentum.data());
+  add_by_ranks(momentum, {}, [&](const Batches& cells) {
+    add_pressures(cells.straight, p.data(), momentum.data());
+    add_pressures(std::span(cells_->straightened).first(cells.curved.size()), p.data(),
+                  momentum.data());
+  });
 }
 
 }  // namespace meniscus::fem

@@ -20,7 +20,8 @@ class InertiaProduct;
 /// straight cells ∫b_k b_l = V (1 + δ_kl)/20 makes all integrals exact.
 ///
 /// Velocities and what is tested with them have three components side by side at each node;
-/// pressures and what is tested with them are numbers.
+/// pressures and what is tested with them are numbers. On several ranks each takes the cells it
+/// owns, and what `add` and the like add is right in the rows it owns alone; they are collective.
 class StokesProduct {
  public:
   /// Takes from the problem what it needs. Not for linear elements or other liquids.
@@ -50,7 +51,11 @@ class StokesProduct {
   [[nodiscard]] const InertiaProduct* inertia() const { return inertia_.get(); }
 
  private:
+  template <class Add>
+  void add_by_ranks(std::span<double> momentum, std::span<double> continuity, const Add& add) const;
+
   std::unique_ptr<const CellBatches> cells_;
+  const Partition* partition_ = nullptr;  // where ranks take their own cells; null elsewhere
   std::unique_ptr<InertiaProduct> inertia_;
 };
 
