@@ -125,9 +125,9 @@ class FiniteElementFlow final : public FlowSolver {
   std::int64_t connectivity_ = 0;  // that all below is made for
   std::shared_ptr<const FlowSpace> space_;
   std::optional<StokesSolver> stokes_;
-  std::optional<int> made_straightened_;  // edges, when the flow was first solved on the mesh
-  SolutionHistory history_;               // for the next solve's first guess
-  double guess_duration_ = 0.0;  // of the stage that the last solution comes from; 0: of none
+  std::optional<int> made_flattened_;  // edges, when the flow was first solved on the mesh
+  SolutionHistory history_;            // for the next solve's first guess
+  double guess_duration_ = 0.0;        // of the stage that the last solution comes from; 0: of none
   KeptPreconditioner preconditioner_;
   double last_duration_ = 0.0;  // of the last stage
   PhaseTimes times_;
@@ -138,15 +138,15 @@ void FiniteElementFlow::use_connectivity(const FlowDomain& domain) {
   space_ = elements_->space(domain);
   stokes_.emplace(*space_, options_);
   history_.clear();
-  made_straightened_.reset();
+  made_flattened_.reset();
   preconditioner_.at.reset();
   connectivity_ = domain.connectivity;
 }
 
 bool FiniteElementFlow::is_fit(const FlowDomain& moved) {
-  if (!has_connectivity_of(moved) || !made_straightened_) return true;
+  if (!has_connectivity_of(moved) || !made_flattened_) return true;
   const RemainderTimer timer(times_, "assemble");
-  return elements_->positions(moved)->num_straightened <= *made_straightened_;
+  return elements_->positions(moved)->num_flattened <= *made_flattened_;
 }
 
 void FiniteElementFlow::follow(const MeshChange& change, const FlowDomain& domain) {
@@ -307,7 +307,7 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
   const InstantProblem problem = instant_problem(domain, *space_, *elements_->positions(domain),
                                                  options_.capillary, instant.t);
   if (problem.fault) return failed_flow(*problem.fault);
-  if (!made_straightened_) made_straightened_ = problem.stokes.positions.num_straightened;
+  if (!made_flattened_) made_flattened_ = problem.stokes.positions.num_flattened;
   StokesState state = first_guess(domain, instant.t, problem.stokes);
   if (domain.stage != nullptr) {
     last_duration_ = domain.stage->duration;
@@ -331,9 +331,9 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
       report.ok() ? solution(domain, problem, state, report.power) : failed_flow(*report.fault);
   if (report.ok()) keep_solution(problem.stokes, instant.t, std::move(state));
   result.iterations = report.iterations;
-  if (const int straight = problem.stokes.positions.num_straightened; straight > 0)
+  if (const int flattened = problem.stokes.positions.num_flattened; flattened > 0)
     result.warnings.push_back(
-        fmt::format("{} edges of surfaces stay straight in the elements", straight));
+        fmt::format("{} edges of surfaces are less curved in the elements", flattened));
   result.warnings.insert(result.warnings.end(), report.failed_solvers.begin(),
                          report.failed_solvers.end());
   return result;
@@ -388,7 +388,7 @@ void FiniteElementFlow::save(Archive& archive, const FlowDomain& domain) const {
   history_.save(archive);
   if (!history_.empty() && guess_duration_ > 0.0)
     archive.reals["flow/guess/duration"] = {guess_duration_};
-  if (made_straightened_) archive.integers["flow/made-straightened"] = {*made_straightened_};
+  if (made_flattened_) archive.integers["flow/made-flattened"] = {*made_flattened_};
   preconditioner_.save(archive);
 }
 
@@ -412,9 +412,9 @@ void FiniteElementFlow::restore_preconditioner(const Archive& archive, const Flo
 
 void FiniteElementFlow::load(const Archive& archive, const FlowDomain& domain) {
   use_connectivity(domain);
-  if (archive.integers.contains("flow/made-straightened"))
-    made_straightened_ =
-        static_cast<int>(entry_of_size(archive.integers, "flow/made-straightened", 1).front());
+  if (archive.integers.contains("flow/made-flattened"))
+    made_flattened_ =
+        static_cast<int>(entry_of_size(archive.integers, "flow/made-flattened", 1).front());
   restore_preconditioner(archive, domain);
   history_.load(archive, stokes_->state_at_rest());
   if (archive.reals.contains("flow/guess/duration"))

@@ -25,13 +25,17 @@ std::vector<char> are_folded(const TetMesh& mesh, const FlowSpace& space,
 }
 
 /// What an edge is like. Inside a region it goes from `straight` to `bent` to `settled`, on a
-/// surface from `curved` to `settled`; so the search for folds ends.
+/// surface from `curved` to `flattened`.
 enum class EdgeShape : char {
-  straight,  ///< may be bent
-  bent,      ///< beside a curved edge
-  curved,    ///< as its surface is
-  settled    ///< straight from now on
+  straight,   ///< may be bent
+  bent,       ///< beside a curved edge
+  curved,     ///< as its surface is
+  flattened,  ///< less curved than its surface
+  settled     ///< straight from now on
 };
+/// What flattening leaves of an edge's displacement each time. Cells that begin to fold need it
+/// once, so that the elements change little from one step to the next.
+constexpr double kFlatter = 0.9;
 
 /// Keeps the maps of curved cells from folding (`settle_curved_cells`).
 class CurvedCells {
@@ -78,8 +82,11 @@ class CurvedCells {
   [[nodiscard]] Vec3 displacement(std::size_t e) const {
     return positions_.x[node(e)] - straight_middle(mesh_, space_.edges[e]);
   }
+  [[nodiscard]] bool is_on_surface(std::size_t e) const {
+    return shape_[e] == EdgeShape::curved || shape_[e] == EdgeShape::flattened;
+  }
   [[nodiscard]] bool is_off_its_middle(std::size_t e) const {
-    return shape_[e] == EdgeShape::bent || shape_[e] == EdgeShape::curved;
+    return shape_[e] == EdgeShape::bent || is_on_surface(e);
   }
 
   [[nodiscard]] std::vector<CellId> curved_cells() const {
@@ -101,7 +108,7 @@ class CurvedCells {
       Vec3 sum = Vec3::Zero();
       int count = 0;
       for (std::size_t l = 0; l < kEdges; ++l) {
-        if (shape_[of_cell[l]] != EdgeShape::curved || !share_an_end(k, l)) continue;
+        if (!is_on_surface(of_cell[l]) || !share_an_end(k, l)) continue;
         sum += displacement(of_cell[l]);
         ++count;
       }
@@ -113,13 +120,12 @@ class CurvedCells {
     return has_bent;
   }
 
-  /// What bending does not help needs straight edges of surfaces.
+  /// What bending does not help needs flatter edges of surfaces.
   bool unfold(CellId c) {
     if (bend(c)) return true;
-    const auto shape = is_folded_without_bends(c) ? EdgeShape::curved : EdgeShape::bent;
-    const int count = settle_edges(c, shape);
-    if (shape == EdgeShape::curved) positions_.num_straightened += count;
-    return count > 0;
+    if (!is_folded_without_bends(c)) return straighten_bends(c);
+    flatten(c);
+    return true;
   }
 
   [[nodiscard]] bool is_folded(CellId c) const {
@@ -144,16 +150,26 @@ class CurvedCells {
       return std::ranges::find(kCellEdges[l], end) != kCellEdges[l].end();
     });
   }
-  /// Straightens the edges of a cell that have a shape; returns their number.
-  int settle_edges(CellId c, EdgeShape shape) {
-    int count = 0;
+  bool straighten_bends(CellId c) {
+    bool has_straightened = false;
     for (const std::size_t e : edges(c)) {
-      if (shape_[e] != shape) continue;
+      if (shape_[e] != EdgeShape::bent) continue;
       positions_.x[node(e)] = straight_middle(mesh_, space_.edges[e]);
       shape_[e] = EdgeShape::settled;
-      ++count;
+      has_straightened = true;
     }
-    return count;
+    return has_straightened;
+  }
+  /// Takes the edges of a cell towards their middles until it is not folded: straight it is not.
+  void flatten(CellId c) {
+    while (is_folded(c))
+      for (const std::size_t e : edges(c)) {
+        positions_.x[node(e)] =
+            straight_middle(mesh_, space_.edges[e]) + kFlatter * displacement(e);
+        if (shape_[e] != EdgeShape::curved) continue;
+        shape_[e] = EdgeShape::flattened;
+        ++positions_.num_flattened;
+      }
   }
 
   const TetMesh& mesh_;

@@ -12,7 +12,7 @@ namespace meniscus::fem {
 struct NodePositions {
   Field<NodeId, Vec3> x;      ///< [R0]
   CellField<char> is_curved;  ///< whether a mid-edge node of the cell is off its edge's middle
-  int num_straightened = 0;   ///< edges of surfaces that stay straight: cells would fold
+  int num_flattened = 0;      ///< edges of surfaces that are less curved: cells would fold
 };
 
 /// Mid-edge nodes in the middle of straight edges.
@@ -27,8 +27,8 @@ void curve_edges(const SurfaceMesh& surface, const SurfaceTopology& topology,
 /// Marks the curved cells and keeps their maps from folding. The Jacobian determinant at the
 /// quadrature points and at the nodes must stay above a tenth of the straight cell's. Where it does
 /// not, edges inside the regions are bent beside the curved ones; where that does not do, edges
-/// of surfaces are straightened. `surfaces`: the nodes of all interfaces and walls, whose straight
-/// edges stay so.
+/// of surfaces are flattened, by a tenth each time. `surfaces`: the nodes of all interfaces and
+/// walls, whose straight edges stay so.
 void settle_curved_cells(const TetMesh& mesh, const FlowSpace& space,
                          std::span<const FaceNodeTable> surfaces, NodePositions& positions);
 

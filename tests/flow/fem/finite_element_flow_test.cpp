@@ -211,9 +211,9 @@ TetMesh with_flat_cell(TetMesh mesh) {
   return mesh;
 }
 
-// Where edges of an interface would become straight a moved mesh is not to be kept; one that was
-// like that when it was new is. A solver restored from a checkpoint knows which.
-TEST(FiniteElementFlow, AMeshThatStraightensEdgesOfInterfacesIsNotFit) {
+// Where edges of an interface would be flattened a moved mesh is not to be kept; one that was like
+// that when it was new is. A solver restored from a checkpoint knows which.
+TEST(FiniteElementFlow, AMeshThatFlattensEdgesOfInterfacesIsNotFit) {
   const Scene scene = shear_scene();
   Options options;
   options.elements = Elements::p2_p1;
