@@ -73,7 +73,7 @@ struct [[nodiscard]] TransferredFlow : Report {
 
 /// What evolution asks of a flow solver, be it finite elements on a volume mesh or boundary
 /// integrals on the interfaces alone. A solver keeps what it derives from a domain (spaces,
-/// preconditioners) while the connectivity stands, and the last solution as a first guess beyond.
+/// preconditioners) while the connectivity stands, and the last solutions for first guesses beyond.
 class FlowSolver {
  public:
   virtual ~FlowSolver() = default;
@@ -98,8 +98,8 @@ class FlowSolver {
   /// Throws InvalidInput when the archive's state is damaged or does not fit the domain.
   virtual void load(const Archive& archive, const FlowDomain& domain) = 0;
 
-  /// Whether the solver represents the interfaces on a mesh that has moved as well as it did when
-  /// the mesh was new.
+  /// Whether the solver still represents as much of the interfaces as they are, on a mesh that has
+  /// moved, as when the mesh was new.
   [[nodiscard]] virtual bool is_fit(const FlowDomain& /*moved*/) { return true; }
 
   [[nodiscard]] virtual const PhaseTimes& times() const = 0;

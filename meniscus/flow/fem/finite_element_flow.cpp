@@ -125,7 +125,7 @@ class FiniteElementFlow final : public FlowSolver {
   std::int64_t connectivity_ = 0;  // that all below is made for
   std::shared_ptr<const FlowSpace> space_;
   std::optional<StokesSolver> stokes_;
-  std::optional<int> made_flattened_;  // edges, when the flow was first solved on the mesh
+  std::optional<int> made_flattened_;  // edges, when the flow was first asked for on the mesh
   SolutionHistory history_;            // for the next solve's first guess
   double guess_duration_ = 0.0;        // of the stage that the last solution comes from; 0: of none
   KeptPreconditioner preconditioner_;
@@ -294,6 +294,7 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
   const RemainderTimer timer(times_, "assemble");
   const TetMesh& mesh = *domain.mesh;
   if (!has_connectivity_of(domain)) use_connectivity(domain);
+  if (!made_flattened_) made_flattened_ = elements_->positions(domain)->num_flattened;
   if (domain.stage == nullptr && has_inertia(domain.scene)) {
     if (domain.known == nullptr) return first_flow(domain, instant.t);
     const InstantProblem problem = instant_problem(domain, *space_, *elements_->positions(domain),
@@ -307,7 +308,6 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
   const InstantProblem problem = instant_problem(domain, *space_, *elements_->positions(domain),
                                                  options_.capillary, instant.t);
   if (problem.fault) return failed_flow(*problem.fault);
-  if (!made_flattened_) made_flattened_ = problem.stokes.positions.num_flattened;
   StokesState state = first_guess(domain, instant.t, problem.stokes);
   if (domain.stage != nullptr) {
     last_duration_ = domain.stage->duration;

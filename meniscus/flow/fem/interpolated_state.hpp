@@ -20,8 +20,8 @@ struct MeshedSpace {
 /// ends at the node, or where that liquid ended. `sources` says where a region has its liquid from;
 /// where it says nothing of one, any cell will do. Mid-edge nodes count as the middles of straight
 /// edges, on both meshes: second order at curved surfaces, third elsewhere. Linear cost. Where
-/// `places` is not empty it says where the nodes of the velocity lie, on curved edges too. Nodes of
-/// other cells than those given stay at rest.
+/// `places` is not empty it says where the nodes of the velocity lie, on curved edges too. Else
+/// nodes of other cells than those given stay at rest; pressures of other cells are zero always.
 [[nodiscard]] std::vector<StokesState> interpolated_states(std::span<const StokesState> states,
                                                            const MeshedSpace& from,
                                                            const MeshedSpace& to,

@@ -25,7 +25,7 @@ std::vector<char> are_folded(const TetMesh& mesh, const FlowSpace& space,
 }
 
 /// What an edge is like. Inside a region it goes from `straight` to `bent` to `settled`, on a
-/// surface from `curved` to `flattened`.
+/// surface from `curved` to `flattened`, less curved each time; so the search for folds ends.
 enum class EdgeShape : char {
   straight,   ///< may be bent
   bent,       ///< beside a curved edge
@@ -124,6 +124,7 @@ class CurvedCells {
   bool unfold(CellId c) {
     if (bend(c)) return true;
     if (!is_folded_without_bends(c)) return straighten_bends(c);
+    if (!(signed_volume(mesh_, c) > 0.0)) return false;  // straight it would be folded, too
     flatten(c);
     return true;
   }

@@ -78,7 +78,7 @@ struct Partition {
 [[nodiscard]] std::vector<double> pressures_with_ghosts(std::span<const double> owned,
                                                         const Partition& partition);
 /// Adds to what each rank has of the owned velocities and pressures (or of what is tested with
-/// them) what other ranks have of them as ghosts. Collective.
+/// them) what other ranks have of them as ghosts. Empty pressures are none. Collective.
 void add_of_ghosts(const Partition& partition, std::span<double> velocities,
                    std::span<double> pressures);
 /// Gathers the owned parts of all ranks' states into every rank's global state. Collective.

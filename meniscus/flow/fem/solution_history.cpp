@@ -70,6 +70,8 @@ void SolutionHistory::load(const Archive& archive, const StokesState& like) {
     if (states_.back().v.size() != like.v.size() || states_.back().p.size() != like.p.size())
       reject_input("checkpoint: {} does not fit the volume mesh", name);
   }
+  if (states_.size() > 1 && !(times_.front() > kLongAgo && times_.front() != times_.back()))
+    reject_input("checkpoint: flow/guess/time is missing, or that of flow/guess/before");
 }
 
 }  // namespace meniscus::fem

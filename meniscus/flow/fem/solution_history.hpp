@@ -27,7 +27,8 @@ class SolutionHistory {
   void clear();
 
   void save(Archive& archive) const;
-  /// Throws InvalidInput when arrays are missing, or do not have the sizes of `like`.
+  /// A solution without a time, of an older checkpoint, was long ago. Throws InvalidInput when
+  /// arrays do not have the sizes of `like`, or of two solutions the times do not differ.
   void load(const Archive& archive, const StokesState& like);
 
  private:

@@ -160,22 +160,6 @@ Batches taken(const CellBatches& cells, bool owned) {
                : all;
 }
 
-/// Zeros stand for the numbers of an array during this object's lifetime.
-class PutAside {
- public:
-  explicit PutAside(std::span<double> numbers)
-      : numbers_(numbers), before_(numbers.begin(), numbers.end()) {
-    std::ranges::fill(numbers_, 0.0);
-  }
-  PutAside(const PutAside&) = delete;
-  PutAside& operator=(const PutAside&) = delete;
-  ~PutAside() { std::ranges::copy(before_, numbers_.begin()); }
-
- private:
-  std::span<double> numbers_;
-  std::vector<double> before_;
-};
-
 }  // namespace
 
 StokesProduct::StokesProduct(const StokesProblem& problem) {
@@ -200,11 +184,12 @@ void StokesProduct::add_by_ranks(std::span<double> momentum, std::span<double> c
                                  const Add& add) const {
   const Batches cells = taken(*cells_, partition_ != nullptr);
   if (partition_ == nullptr) return add(cells);
-  const auto beyond = [](std::span<double> local, std::int32_t num_owned) {
-    return local.subspan(std::min(local.size(), static_cast<std::size_t>(num_owned)));
+  // What stands in rows of others would be sent to them.
+  const auto clear = [](std::span<double> local, std::int32_t num_owned) {
+    if (!local.empty()) std::ranges::fill(local.subspan(static_cast<std::size_t>(num_owned)), 0.0);
   };
-  const PutAside other_nodes(beyond(momentum, 3 * partition_->owned.num_nodes)),
-      other_pressures(beyond(continuity, partition_->owned.num_pressures));
+  clear(momentum, 3 * partition_->owned.num_nodes);
+  clear(continuity, partition_->owned.num_pressures);
   add(cells);
   add_of_ghosts(*partition_, momentum, continuity);
 }

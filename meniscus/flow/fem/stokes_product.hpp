@@ -20,8 +20,9 @@ class InertiaProduct;
 /// straight cells ∫b_k b_l = V (1 + δ_kl)/20 makes all integrals exact.
 ///
 /// Velocities and what is tested with them have three components side by side at each node;
-/// pressures and what is tested with them are numbers. On several ranks each takes the cells it
-/// owns, and what `add` and the like add is right in the rows it owns alone; they are collective.
+/// pressures and what is tested with them are numbers. On several ranks what `add` and the like add
+/// is right in the rows alone that a rank owns. Without inertia each takes the cells it owns, and
+/// they are collective; with it each takes all cells around its rows.
 class StokesProduct {
  public:
   /// Takes from the problem what it needs. Not for linear elements or other liquids.

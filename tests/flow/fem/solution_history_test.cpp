@@ -71,6 +71,12 @@ TEST(SolutionHistory, ComesBackFromACheckpoint) {
   restored.add(linear_in_time(0.7), 0.7);
   expect_same(restored.at(0.8), linear_in_time(0.7));
 
+  Archive timeless = archive;
+  timeless.reals.erase("flow/guess/time");
+  EXPECT_THROW(restored.load(timeless, linear_in_time(0.0)), InvalidInput);
+  timeless.reals["flow/guess/time"] = timeless.reals["flow/guess/before/time"];
+  EXPECT_THROW(restored.load(timeless, linear_in_time(0.0)), InvalidInput);
+
   StokesState more = linear_in_time(0.0);
   more.p.push_back(0.0);
   EXPECT_THROW(restored.load(archive, more), InvalidInput);
