@@ -393,7 +393,8 @@ Report Evolution::keep_mesh(const Scene& start, const FlowSolution& flow, double
   if (is_remeshed_as_needed() && !state_.mesh->is_fit())
     moved.fault = Fault{FaultKind::poor_cell, "a cell of the moved mesh has too small an angle"};
   else if (is_remeshed_as_needed() && !solver_->is_fit(state_.domain()))
-    moved.fault = Fault{FaultKind::poor_cell, "a cell of the moved mesh flattens edges of interfaces"};
+    moved.fault =
+        Fault{FaultKind::poor_cell, "a cell of the moved mesh flattens edges of interfaces"};
   else if ((state_.step + 1) % kStepsBetweenChecks == 0)
     moved.fault = find_defect(state_.mesh->tetrahedra(), state_.scene);
   return moved;
