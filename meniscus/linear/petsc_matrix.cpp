@@ -303,21 +303,28 @@ MergedMatrix merged_matrix(MPI_Comm comm, const SaddleSystem& system, double con
 }
 
 void attach_constant_pressure(Communicator communicator, Mat matrix, std::int32_t num_velocities,
-                              std::int32_t num_pressures) {
+                              std::int32_t num_pressures, std::span<const double> row_weights) {
   MPI_Comm comm = mpi_communicator(communicator);
-  const auto all_pressures = sum(communicator, std::int64_t{num_pressures});
-  const Vector constant = zero_vector(comm, num_velocities + num_pressures);
-  PetscScalar* values = nullptr;
-  petsc_check(VecGetArray(constant.get(), &values), "VecGetArray");
-  for (std::int32_t i = 0; i < num_pressures; ++i)
-    values[num_velocities + i] = 1.0 / std::sqrt(static_cast<double>(all_pressures));
-  petsc_check(VecRestoreArray(constant.get(), &values), "VecRestoreArray");
-  std::array<Vec, 1> vectors = {constant.get()};
-  NullSpace space;
-  petsc_check(MatNullSpaceCreate(comm, PETSC_FALSE, 1, vectors.data(), space.out()),
-              "MatNullSpaceCreate");
-  petsc_check(MatSetNullSpace(matrix, space.get()), "MatSetNullSpace");
-  petsc_check(MatSetTransposeNullSpace(matrix, space.get()), "MatSetTransposeNullSpace");
+  // The pressures in the direction given, of length one.
+  const auto space_of = [&](const auto& entry) {
+    const Vector pressures = zero_vector(comm, num_velocities + num_pressures);
+    PetscScalar* values = nullptr;
+    petsc_check(VecGetArray(pressures.get(), &values), "VecGetArray");
+    for (std::int32_t i = num_velocities; i < num_velocities + num_pressures; ++i)
+      values[i] = entry(static_cast<std::size_t>(i));
+    petsc_check(VecRestoreArray(pressures.get(), &values), "VecRestoreArray");
+    petsc_check(VecNormalize(pressures.get(), nullptr), "VecNormalize");
+    std::array<Vec, 1> vectors = {pressures.get()};
+    NullSpace space;
+    petsc_check(MatNullSpaceCreate(comm, PETSC_FALSE, 1, vectors.data(), space.out()),
+                "MatNullSpaceCreate");
+    return space;
+  };
+  const NullSpace right = space_of([](std::size_t) { return 1.0; });
+  const NullSpace left =
+      space_of([&](std::size_t i) { return row_weights.empty() ? 1.0 : 1.0 / row_weights[i]; });
+  petsc_check(MatSetNullSpace(matrix, right.get()), "MatSetNullSpace");
+  petsc_check(MatSetTransposeNullSpace(matrix, left.get()), "MatSetTransposeNullSpace");
 }
 
 }  // namespace meniscus::linear

@@ -45,6 +45,6 @@ struct MergedMatrix {
                                          double continuity_sign, double pin);
 /// Attaches the constant pressure as null space to a matrix of the whole system.
 void attach_constant_pressure(Communicator communicator, Mat matrix, std::int32_t num_velocities,
-                              std::int32_t num_pressures);
+                              std::int32_t num_pressures, std::span<const double> row_weights = {});
 
 }  // namespace meniscus::linear

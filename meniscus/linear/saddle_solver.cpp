@@ -19,6 +19,7 @@
 #include "meniscus/linear/petsc_matrix.hpp"
 #include "meniscus/linear/preconditioners.hpp"
 #include "meniscus/linear/saddle_options.hpp"
+#include "meniscus/linear/vector_arrays.hpp"
 
 namespace meniscus::linear {
 namespace {
@@ -96,6 +97,46 @@ struct WholeVector {
   [[nodiscard]] std::span<double> pressures() { return std::span(values).subspan(num_velocities); }
   std::vector<double> values;
   std::size_t num_velocities;
+};
+
+/// The product with weighted rows, as a Krylov method sees it, and its preconditioner.
+class WeightedOperator {
+ public:
+  WeightedOperator(Communicator communicator, const SaddleSystem& system)
+      : weights_(system.residual_weights),
+        action_([this, &system](std::span<const double> x, std::span<double> result) {
+          system.products.whole(x, result);
+          weigh(result);
+        }),
+        matrix_(shell_matrix(mpi_communicator(communicator), action_, system.size())),
+        unweighted_(zero_vector(mpi_communicator(communicator), system.size())) {
+    MENISCUS_ASSERT(weights_.size() == std::size_t(system.size()), "{} weights of {} rows",
+                    weights_.size(), system.size());
+    if (system.constant_pressure_is_null)
+      attach_constant_pressure(communicator, matrix_.get(), system.num_velocities(),
+                               system.num_pressures(), weights_);
+  }
+  WeightedOperator(const WeightedOperator&) = delete;
+  WeightedOperator& operator=(const WeightedOperator&) = delete;
+  ~WeightedOperator() = default;
+
+  [[nodiscard]] Mat matrix() const { return matrix_.get(); }
+  void weigh(std::span<double> rows) const {
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] *= weights_[i];
+  }
+  /// `apply` on what r was without weights.
+  void precondition(const std::function<void(Vec, Vec)>& apply, Vec r, Vec z) const {
+    with_arrays(r, unweighted_.get(), [this](const double* from, double* to) {
+      for (std::size_t i = 0; i < weights_.size(); ++i) to[i] = from[i] / weights_[i];
+    });
+    apply(unweighted_.get(), z);
+  }
+
+ private:
+  std::span<const double> weights_;
+  LinearOperator action_;
+  Matrix matrix_;
+  Vector unweighted_;
 };
 
 void remove_mean(Communicator communicator, std::span<double> values) {
@@ -224,7 +265,20 @@ class SaddleSolver::Implementation {
           slow_pressures_ ? &*slow_pressures_ : nullptr);
       apply_ = [this](Vec r, Vec z) { block_->apply(r, z); };
     }
+    weigh_rows(system);
   }
+
+  void weigh_rows(const SaddleSystem& system) {
+    if (system.residual_weights.empty() || !system.has_products() ||
+        options_.method != SaddleMethod::block)
+      return;
+    weighted_.emplace(communicator_, system);
+    apply_ = [this, apply = std::move(apply_)](Vec r, Vec z) {
+      weighted_->precondition(apply, r, z);
+    };
+  }
+  /// What the Krylov method iterates with.
+  [[nodiscard]] Mat iterated() const { return weighted_ ? weighted_->matrix() : operator_; }
 
   [[nodiscard]] std::unique_ptr<VelocityPreconditioner> make_multigrid(
       const SaddleSystem& system) const {
@@ -273,7 +327,7 @@ class SaddleSolver::Implementation {
   KSP outer_solver(double rtol) {
     const bool is_new = outer_.get() == nullptr;
     if (is_new) petsc_check(KSPCreate(comm(), outer_.out()), "KSPCreate");
-    petsc_check(KSPSetOperators(outer_.get(), operator_, operator_), "KSPSetOperators");
+    petsc_check(KSPSetOperators(outer_.get(), iterated(), iterated()), "KSPSetOperators");
     // PETSc refuses a relative tolerance of one or more. The absolute tolerance must have no
     // effect.
     petsc_check(KSPSetTolerances(outer_.get(), std::min(rtol, 0.9), 1e-300, PETSC_DEFAULT,
@@ -292,8 +346,9 @@ class SaddleSolver::Implementation {
   void iterate(const SaddleSystem& system, std::span<const double> right_hand_side,
                std::span<double> solution, double rtol, LinearReport& report) {
     const double sign = options_.method == SaddleMethod::paper_gmres ? -1.0 : 1.0;
-    const std::vector<double> consistent_side =
+    std::vector<double> consistent_side =
         consistent_right_hand_side(communicator_, system, right_hand_side, sign);
+    if (weighted_) weighted_->weigh(consistent_side);
     const Vector b = borrowed_vector(comm(), consistent_side),
                  x = borrowed_vector(comm(), solution);
     const KSP outer = outer_solver(rtol);
@@ -331,7 +386,7 @@ class SaddleSolver::Implementation {
     Vector residual;
     double norm = 0.0, first = 0.0;
     petsc_check(VecDuplicate(b, residual.out()), "VecDuplicate");
-    petsc_check(MatMult(operator_, x, residual.get()), "MatMult");
+    petsc_check(MatMult(iterated(), x, residual.get()), "MatMult");
     petsc_check(VecAYPX(residual.get(), -1.0, b), "VecAYPX");
     petsc_check(VecNorm(residual.get(), NORM_2, &norm), "VecNorm");
     petsc_check(VecNorm(b, NORM_2, &first), "VecNorm");
@@ -346,6 +401,7 @@ class SaddleSolver::Implementation {
   /// Drops all references to the caller's arrays and keeps the preconditioner.
   void release() {
     apply_ = nullptr;
+    weighted_.reset();
     block_.reset();
     scaling_.reset();
     operator_ = nullptr;
@@ -361,7 +417,8 @@ class SaddleSolver::Implementation {
   Matrix product_;
   NestedOperator nested_;
   MergedMatrix merged_;
-  Mat operator_ = nullptr;  ///< the product, the nest or the merged matrix
+  Mat operator_ = nullptr;                    ///< the product, the nest or the merged matrix
+  std::optional<WeightedOperator> weighted_;  ///< with weights of the rows
   Apply apply_;
   KrylovSolver outer_;
   std::int32_t size_ = 0;  ///< of the last system, on this rank

@@ -80,6 +80,10 @@ struct SaddleSystem {
   CsrView divergence = {};
   std::span<const double> mass_diagonal = {};
 
+  /// What the entries of a residual count, size(): the block solver with products makes the norm of
+  /// the weighted residual small. Empty: all count the same.
+  std::span<const double> residual_weights = {};
+
   [[nodiscard]] bool has_products() const { return products.whole != nullptr; }
   [[nodiscard]] std::int32_t num_velocities() const { return A.num_rows; }
   [[nodiscard]] std::int32_t num_pressures() const { return B.num_rows; }

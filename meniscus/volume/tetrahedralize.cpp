@@ -11,6 +11,7 @@
 #include "meniscus/volume/foreseen_cells.hpp"
 #include "meniscus/volume/mesh_order.hpp"
 #include "meniscus/volume/size_law.hpp"
+#include "meniscus/volume/smooth_cells.hpp"
 #include "meniscus/volume/tetgen_mesher.hpp"
 #include "meniscus/volume/vertices_to_keep.hpp"
 
@@ -90,10 +91,10 @@ void label_regions(const Scene& scene, const FacetTable& facets, TetMesh& mesh) 
   }
 }
 
-/// One attempt: mesh, find the surfaces in it, label the regions, validate.
+/// One attempt: mesh, find the surfaces in it, label the regions, smooth, validate.
 std::optional<Fault> try_to_mesh(const Scene& scene, const SurfaceComplex& complex,
                                  const std::string& switches, const CellTarget& target,
-                                 TetMesh& mesh) {
+                                 bool curves_interfaces, TetMesh& mesh) {
   MesherResult result = run_tetgen(complex, switches, target);
   if (!result.failure.empty()) return Fault{FaultKind::mesher, std::move(result.failure)};
   order_by_neighbourhood(static_cast<std::int32_t>(complex.x.size()), result.x, result.cells);
@@ -105,6 +106,7 @@ std::optional<Fault> try_to_mesh(const Scene& scene, const SurfaceComplex& compl
   const FacetTable facets(mesh);
   if (auto lost = embed_surfaces(scene, facets, mesh)) return lost;
   label_regions(scene, facets, mesh);
+  if (curves_interfaces) smooth_cells(mesh);
   return find_defect(mesh, facets, scene);
 }
 
@@ -156,13 +158,15 @@ VolumeMeshReport tetrahedralize(const Scene& scene, const VolumeMeshOptions& opt
   const std::vector<std::string> all_switches = tetgen_switches(options.radius_edge);
   TetMesh candidate;
   if (!target.vertices.empty()) {
-    report.fault = try_to_mesh(scene, complex, all_switches.front(), target, candidate);
+    report.fault = try_to_mesh(scene, complex, all_switches.front(), target,
+                               options.curves_interfaces, candidate);
     if (report.ok()) mesh = std::move(candidate);
     if (report.ok()) return report;
     target.vertices.clear();
   }
   for (const std::string& switches : all_switches) {
-    report.fault = try_to_mesh(scene, complex, switches, target, candidate);
+    report.fault =
+        try_to_mesh(scene, complex, switches, target, options.curves_interfaces, candidate);
     if (report.ok()) {
       mesh = std::move(candidate);
       return report;

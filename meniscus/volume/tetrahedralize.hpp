@@ -22,6 +22,9 @@ struct VolumeMeshOptions {
   /// edge. 2 gives a drop in a sphere about the number of nodes of hooper2001, table 1
   /// (docs/volume-mesh.md).
   double cell_volume = 2.0;
+  /// Whether the faces of interfaces will be curved. Then vertices move to where cells are well
+  /// shaped and none that stands on such a face is flat (`smooth_cells`).
+  bool curves_interfaces = false;
   void validate() const;
 };
 

@@ -23,6 +23,7 @@ enum class Elements {
   // The relaxation's error falls with the cells' volume, and is below 5e-4 for 400 vertices on the
   // drop with 1.5 (docs/validation-stokes.md).
   options.cell_volume = 1.5;
+  options.curves_interfaces = true;
   return options;
 }
 

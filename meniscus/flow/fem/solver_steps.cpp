@@ -64,12 +64,13 @@ void add_step(StokesState& state, const StokesProblem& problem,
   for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] += step[first + i];
 }
 
-double reference_residual(const StokesProblem& problem, const StokesProduct* product) {
+double reference_residual(const StokesProblem& problem, const StokesProduct* product,
+                          std::span<const double> weights) {
   const StokesState rest = without_pressure(problem, state_at_rest(problem.space).v);
-  const double at_rest = free_norm(residual_near_rest(problem, rest, product), problem);
+  const double at_rest = free_norm(residual_near_rest(problem, rest, product), problem, weights);
   if (problem.undisturbed.empty()) return at_rest;
   const StokesState flow = without_pressure(problem, problem.undisturbed);
-  const double undisturbed = free_norm(residual(problem, flow, product), problem);
+  const double undisturbed = free_norm(residual(problem, flow, product), problem, weights);
   return std::clamp(kMostOfDisturbance * undisturbed, kLeastOfRest * at_rest, at_rest);
 }
 

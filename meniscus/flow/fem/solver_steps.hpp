@@ -22,7 +22,9 @@ void add_step(StokesState& state, const StokesProblem& problem, std::span<const 
 /// The residual that the data alone cause where all else rests. A boundary far away has the most of
 /// it, in proportion to its distance squared. What counts is what the drops cause, the residual of
 /// the undisturbed flow. A boundary at 10 R0 has some 30 to 100 times as much, one at 100 R0 ten
-/// thousand times. Of a product that was not told what convects.
-[[nodiscard]] double reference_residual(const StokesProblem& problem, const StokesProduct* product);
+/// thousand times. Of a product that was not told what convects. The norm is that of `free_norm` by
+/// the weights.
+[[nodiscard]] double reference_residual(const StokesProblem& problem, const StokesProduct* product,
+                                        std::span<const double> weights);
 
 }  // namespace meniscus::fem

@@ -196,17 +196,53 @@ StokesResidual residual_near_rest(const StokesProblem& problem, const StokesStat
   return residual(problem, state, product, true);
 }
 
-double free_norm(const StokesResidual& residual, const StokesProblem& problem) {
+std::vector<double> residual_weights(const StokesProblem& problem) {
+  if (!has_product(problem) || problem.inertia) return {};
+  // Of regular cells, whose edges are (6√2 V)^⅓ long: what a cell adds to the diagonal of ∫μ∇φ·∇φ
+  // at corners and at middles of edges, over μ V^⅓.
+  constexpr double kCorner = 0.22, kMiddle = 0.97;
+  Field<NodeId, double> stiffness(problem.space.velocity.num_nodes, 0.0);
+  std::vector<double> mass(problem.space.pressure.vertex.size(), 0.0);
+  for (const CellId c : ids<CellId>(problem.space.velocity.num_cells())) {
+    const auto nodes = problem.space.velocity.of(c);
+    const auto edge = [&](std::size_t k) -> Vec3 {
+      return problem.positions.x[NodeId{nodes[k]}] - problem.positions.x[NodeId{nodes[0]}];
+    };
+    const double volume = std::abs(edge(1).cross(edge(2)).dot(edge(3))) / 6.0;
+    const double mu = problem.viscosity[c], scale = mu * std::cbrt(volume);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      stiffness[NodeId{nodes[i]}] += (i < 4 ? kCorner : kMiddle) * scale;
+    for (const std::int32_t k : problem.space.pressure.nodes.of(c))
+      mass[static_cast<std::size_t>(k)] += 0.25 * volume / mu;
+  }
   const OwnedCounts owned = owned_counts(problem);
+  std::vector<double> weights;
+  weights.reserve(3 * static_cast<std::size_t>(owned.num_nodes) +
+                  static_cast<std::size_t>(owned.num_pressures));
+  for (const NodeId i : ids<NodeId>(owned.num_nodes))
+    weights.insert(weights.end(), 3, 1.0 / std::sqrt(stiffness[i]));
+  for (std::size_t k = 0; k < static_cast<std::size_t>(owned.num_pressures); ++k)
+    weights.push_back(1.0 / std::sqrt(mass[k]));
+  return weights;
+}
+
+double free_norm(const StokesResidual& residual, const StokesProblem& problem,
+                 std::span<const double> weights) {
+  const OwnedCounts owned = owned_counts(problem);
+  const auto weight = [&](std::size_t row) { return weights.empty() ? 1.0 : weights[row]; };
   double squared = 0.0;
+  std::size_t row = 0;
   for (const NodeId i : ids<NodeId>(owned.num_nodes)) {
-    const Vec3& r = residual.momentum[i];
+    const Vec3 r = weight(row) * residual.momentum[i];
     const NodeConstraint* constraint = problem.constraints.find(i);
     squared +=
         constraint == nullptr ? r.squaredNorm() : (r - constraint->fixed_part(r)).squaredNorm();
+    row += 3;
   }
-  for (const double r : std::span(residual.continuity).first(std::size_t(owned.num_pressures)))
+  for (const double of : std::span(residual.continuity).first(std::size_t(owned.num_pressures))) {
+    const double r = weight(row++) * of;
     squared += r * r;
+  }
   const double norm = std::sqrt(squared);
   return problem.partition == nullptr ? norm : linear::norm(problem.partition->communicator, norm);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "meniscus/flow/fem/stokes_product.hpp"
@@ -22,9 +23,18 @@ struct StokesResidual {
 [[nodiscard]] StokesResidual residual_near_rest(const StokesProblem& problem,
                                                 const StokesState& state,
                                                 const StokesProduct* product);
-/// Euclidean norm of what a solution must make zero: the residual without its fixed components. The
-/// norm is the global one; collective on the ranks of a partitioned problem.
-[[nodiscard]] double free_norm(const StokesResidual& residual, const StokesProblem& problem);
+/// What the owned entries of a residual count, three for each node and then one for each pressure:
+/// d^(−½), d a measure of the diagonal of ∫2μ D:D and of the lumped ∫ψψ/μ. The weighted norm is
+/// that of the error's energy, up to factors of the order of one. In the plain norm the force on a
+/// node counts in proportion to its cells' size. Large cells far from the drops then hide errors
+/// beside them, above all in the divergence. For problems without inertia that have a product; else
+/// empty.
+[[nodiscard]] std::vector<double> residual_weights(const StokesProblem& problem);
+/// Norm of what a solution must make zero: the residual without its fixed components, by weights or
+/// all alike where there are none. The norm is the global one; collective on the ranks of a
+/// partitioned problem.
+[[nodiscard]] double free_norm(const StokesResidual& residual, const StokesProblem& problem,
+                               std::span<const double> weights = {});
 
 /// The terms of the energy balance of a solution [μ_out G² R0³]. Up to the solver's residual and
 /// the implicit part of tension, reaction + body_force + force = dissipation + kinetic_rate.

@@ -117,6 +117,7 @@ void StokesSolver::examine(const StokesProblem& global, linear::Preconditioner p
 void StokesSolver::use_product(const StokesProblem& problem) {
   product_.reset();
   if (has_product(problem)) product_.emplace(problem);
+  weights_ = residual_weights(problem);
 }
 
 /// The system that a linear solver takes: its products where it can do with them, else matrices.
@@ -131,6 +132,7 @@ linear::SaddleSystem StokesSolver::assembled_system(const StokesProblem& problem
     linear::SaddleSystem system = jacobian->system();
     system.slow_velocities = slow_modes_->velocities.view();
     system.slow_pressures = slow_modes_->pressures.view();
+    system.residual_weights = weights_;
     return system;
   };
   if (product_ && (which == LinearSolver::block || which == LinearSolver::minres))
@@ -162,7 +164,7 @@ StokesReport StokesSolver::solve_local(const StokesProblem& problem, StokesState
   {
     const PhaseTimer timer(times, "assemble");
     use_product(problem);
-    reference = reference_residual(problem, product());
+    reference = reference_residual(problem, product(), weights_);
   }
   StokesReport report;
   report.reference = reference;
@@ -228,9 +230,9 @@ StokesReport StokesSolver::project_local(const StokesProblem& problem, StokesSta
   {
     const PhaseTimer timer(times, "assemble");
     use_product(problem);
-    report.reference = reference_residual(problem, product());
+    report.reference = reference_residual(problem, product(), weights_);
     now = divergence(problem, state, product());
-    report.residual = free_norm(now, problem);
+    report.residual = free_norm(now, problem, weights_);
     if (report.residual <= options_.rtol * report.reference) return report;
     system = assembled_system(problem, options_.linear, preconditioner, nullptr);
   }
@@ -265,7 +267,7 @@ StokesReport StokesSolver::solve_with(LinearSolver which, const StokesProblem& p
   for (; report.newton_steps <= most_steps; ++report.newton_steps) {
     if (product_) product_->convect(numbers(state.v));
     const StokesResidual now = residual(problem, state, product());
-    report.residual = free_norm(now, problem);
+    report.residual = free_norm(now, problem, weights_);
     // 2: the residual that a Krylov method updates and the true one differ by roundoff. A first
     // guess has no such excuse.
     if (report.residual <= (report.newton_steps == 0 ? 1.0 : 2.0) * target) {

@@ -106,6 +106,7 @@ class StokesSolver {
   Field<RegionId, double> shares_;              ///< of the problem, as below (region_pressures.hpp)
   std::optional<SlowModes> slow_modes_;   ///< this rank's, since a fresh preconditioner last asked
   std::optional<StokesProduct> product_;  ///< of the problem that is being solved, if it has one
+  std::vector<double> weights_;           ///< of its residual (`residual_weights`)
   std::optional<StokesJacobian> jacobian_;  ///< made when a solver first takes matrices
   std::optional<ProductJacobian> product_jacobian_;
   std::map<LinearSolver, linear::SaddleSolver> linear_solvers_;

@@ -1,5 +1,6 @@
 #include "meniscus/flow/fem/laplacian_matrix.hpp"
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "meniscus/flow/fem/elements.hpp"
+#include "meniscus/flow/fem/stokes_residual.hpp"
 #include "tests/flow/fem/stage_from_rest.hpp"
 
 namespace meniscus::fem {
@@ -52,6 +54,33 @@ TEST_F(LaplacianOfDrop, IsExactOnLinearFunctions) {
   for (int k = 0; k < 3; ++k)
     EXPECT_NEAR(energy(problem, [k](const Vec3& x) { return 3.0 + x[k]; }), wanted,
                 kRounding * wanted);
+}
+
+// Residuals are weighed by what is near the diagonals: that of the Laplacian, and ∫ψ/μ, which sums
+// to V/μ.
+TEST_F(LaplacianOfDrop, HasTheDiagonalThatResidualsAreWeighedBy) {
+  StokesProblem problem = stage_.problem({7.0}, std::numeric_limits<double>::infinity());
+  problem.inertia.reset();
+  const std::int32_t num_nodes = problem.space.velocity.num_nodes;
+  LaplacianMatrix matrix(problem.space, num_nodes);
+  matrix.assemble(problem, StokesProduct(problem));
+  const std::vector<double> diagonal = matrix.diagonal(), weights = residual_weights(problem);
+  ASSERT_EQ(weights.size(), 3 * diagonal.size() + problem.space.pressure.vertex.size());
+  double log_sum = 0.0;
+  for (std::size_t i = 0; i < diagonal.size(); ++i) {
+    EXPECT_EQ(weights[3 * i], weights[3 * i + 2]);
+    const double ratio = weights[3 * i] * weights[3 * i] * diagonal[i];
+    EXPECT_GT(ratio, 0.25);
+    EXPECT_LT(ratio, 4.0);
+    log_sum += std::log(ratio);
+  }
+  EXPECT_NEAR(log_sum / num_nodes, 0.0, 0.3);
+  double mass = 0.0, wanted = 0.0;
+  for (std::size_t i = 3 * diagonal.size(); i < weights.size(); ++i)
+    mass += 1.0 / (weights[i] * weights[i]);
+  for (const CellId c : problem.mesh.cells.ids())
+    wanted += signed_volume(problem.mesh, c) / problem.viscosity[c];
+  EXPECT_NEAR(mass, wanted, 1e-12 * wanted);
 }
 
 // A constant has the mass of the liquids over the stage's length, and no tension.
