@@ -104,11 +104,14 @@ void read_motion_normal(Settings& settings, EvolutionOptions& options) {
 
 /// Elements leave a small part of the error that a step may make. What is carried keeps what is
 /// left from step to step: with 3e-6 slow modes of a drop with surfactant decay 1.1 % too slowly.
-double read_elements_residual(Settings& settings, bool carries_something) {
+double read_elements_residual(Settings& settings, fem::Elements elements, bool carries_something) {
   double suited = fem::Options{}.rtol;
-  if (!carries_something && read_control(settings) == StepControl::error)
-    suited = std::clamp(kResidualOverTolerance * settings.number("time.tolerance"), kLeastResidual,
-                        kMostResidual);
+  if (!carries_something && read_control(settings) == StepControl::error) {
+    const ResidualLaw& law =
+        elements == fem::Elements::p2_p1 ? kResidualOfQuadratic : kResidualOfLinear;
+    suited =
+        std::clamp(law.over_tolerance * settings.number("time.tolerance"), law.least, law.most);
+  }
   return settings.number_or("solver.rtol", suited);
 }
 
@@ -161,7 +164,7 @@ fem::Options read_finite_elements(Settings& settings, bool carries_something) {
   const auto suited = needs_linear ? fem::Elements::p1_p1 : fem::Elements::p2_p1;
   settings.prefer("solver.elements", std::string(words::word_for(words::elements, suited)));
   options.elements = settings.choice("solver.elements", words::elements);
-  options.rtol = read_elements_residual(settings, carries_something);
+  options.rtol = read_elements_residual(settings, options.elements, carries_something);
   options.max_iterations = settings.whole("solver.max-iterations");
   options.petsc_options = read_petsc_options(settings);
   return options;

@@ -108,7 +108,8 @@ const std::vector<Key> kRunKeys{
     {.path = "solver.rtol",
      .range = {.min = 0.0, .max = 0.1, .open_min = true},
      .default_note = "1e-6; with elements and control = \"error\", without inertia, "
-                     "surfactant and scalars, tolerance/15000 within [2e-7, 2e-6]",
+                     "surfactant and scalars, tolerance/15000 within [2e-7, 2e-6] (P2-P1), "
+                     "tolerance/10000 within [1e-6, 3e-6] (P1-P1)",
      .sentence = "Relative residual; 1e-6 leaves 2.5e-5 in the rate of deformation."},
     {.path = "solver.max-iterations",
      .type = whole,

@@ -53,8 +53,9 @@ class SaddleSolver {
   ~SaddleSolver();
 
   /// Solves for `solution`, starting from zero, until the residual is `rtol` times its first value
-  /// (Euclidean norm; with MINRES the preconditioner's norm). `kept` reuses the preconditioner of
-  /// an earlier system with the same sparsity, if there is one. Collective.
+  /// (Euclidean norm, by the system's weights if it has some; with MINRES the preconditioner's
+  /// norm). `kept` reuses the preconditioner of an earlier system with the same sparsity, if there
+  /// is one. Collective.
   LinearReport solve(const SaddleSystem& system, std::span<const double> right_hand_side,
                      std::span<double> solution, double rtol,
                      Preconditioner preconditioner = Preconditioner::fresh);

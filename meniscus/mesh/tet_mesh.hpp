@@ -44,6 +44,10 @@ struct TetMesh {
   [[nodiscard]] std::int32_t num_cells() const { return cells.size(); }
 };
 
+/// The first of the vertices between the surfaces.
+[[nodiscard]] inline TetVertexId first_free_vertex(const TetMesh& mesh) {
+  return {mesh.boundary.first_vertex.value + mesh.boundary.num_vertices};
+}
 [[nodiscard]] double signed_volume(const TetMesh& mesh, CellId c);
 [[nodiscard]] double shortest_edge(const TetMesh& mesh);
 

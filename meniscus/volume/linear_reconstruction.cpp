@@ -5,19 +5,11 @@
 #include <Eigen/QR>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/volume/cells_around.hpp"
 #include "meniscus/volume/facets.hpp"
 
 namespace meniscus {
 namespace {
-
-using VertexCells = Field<TetVertexId, std::vector<CellId>>;
-
-VertexCells cells_at_vertices(const TetMesh& mesh) {
-  VertexCells cells(mesh.num_vertices());
-  for (const CellId c : mesh.cells.ids())
-    for (const TetVertexId v : mesh.cells[c]) cells[v].push_back(c);
-  return cells;
-}
 
 /// Vertices of facets that have another group, or nothing, on their other side.
 Field<TetVertexId, char> boundary_vertices(const TetMesh& mesh,
@@ -61,7 +53,7 @@ double limiter(double mean, double slope, const ValueRange& range) {
 CellStencils::CellStencils(const TetMesh& mesh, const CellField<std::int32_t>& group)
     : is_at_boundary_(mesh.num_cells(), 0) {
   MENISCUS_ASSERT(group.size() == mesh.num_cells(), "{} {}", group.size(), mesh.num_cells());
-  const VertexCells cells = cells_at_vertices(mesh);
+  const CellsAround cells(mesh.num_vertices(), mesh.cells);
   const Field<TetVertexId, char> at_boundary = boundary_vertices(mesh, group);
   first_.push_back(0);
   std::vector<CellId> around;
@@ -72,7 +64,7 @@ CellStencils::CellStencils(const TetMesh& mesh, const CellField<std::int32_t>& g
     for (const TetVertexId v : corners) {
       sum += mesh.x[v];
       if (at_boundary[v]) is_at_boundary_[c] = 1;
-      for (const CellId j : cells[v])
+      for (const CellId j : cells.of(v))
         if (j != c && group[j] == group[c]) around.push_back(j);
     }
     centroid_.add(0.25 * sum);

@@ -22,10 +22,6 @@ Field<TetVertexId, Vec3> surface_motion(const TetMesh& mesh,
   return w;
 }
 
-TetVertexId first_free_vertex(const TetMesh& mesh) {
-  return {mesh.boundary.first_vertex.value + mesh.boundary.num_vertices};
-}
-
 }  // namespace
 
 const std::vector<Spine>& VolumeMover::spines_of(const Scene& scene, const TetMesh& mesh) {

@@ -15,7 +15,7 @@ namespace meniscus {
 namespace {
 
 constexpr int kSweeps = 3;
-/// Vertices whose cells all count as better than this stay.
+/// Vertices whose cells all count as this or better stay. Those beside interfaces never do.
 constexpr double kGood = 0.5;
 /// What the mean ratio counts of cells on a face of an interface.
 constexpr double kOnInterface = 0.5;
@@ -123,9 +123,8 @@ Vec3 improved(const Star& star, Vec3 x) {
 void smooth_cells(TetMesh& mesh) {
   const CellField<char> are_on = cells_on_interfaces(mesh);
   Star star(mesh, are_on);
-  const std::int32_t first_free = mesh.boundary.first_vertex.value + mesh.boundary.num_vertices;
   for (int sweep = 0; sweep < kSweeps; ++sweep)
-    for (TetVertexId v{first_free}; v.value < mesh.num_vertices(); ++v.value) {
+    for (TetVertexId v = first_free_vertex(mesh); v.value < mesh.num_vertices(); ++v.value) {
       star.look_from(v);
       mesh.x[v] = improved(star, mesh.x[v]);
     }

@@ -22,8 +22,8 @@ struct VolumeMeshOptions {
   /// edge. 2 gives a drop in a sphere about the number of nodes of hooper2001, table 1
   /// (docs/volume-mesh.md).
   double cell_volume = 2.0;
-  /// Whether the faces of interfaces will be curved. Then vertices move to where cells are well
-  /// shaped and none that stands on such a face is flat (`smooth_cells`).
+  /// Whether the faces of interfaces will be curved. Then vertices between the surfaces move for
+  /// the shape of cells, above all of those on such faces (`smooth_cells`).
   bool curves_interfaces = false;
   void validate() const;
 };

@@ -16,7 +16,7 @@ constexpr double kApart = 0.8;
 /// The edge wanted at each vertex between the surfaces, 0 at those near or on a surface. Found by
 /// all ranks together.
 Field<TetVertexId, double> sizes_off_surfaces(const TetMesh& mesh, const SizeLaw& law) {
-  const std::int32_t first_free = mesh.boundary.first_vertex.value + mesh.boundary.num_vertices;
+  const std::int32_t first_free = first_free_vertex(mesh).value;
   const auto count = static_cast<std::size_t>(mesh.num_vertices() - first_free);
   const std::vector<double> found = linear::shared_numbers(
       linear::Communicator::world(), count, 1, [&](std::size_t first, std::size_t end) {

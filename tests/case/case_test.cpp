@@ -130,8 +130,10 @@ TEST(Case, ElementsLeaveAPartOfTheErrorOfAStep) {
   const auto rtol = [](const std::string& tables) { return shear_case(tables).flow_solver.rtol; };
   EXPECT_DOUBLE_EQ(rtol(""), 2e-6);
   EXPECT_DOUBLE_EQ(rtol("[time]\ntolerance = 0.02\n"), 0.02 / 15000.0);
-  EXPECT_DOUBLE_EQ(rtol("[time]\ntolerance = 0.003\n"), 2e-7);
+  EXPECT_DOUBLE_EQ(rtol("[time]\ntolerance = 0.001\n"), 2e-7);
   EXPECT_DOUBLE_EQ(rtol("[time]\ntolerance = 0.3\n"), 2e-6);
+  EXPECT_DOUBLE_EQ(rtol("[solver]\nelements = \"P1-P1\"\n"), 3e-6);
+  EXPECT_DOUBLE_EQ(rtol("[time]\ntolerance = 0.003\n[solver]\nelements = \"P1-P1\"\n"), 1e-6);
   EXPECT_DOUBLE_EQ(rtol("[time]\ncontrol = \"paper\"\n"), 1e-6);
   EXPECT_DOUBLE_EQ(rtol("[drop.surfactant]\nelasticity = 0.2\n"), 1e-6);
   EXPECT_DOUBLE_EQ(inertial_drop(100.0).flow_solver.rtol, 1e-6);

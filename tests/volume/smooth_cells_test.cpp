@@ -26,7 +26,7 @@ double mean_ratio(const TetMesh& mesh, CellId c) {
 
 /// The least mean ratio of the cells on faces of interfaces that have a vertex off the surfaces.
 double worst_beside_interfaces(const TetMesh& mesh) {
-  const std::int32_t first_free = mesh.boundary.first_vertex.value + mesh.boundary.num_vertices;
+  const std::int32_t first_free = first_free_vertex(mesh).value;
   double worst = std::numeric_limits<double>::infinity();
   for (const EmbeddedSurface& interface : mesh.interfaces)
     for (const auto& sides : interface.sides)
@@ -48,8 +48,7 @@ TEST(SmoothCells, RaisesFlatCellsOnInterfacesAndMovesNoSurface) {
     smooth_cells(mesh);
     EXPECT_EQ(text_of(find_defect(mesh, scene)), "");
     EXPECT_EQ(mesh.cells.span().size(), before.cells.span().size());
-    for (std::int32_t v = 0; v < before.boundary.first_vertex.value + before.boundary.num_vertices;
-         ++v)
+    for (std::int32_t v = 0; v < first_free_vertex(before).value; ++v)
       EXPECT_EQ(mesh.x[TetVertexId{v}], before.x[TetVertexId{v}]);
     EXPECT_GT(worst_beside_interfaces(mesh), worst_beside_interfaces(before));
     EXPECT_GT(worst_beside_interfaces(mesh), 0.3);
@@ -58,6 +57,17 @@ TEST(SmoothCells, RaisesFlatCellsOnInterfacesAndMovesNoSurface) {
     angles_before += smallest_dihedral_deg(before);
   }
   EXPECT_GT(angles, angles_before);
+}
+
+TEST(SmoothCells, IsPartOfMeshesForCurvedInterfaces) {
+  const Scene scene = test::drop_in_sphere(110, 6.0, 90);
+  VolumeMeshOptions options{.grading = Grading::gaussian};
+  TetMesh plain, smoothed;
+  ASSERT_TRUE(tetrahedralize(scene, options, plain).ok());
+  options.curves_interfaces = true;
+  ASSERT_TRUE(tetrahedralize(scene, options, smoothed).ok());
+  smooth_cells(plain);
+  EXPECT_TRUE(std::ranges::equal(plain.x.span(), smoothed.x.span()));
 }
 
 TEST(SmoothCells, StopsWhereAllCellsAreGood) {

@@ -198,8 +198,8 @@ StokesResidual residual_near_rest(const StokesProblem& problem, const StokesStat
 
 std::vector<double> residual_weights(const StokesProblem& problem) {
   if (!has_product(problem) || problem.inertia) return {};
-  // Of regular cells, whose edges are (6√2 V)^⅓ long: what a cell adds to the diagonal of ∫μ∇φ·∇φ
-  // at corners and at middles of edges, over μ V^⅓.
+  // About what a regular cell adds to the diagonal of ∫μ∇φ·∇φ, over μ V^⅓: at corners and at
+  // middles of edges.
   constexpr double kCorner = 0.22, kMiddle = 0.97;
   Field<NodeId, double> stiffness(problem.space.velocity.num_nodes, 0.0);
   std::vector<double> mass(problem.space.pressure.vertex.size(), 0.0);

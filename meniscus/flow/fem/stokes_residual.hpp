@@ -23,12 +23,12 @@ struct StokesResidual {
 [[nodiscard]] StokesResidual residual_near_rest(const StokesProblem& problem,
                                                 const StokesState& state,
                                                 const StokesProduct* product);
-/// What the owned entries of a residual count, three for each node and then one for each pressure:
-/// d^(−½), d a measure of the diagonal of ∫2μ D:D and of the lumped ∫ψψ/μ. The weighted norm is
-/// that of the error's energy, up to factors of the order of one. In the plain norm the force on a
-/// node counts in proportion to its cells' size. Large cells far from the drops then hide errors
-/// beside them, above all in the divergence. For problems without inertia that have a product; else
-/// empty.
+/// What the owned entries of a residual count: three for each node, then one for each pressure.
+/// They are d^(−½), d near the diagonals of ∫2μ D:D and of the lumped ∫ψψ/μ. In the plain norm the
+/// force on a node counts in proportion to its cells' size. Large cells far from the drops then
+/// hide errors beside them, above all in the divergence. The weighted norm is at most of the order
+/// of the error's energy; errors that are smooth count less. For problems without inertia that have
+/// a product; else empty.
 [[nodiscard]] std::vector<double> residual_weights(const StokesProblem& problem);
 /// Norm of what a solution must make zero: the residual without its fixed components, by weights or
 /// all alike where there are none. The norm is the global one; collective on the ranks of a

@@ -55,7 +55,8 @@ class StokesSolver {
   /// Makes and keeps the preconditioner that a fresh solve of this problem would make.
   void prepare(const StokesProblem& problem);
 
-  /// Improves `state` until the residual is below rtol times the reference. That is the residual of
+  /// Improves `state` until the residual is below rtol times the reference, in the norm of
+  /// `free_norm` by `residual_weights`. That is the residual of
   /// the state which rests wherever it may. It is 50 times that of the problem's undisturbed flow,
   /// if it has one and that is less. Where the chosen linear solver fails it is tried again with a
   /// fresh preconditioner, if it had a kept one. Then come the others in the order block, minres,

@@ -49,6 +49,20 @@ TEST_P(EitherElement, AllLinearSolversAgree) {
   }
 }
 
+// The Krylov method's own residuals are those that the solver judges by, weighted or not.
+TEST_P(EitherElement, TheKrylovMethodMeasuresAsTheSolverDoes) {
+  const ShearedDrop drop(GetParam());
+  const StokesProblem problem = drop.problem();
+  EXPECT_EQ(residual_weights(problem).empty(), GetParam() == Elements::p1_p1);
+  StokesSolver solver(drop.space, with(drop.space.elements, {}));
+  StokesState state = solver.state_at_rest();
+  const StokesReport report = solve(problem, solver, state);
+  ASSERT_TRUE(report.ok()) << report.text();
+  EXPECT_EQ(report.solver, LinearSolver::block);
+  EXPECT_EQ(report.newton_steps, 1);
+  EXPECT_NEAR(report.linear_residuals.back(), report.residual, 0.01 * report.residual);
+}
+
 // reaction + body force + loads = dissipation, exactly but for the solver's residual; and the
 // capillary load's power is minus the growth of the surface energy.
 TEST_P(EitherElement, EnergyIsBalancedToTheSolversTolerance) {
