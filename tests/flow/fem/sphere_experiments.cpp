@@ -194,8 +194,17 @@ double exact_drag(double lambda, double b) {
 }
 
 double order_in_h(const std::vector<int>& num_vertices, const std::vector<double>& errors) {
-  return 2.0 * std::log(std::abs(errors.front() / errors.back())) /
-         std::log(static_cast<double>(num_vertices.back()) / num_vertices.front());
+  const auto n = static_cast<double>(errors.size());
+  double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    const double log_h = -0.5 * std::log(num_vertices[k]),
+                 log_error = std::log(std::abs(errors[k]));
+    x += log_h / n;
+    y += log_error / n;
+    xx += log_h * log_h / n;
+    xy += log_h * log_error / n;
+  }
+  return (xy - x * y) / (xx - x * x);
 }
 
 }  // namespace meniscus::fem

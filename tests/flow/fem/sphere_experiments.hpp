@@ -59,7 +59,8 @@ struct StaticSphere {
 /// Drag over μRU at the centre of a container of radius b, in closed form.
 [[nodiscard]] double exact_drag(double lambda, double b);
 
-/// Order of the error against N0^(1/2) ~ 1/h from the first to the last of a series.
+/// Order of the error in h ~ N0^(−1/2): the slope of the line through log |error| over log h, by
+/// least squares.
 [[nodiscard]] double order_in_h(const std::vector<int>& num_vertices,
                                 const std::vector<double>& errors);
 
