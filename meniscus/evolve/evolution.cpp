@@ -548,9 +548,9 @@ Evolution::Rows Evolution::rows() const {
   const auto faces = reconstructed_interfaces(state_.scene, options_.surface, *state_.surfaces);
   InterfaceTotals totals;
   Rows rows;
-  // The larger piece is that of the first rank.
+  // The two take about the same time. The first is left on the first rank, which writes its rows.
   linear::share_work(
-      linear::Communicator::of(options_.processes), std::array{2.0, 1.0},
+      linear::Communicator::of(options_.processes), std::array{1.0, 1.0},
       [&](std::size_t k, Archive& archive) {
         if (k == 0) {
           rows.drops = moving_drop_rows(faces, scalars);
