@@ -78,7 +78,7 @@ HistoryRow Simulation::record_state(const RowObserver& show) {
     write_checkpoint();
   is_begun_ = true;
   solve();
-  const Evolution::Rows rows = evolution_.rows();  // whole on rank 0
+  const Rows rows = evolution_.rows();  // whole on rank 0
   const std::string volume_frame = begin_volume_frame();
   on_first_and_last_rank(
       [&] {
@@ -164,7 +164,7 @@ std::string Simulation::begin_volume_frame() {
   return text_of_first_rank(std::move(file));
 }
 
-void Simulation::judge(const Evolution::Rows& rows) {
+void Simulation::judge(const Rows& rows) {
   if (judge_)
     end_ = judge_->judge(rows.history.t, rows.drops, evolution_.events(), evolution_.scene(),
                          {evolution_.step_length(), evolution_.motion()});
@@ -186,8 +186,7 @@ void Simulation::write_volume_frame(const std::string& file) {
 }
 
 /// Lists the frames and adds the rows, when the frames are complete.
-void Simulation::record(const Evolution::Rows& rows, bool has_volume_frame,
-                        const RowObserver& show) {
+void Simulation::record(const Rows& rows, bool has_volume_frame, const RowObserver& show) {
   const auto& [history, drops] = rows;
   const double t = evolution_.t();
   const bool is_last = end_.has_value(), has_mesh = evolution_.state().mesh.has_value();

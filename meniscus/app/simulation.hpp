@@ -74,10 +74,10 @@ class Simulation {
   void keep_state();
   void solve();
   [[nodiscard]] std::string begin_volume_frame();
-  void judge(const Evolution::Rows& rows);
+  void judge(const Rows& rows);
   void write_surface_frame();
   void write_volume_frame(const std::string& file);
-  void record(const Evolution::Rows& rows, bool has_volume_frame, const RowObserver& show);
+  void record(const Rows& rows, bool has_volume_frame, const RowObserver& show);
   [[nodiscard]] double seconds_in(const std::string& phase) const;
 
   Evolution evolution_;

@@ -1,7 +1,6 @@
 #include "meniscus/evolve/evolution.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 
@@ -20,43 +19,12 @@
 #include "meniscus/evolve/volume_restoration.hpp"
 #include "meniscus/linear/shared_work.hpp"
 #include "meniscus/mesh/surface_check.hpp"
-#include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/scene/interface_tension.hpp"
 #include "meniscus/surface/carry_fields.hpp"
 #include "meniscus/volume/tetrahedralize.hpp"
 
 namespace meniscus {
 namespace {
-
-/// The mean velocity that moves the interfaces of `start` to those of `end` within dt.
-InterfaceMotion mean_motion(const Scene& start, const Scene& end, double dt) {
-  InterfaceMotion motion;
-  for (std::size_t i = 0; i < start.interfaces.size(); ++i) {
-    const VertexField<Vec3>&x0 = start.interfaces[i].mesh.x, &x1 = end.interfaces[i].mesh.x;
-    MENISCUS_ASSERT(x0.size() == x1.size(), "interface {} had {} vertices, has {}", i, x0.size(),
-                    x1.size());
-    VertexField<Vec3>& w = motion.emplace_back(x0.size());
-    for (const VertexId v : w.ids()) w[v] = (x1[v] - x0[v]) / dt;
-  }
-  return motion;
-}
-
-/// A fault if the motion changed a drop's volume beyond bounds: the flow was not solved. Remeshing
-/// or mending would hide it.
-std::optional<Fault> find_wild_motion(const Scene& start, const Scene& end) {
-  for (std::size_t i = 0; i < end.interfaces.size(); ++i) {
-    const Interface& interface = end.interfaces[i];
-    if (!is_finite(interface.mesh))
-      return Fault{FaultKind::not_finite, "an interface vertex left all bounds"};
-    const double ratio =
-        enclosed_volume(interface.mesh) / enclosed_volume(start.interfaces[i].mesh);
-    if (!(ratio > kLeastVolumeKept && ratio < kMostVolumeKept))
-      return Fault{
-          FaultKind::wrong_volume,
-          fmt::format("the step takes drop {} to {:.3g} times its volume", interface.drop, ratio)};
-  }
-  return {};
-}
 
 RegionSources liquid_sources(std::span<const TopologyEvent> events) {
   RegionSources sources;
@@ -542,60 +510,24 @@ void Evolution::give_notice(Notice notice) {
   notices_.push_back(std::move(notice));
 }
 
-Evolution::Rows Evolution::rows() const {
-  const std::vector<ScalarMeasures> scalars = scalar_measures();
+/// What `make` makes of the measures of the state.
+template <class Make>
+auto Evolution::measured(const Make& make) const {
+  std::vector<ScalarMeasures> scalars = scalar_measures();
   const PhaseTimer timer(times_, "diagnostics");
-  const auto faces = reconstructed_interfaces(state_.scene, options_.surface, *state_.surfaces);
-  InterfaceTotals totals;
-  Rows rows;
-  // The two take about the same time. The first is left on the first rank, which writes its rows.
-  linear::share_work(
-      linear::Communicator::of(options_.processes), std::array{1.0, 1.0},
-      [&](std::size_t k, Archive& archive) {
-        if (k == 0) {
-          rows.drops = moving_drop_rows(faces, scalars);
-        } else {
-          totals = interface_totals(state_, first_.flow, first_.motion, faces);
-          meniscus::save(totals, archive);
-        }
-      },
-      [&](std::size_t k, const Archive& archive) {
-        if (k == 1) totals = load_interface_totals(archive);
-      });
-  rows.history = history_row(state_, first_.flow, totals);
-  rows.history.scalars = scalar_totals(scalars, state_.scalars);
-  return rows;
+  return make(RowMaker(state_, options_, std::move(scalars), carriers_));
+}
+
+Rows Evolution::rows() const {
+  return measured([&](const RowMaker& maker) { return maker.rows(first_.flow, first_.motion); });
 }
 
 std::vector<DropRow> Evolution::moving_drop_rows() const {
-  const std::vector<ScalarMeasures> scalars = scalar_measures();
-  const PhaseTimer timer(times_, "diagnostics");
-  return moving_drop_rows(
-      reconstructed_interfaces(state_.scene, options_.surface, *state_.surfaces), scalars);
-}
-
-std::vector<DropRow> Evolution::moving_drop_rows(const InterfaceSurfaces& faces,
-                                                 std::span<const ScalarMeasures> scalars) const {
-  std::vector<DropRow> rows = drop_rows(faces, scalars);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    rows[i].motion = drop_motion(state_.scene, state_.t, i, rows[i].shape, first_.flow);
-  return rows;
+  return measured([&](const RowMaker& maker) { return maker.moving_drop_rows(first_.flow); });
 }
 
 std::vector<DropRow> Evolution::drop_rows() const {
-  const std::vector<ScalarMeasures> scalars = scalar_measures();
-  const PhaseTimer timer(times_, "diagnostics");
-  return drop_rows(reconstructed_interfaces(state_.scene, options_.surface, *state_.surfaces),
-                   scalars);
-}
-
-std::vector<DropRow> Evolution::drop_rows(const InterfaceSurfaces& faces,
-                                          std::span<const ScalarMeasures> scalars) const {
-  std::vector<DropRow> rows =
-      meniscus::drop_rows(state_, faces, options_.topology.breakup_radius, carriers_);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    rows[i].scalars = scalars_on_drop(state_.scene, i, scalars);
-  return rows;
+  return measured([](const RowMaker& maker) { return maker.drop_rows(); });
 }
 
 std::vector<ScalarMeasures> Evolution::scalar_measures() const {

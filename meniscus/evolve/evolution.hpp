@@ -8,9 +8,9 @@
 
 #include "meniscus/core/fault.hpp"
 #include "meniscus/evolve/interface_motion.hpp"
-#include "meniscus/evolve/measures.hpp"
 #include "meniscus/evolve/notices.hpp"
 #include "meniscus/evolve/options.hpp"
+#include "meniscus/evolve/rows.hpp"
 #include "meniscus/evolve/scalar_motion.hpp"
 #include "meniscus/evolve/state.hpp"
 #include "meniscus/evolve/step_control.hpp"
@@ -62,10 +62,6 @@ class Evolution {
 
   /// The rows of history.csv and drops.csv after the last solve. The processes of the options share
   /// the measures; the first of them alone has the drops. Collective.
-  struct Rows {
-    HistoryRow history;
-    std::vector<DropRow> drops;
-  };
   [[nodiscard]] Rows rows() const;
   /// The drops of `rows`, on any process.
   [[nodiscard]] std::vector<DropRow> moving_drop_rows() const;
@@ -119,10 +115,8 @@ class Evolution {
   Report judge_volume_shift(double dt);
   FlowSolution solve_flow(const Instant& instant, const ImplicitStage* implicit = nullptr);
   [[nodiscard]] std::vector<ScalarMeasures> scalar_measures() const;
-  [[nodiscard]] std::vector<DropRow> drop_rows(const InterfaceSurfaces& faces,
-                                               std::span<const ScalarMeasures> scalars) const;
-  [[nodiscard]] std::vector<DropRow> moving_drop_rows(
-      const InterfaceSurfaces& faces, std::span<const ScalarMeasures> scalars) const;
+  template <class Make>
+  auto measured(const Make& make) const;
   void give_notice(Notice notice);
   template <class What>
   void give_notice(What what) {

@@ -1,6 +1,9 @@
 #include "meniscus/evolve/interface_motion.hpp"
 
+#include <fmt/format.h>
+
 #include "meniscus/core/error.hpp"
+#include "meniscus/evolve/constants.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/surface/curvature.hpp"
 #include "meniscus/surface/reconstructed_surface.hpp"
@@ -91,6 +94,33 @@ double surface_energy_rate(const Scene& scene, const InterfaceMotion& motion) {
             ReconstructedSurface(interface.mesh, SurfaceShape::faceted).area_rate(motion[i]);
   }
   return rate;
+}
+
+InterfaceMotion mean_motion(const Scene& start, const Scene& end, double dt) {
+  InterfaceMotion motion;
+  for (std::size_t i = 0; i < start.interfaces.size(); ++i) {
+    const VertexField<Vec3>&x0 = start.interfaces[i].mesh.x, &x1 = end.interfaces[i].mesh.x;
+    MENISCUS_ASSERT(x0.size() == x1.size(), "interface {} had {} vertices, has {}", i, x0.size(),
+                    x1.size());
+    VertexField<Vec3>& w = motion.emplace_back(x0.size());
+    for (const VertexId v : w.ids()) w[v] = (x1[v] - x0[v]) / dt;
+  }
+  return motion;
+}
+
+std::optional<Fault> find_wild_motion(const Scene& start, const Scene& end) {
+  for (std::size_t i = 0; i < end.interfaces.size(); ++i) {
+    const Interface& interface = end.interfaces[i];
+    if (!is_finite(interface.mesh))
+      return Fault{FaultKind::not_finite, "an interface vertex left all bounds"};
+    const double ratio =
+        enclosed_volume(interface.mesh) / enclosed_volume(start.interfaces[i].mesh);
+    if (!(ratio > kLeastVolumeKept && ratio < kMostVolumeKept))
+      return Fault{
+          FaultKind::wrong_volume,
+          fmt::format("the step takes drop {} to {:.3g} times its volume", interface.drop, ratio)};
+  }
+  return {};
 }
 
 }  // namespace meniscus

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,13 @@ using NormalSpeeds = std::vector<VertexField<double>>;
 
 /// x ← x + dt ẋ on every interface.
 void move_interfaces(Scene& scene, const InterfaceMotion& motion, double dt);
+
+/// The mean velocity that moves the interfaces of `start` to those of `end` within dt.
+[[nodiscard]] InterfaceMotion mean_motion(const Scene& start, const Scene& end, double dt);
+
+/// A fault if the motion changed a drop's volume beyond bounds: the flow was not solved. Remeshing
+/// or mending would hide it.
+[[nodiscard]] std::optional<Fault> find_wild_motion(const Scene& start, const Scene& end);
 
 /// The centroid of all liquid that is not matrix [R0].
 [[nodiscard]] Vec3 centroid_of_drops(const Scene& scene);

@@ -338,7 +338,7 @@ condition = "value"
 end = 1.0
 )");
   run(evolution);
-  const Evolution::Rows rows = evolution.rows();
+  const Rows rows = evolution.rows();
   const double given = 4.0 / 3.0 * std::numbers::pi * evolution.t();
   EXPECT_NEAR(rows.history.scalars[0].amount, given, 1e-3 * given);
   EXPECT_GT(rows.drops[0].scalars[0].amount, 0.7 * given);
@@ -388,7 +388,7 @@ condition = "value"
 end = 40.0
 )");
   run(evolution);
-  const Evolution::Rows rows = evolution.rows();
+  const Rows rows = evolution.rows();
   ASSERT_TRUE(rows.drops[0].scalars[0].transfer_number.has_value());
   EXPECT_NEAR(*rows.drops[0].scalars[0].transfer_number, 3.0, 3e-3);
   const double source = 4.0 / 3.0 * std::numbers::pi;

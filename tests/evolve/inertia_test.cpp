@@ -101,20 +101,20 @@ void step(Evolution& evolution) {
 }
 
 /// The rows at the end.
-Evolution::Rows run_to_end(Evolution evolution) {
+Rows run_to_end(Evolution evolution) {
   EXPECT_TRUE(evolution.prepare().ok());
   while (!evolution.is_finished() && !testing::Test::HasFailure()) step(evolution);
   EXPECT_TRUE(evolution.solve().ok());
   return evolution.rows();
 }
-double speed(const Evolution::Rows& rows) { return rows.drops[0].motion->velocity.y(); }
+double speed(const Rows& rows) { return rows.drops[0].motion->velocity.y(); }
 
-void expect_balance(const Evolution::Rows& rows) {
+void expect_balance(const Rows& rows) {
   EXPECT_LT(std::abs(*rows.history.power_residual()), 0.03 * *rows.history.power_in);
 }
 
 TEST(InertialDrop, RisesWithTheBooksInBalance) {
-  const Evolution::Rows rows = run_to_end(bubble());
+  const Rows rows = run_to_end(bubble());
   EXPECT_NEAR(speed(rows), kSpeedOfBubble, 0.0005);
   EXPECT_GT(rows.drops[0].motion->reynolds, 0.4);
   EXPECT_GT(rows.history.kinetic->energy, 0.0);
@@ -122,7 +122,7 @@ TEST(InertialDrop, RisesWithTheBooksInBalance) {
 }
 
 TEST(InertialDrop, OfLinearElementsRisesWithTheBooksInBalance) {
-  const Evolution::Rows rows = run_to_end(bubble(kLinearElements));
+  const Rows rows = run_to_end(bubble(kLinearElements));
   EXPECT_NEAR(speed(rows), kSpeedOfLinearBubble, 0.002);
   EXPECT_NEAR(kSpeedOfLinearBubble, kSpeedOfBubble, 0.18 * kSpeedOfBubble);
   expect_balance(rows);
@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(InertialDrop, BubbleByElements,
 
 TEST_P(BubbleByElements, RisesFasterWhereTheMatrixThins) {
   const auto [elements, newtonian] = GetParam();
-  const Evolution::Rows rows =
+  const Rows rows =
       run_to_end(bubble("[matrix]\nviscosity-law = \"carreau-yasuda\"\npower-index = 0.5\n"
                         "time-constant = 30\n" +
                         std::string(elements)));
@@ -174,7 +174,7 @@ TEST_P(BubbleByElements, RisesSlowerWithSurfactant) {
       "[drop.surfactant]\nelasticity = 0.5\npeclet = 100\n" + std::string(elements);
   Evolution begun = bubble(surfactant);
   EXPECT_TRUE(begun.prepare().ok() && begun.solve().ok());
-  const Evolution::Rows rows = run_to_end(bubble(surfactant));
+  const Rows rows = run_to_end(bubble(surfactant));
   EXPECT_NEAR(rows.drops[0].surfactant->amount, begun.rows().drops[0].surfactant->amount, 1e-11);
   EXPECT_LT(speed(rows), 0.97 * clean);
 }

@@ -21,7 +21,7 @@ Evolution solved_drop(linear::Processes processes) {
 TEST(RanksRows, SharedRowsAreThoseOfOneRankBitForBit) {
   const Evolution alone = solved_drop(linear::Processes::alone),
                   together = solved_drop(linear::Processes::all);
-  const Evolution::Rows own = alone.rows(), shared = together.rows();
+  const Rows own = alone.rows(), shared = together.rows();
   ASSERT_EQ(own.drops.size(), 1U);
   EXPECT_NE(own.history.surface_rate, 0.0);
   EXPECT_EQ(shared.history.surface_rate, own.history.surface_rate);

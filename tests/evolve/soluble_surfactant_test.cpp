@@ -114,7 +114,7 @@ void run(Evolution& evolution) {
 
 /// ∫c dV + δ∮Γ dS.
 double total(const Evolution& evolution, double depth) {
-  const Evolution::Rows rows = evolution.rows();
+  const Rows rows = evolution.rows();
   return rows.history.scalars[0].amount + depth * rows.drops[0].surfactant->amount;
 }
 
