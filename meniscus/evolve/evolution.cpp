@@ -420,6 +420,9 @@ Report Evolution::follow_interfaces(const Scene& before, double t, const RegionS
   if (!state_.mesh) return {};
   const MeshChange change = state_.mesh->follow(state_.scene, sources);
   if (!change.ok()) return change;
+  // Before the flow, which may depend on them.
+  if (!state_.scalars.empty())
+    state_.scalars = scalar_solver_->follow(change, before, state_.domain(), state_.scalars);
   if (state_.flow) {
     TransferredFlow arrived =
         solver_->transferred(change, before, state_.domain(), t, *state_.flow);
@@ -430,8 +433,6 @@ Report Evolution::follow_interfaces(const Scene& before, double t, const RegionS
   } else {
     solver_->follow(change, state_.domain());
   }
-  if (!state_.scalars.empty())
-    state_.scalars = scalar_solver_->follow(change, before, state_.domain(), state_.scalars);
   return change;
 }
 

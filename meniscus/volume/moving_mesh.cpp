@@ -49,6 +49,7 @@ void MovingMesh::begin_step(const Scene& scene) {
   const PhaseTimer timer(times_, "move mesh");
   place_interfaces(scene);
   start_ = mesh_;
+  start_made_angle_deg_ = made_angle_deg_;
   mover_.forget_positions();
   start_fields_ = fields_;
   excess_ = {};
@@ -88,6 +89,7 @@ bool MovingMesh::is_fit() const {
 void MovingMesh::undo() {
   const PhaseTimer timer(times_, "move mesh");
   mesh_ = start_;
+  made_angle_deg_ = start_made_angle_deg_;
   angle_deg_.reset();
   fields_ = start_fields_;
   excess_ = {};
@@ -170,6 +172,7 @@ void MovingMesh::load(const Archive& archive, const Scene& scene) {
                         ? entry_of_size(archive.reals, "mesh/made-angle", 1).front()
                         : smallest_dihedral_deg(mesh_);
   start_ = mesh_;
+  start_made_angle_deg_ = made_angle_deg_;
   start_fields_ = fields_;
 }
 

@@ -95,7 +95,9 @@ class MovingMesh {
   Mesher mesher_;
   bool takes_over_vertices_;
   TetMesh mesh_, start_;
-  double made_angle_deg_ = 0.0;  // the smallest dihedral angle of the mesh when it was made
+  // The smallest dihedral angle of the mesh when it was made; and of that which the step began
+  // with.
+  double made_angle_deg_ = 0.0, start_made_angle_deg_ = 0.0;
   mutable std::optional<double> angle_deg_;  // that of the mesh as it stands, once asked for
   Field<TetVertexId, Vec3> velocity_;
   VolumeFields fields_, start_fields_;

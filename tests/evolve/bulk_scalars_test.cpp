@@ -475,5 +475,52 @@ value = 2.0
   EXPECT_NEAR(dissipation(0.7) / dissipation(0.0), std::exp(-0.7), 1e-6);
 }
 
+// A uniform temperature multiplies all viscosities and drives nothing.
+TEST(BulkScalars, InertiaWithAUniformTemperatureIsThatOfOtherNumbers) {
+  const auto deformation = [](double Re, double Ca, const std::string& scalar) {
+    Evolution evolution = evolution_of(fmt::format(R"(
+[flow]
+kind = "simple-shear"
+capillary-number = {}
+reynolds-number = {}
+[[drop]]
+radius = 1.0
+nodes = 60
+[interface]
+remesh-every = 2
+[domain]
+half-width = 4.0
+nodes = 120
+[time]
+end = 0.3
+max-step = 0.05
+{})",
+                                                   Ca, Re, scalar));
+    run(evolution);
+    return evolution.drop_rows()[0].shape.D;
+  };
+  const double factor = std::exp(-0.7);
+  const double warm = deformation(1.0, 0.3, R"(
+[[scalar]]
+name = "temperature"
+peclet = 10
+initial = 2.0
+reference = 1.0
+viscosity-exponent = 0.7
+buoyancy = [0.0, 0.3, 0.0]
+[[scalar.drop]]
+initial = 2.0
+[[scalar.patch]]
+name = "x-"
+condition = "value"
+value = 2.0
+[[scalar.patch]]
+name = "x+"
+condition = "value"
+value = 2.0
+)");
+  EXPECT_NEAR(warm, deformation(1.0 / factor, 0.3 * factor, ""), 1e-3 * warm);
+}
+
 }  // namespace
 }  // namespace meniscus

@@ -72,6 +72,24 @@ TEST_P(MovingMeshTest, UndoPutsEveryVertexBackToTheBit) {
   EXPECT_EQ(mesh.tetrahedra().x, before.x);
 }
 
+TEST(MovingMesh, UndoForgetsAMeshMadeAnew) {
+  const Scene start = test::drop_in_sphere(200, 3.0, 100);
+  MovingMesh mesh = mesh_of(start);
+  const auto saved = [&] {
+    Archive archive;
+    mesh.save(archive);
+    return archive.reals;
+  };
+  const auto before = saved();
+  mesh.begin_step(start);
+  Scene moved = start;
+  move(moved, 0.05);
+  ASSERT_TRUE(mesh.follow(moved).ok());
+  ASSERT_NE(saved().at("mesh/made-angle"), before.at("mesh/made-angle"));
+  mesh.undo();
+  EXPECT_EQ(saved(), before);
+}
+
 // The half step and the whole one start from the same place.
 TEST(MovingMesh, EveryMoveOfAStepStartsWhereTheStepDid) {
   const Scene start = test::drop_in_sphere(200, 3.0, 100);

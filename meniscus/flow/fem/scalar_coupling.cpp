@@ -3,11 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/flow/fem/curved_maps.hpp"
 #include "meniscus/flow/fem/elements.hpp"
 
 namespace meniscus::fem {
 namespace {
+
+void check_values(const BulkScalar& scalar, const FlowSpace& space) {
+  MENISCUS_ASSERT(std::ssize(scalar.values) == space.velocity.num_nodes,
+                  "{} values of a scalar at {} nodes", scalar.values.size(),
+                  space.velocity.num_nodes);
+}
 
 /// ∫T dV/V of a straight cell.
 double mean_in(std::span<const std::int32_t> nodes, const std::vector<double>& values) {
@@ -52,6 +59,7 @@ CellField<double> viscosity_factors(const Scene& scene, const TetMesh& mesh, con
   for (std::size_t k = 0; k < scalars.size(); ++k) {
     const Scalar& scalar = scene.scalars[k];
     if (scalar.viscosity_exponent == 0.0) continue;
+    check_values(scalars[k], space);
     for (const CellId c : mesh.cells.ids())
       factors[c] *= std::exp(-scalar.viscosity_exponent *
                              (mean_in(space.velocity.of(c), scalars[k].values) - scalar.reference));
@@ -79,6 +87,7 @@ void add_buoyancy(const Scene& scene, const BulkScalars& scalars, StokesProblem&
   for (std::size_t k = 0; k < scalars.size(); ++k) {
     const Scalar& scalar = scene.scalars[k];
     if (scalar.buoyancy.isZero(0.0)) continue;
+    check_values(scalars[k], problem.space);
     if (problem.space.elements == Elements::p2_p1) {
       add_nodal_force(scalar, scalars[k].values, problem, force);
       continue;
