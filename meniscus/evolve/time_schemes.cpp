@@ -94,6 +94,13 @@ void add_adsorption(AmountRates& rates, const SurfactantTransport& transport, co
                        expected_uptake(step.start, path.at_start, step.species, path.duration)));
 }
 
+/// The same for a stage whose rates are those of transport alone, on its way from the start.
+void add_adsorption(StageFlow& stage, const Step& step, double duration) {
+  if (step.species.empty()) return;
+  add_adsorption(stage.amount_rates, stage.surfactant, step,
+                 surfactant_path(step, stage.motion, duration));
+}
+
 /// Gives a stage the rates with which a transport takes the amounts of surfactant from the start of
 /// the step for `duration`.
 void set_mean_rates(StageFlow& stage, const SurfactantTransport& transport, const Step& step,
@@ -298,6 +305,7 @@ StageFlow chebyshev_step(const StageFlow& first, const Step& step, const Chebysh
     if (j + 1 == scheme.stages().size()) break;
     stage.motion = scaled(1.0 / c.c, now.vertices);
     stage.amount_rates = scaled(1.0 / c.c, now.amounts);
+    add_adsorption(stage, step, c.c * step.dt);
     stage = solve(stage, c.c * step.dt,
                   {.t = step.t + c.c * step.dt, .dt = step.dt, .stage = Stage::middle});
     if (!stage.ok()) return stage;
@@ -315,6 +323,7 @@ StageFlow chebyshev_step(const StageFlow& first, const Step& step, const Chebysh
   stage.surface_rate = first.surface_rate + (middle_rate - first.surface_rate) / (2.0 * c);
   stage.motion = std::move(now.vertices);
   stage.amount_rates = std::move(now.amounts);
+  add_adsorption(stage, step, step.dt);
   stage.damps_waves = true;
   return stage;
 }
