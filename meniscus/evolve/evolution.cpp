@@ -32,6 +32,11 @@ RegionSources liquid_sources(std::span<const TopologyEvent> events) {
   return sources;
 }
 
+/// The flow that carries scalars through a whole step.
+const FlowSolution& scalar_carrier(const StageFlow& whole) {
+  return whole.carrier ? *whole.carrier : whole.flow;
+}
+
 /// Whether a linear flow takes what is off its centre further away: exponentially, not as shear.
 bool is_repelling(const Mat3& gradient) {
   constexpr double kRoundOff = 1e-6;  // the rate of shear is a double root, 0 to half of the digits
@@ -309,7 +314,7 @@ Report Evolution::finish_step(const Scene& start, const StageFlow& whole, double
   if (Report moved = move_whole_step(start, whole, dt); !moved.ok()) return moved;
   std::optional<TetMesh> exchanged_at;
   if (has_soluble_surfactant(state_.scene)) {
-    if (Report moved = exchange_with_liquids(start, whole.flow, dt); !moved.ok()) return moved;
+    if (Report moved = exchange_with_liquids(start, whole, dt); !moved.ok()) return moved;
     exchanged_at = state_.mesh->tetrahedra();
   }
   const Scene moved = time_phase(times_, "move interfaces", [&] { return state_.scene; });
@@ -330,21 +335,22 @@ Report Evolution::finish_step(const Scene& start, const StageFlow& whole, double
     attempt_.is_mesh_kept = kept.ok();
     if (kept.ok() && exchanged_at)
       scalar_solver_->ride(domain_of(moved, *exchanged_at), state_.domain(), state_.scalars);
-    if (kept.ok()) return exchanged_at ? kept : judge_scalars(move_scalars(start, whole.flow, dt));
+    if (kept.ok())
+      return exchanged_at ? kept : judge_scalars(move_scalars(start, scalar_carrier(whole), dt));
     if (!is_remeshed_as_needed()) return kept;
     log::debug("step {} makes its mesh anew: {}", state_.step + 1, kept.text());
   }
-  if (Report carried = carry_fields_of_mesh(start, moved, whole.flow, dt); !carried.ok())
-    return carried;
+  if (Report carried = carry_fields_of_mesh(start, moved, whole, dt); !carried.ok()) return carried;
   return follow_interfaces(moved, state_.t + dt, liquid_sources(state_.events));
 }
 
 /// Takes bulk scalars and surfactants through the step where the interfaces have moved and are not
 /// yet remeshed. What one loses the other takes up at the same vertices.
-Report Evolution::exchange_with_liquids(const Scene& start, const FlowSolution& flow, double dt) {
-  if (Report moved = move_mesh(start, mean_motion(start, state_.scene, dt), flow, dt); !moved.ok())
+Report Evolution::exchange_with_liquids(const Scene& start, const StageFlow& whole, double dt) {
+  if (Report moved = move_mesh(start, mean_motion(start, state_.scene, dt), whole.flow, dt);
+      !moved.ok())
     return moved;
-  return judge_scalars(move_scalars(start, flow, dt));
+  return judge_scalars(move_scalars(start, scalar_carrier(whole), dt));
 }
 
 bool Evolution::is_remesh_due() {
@@ -397,16 +403,17 @@ void Evolution::move_surfactant(const Scene& start, const StageFlow& stage, doub
 /// replaces it. Where cells would invert on the way, fields are transferred from the mesh as it
 /// stands; with bulk scalars or inertia the step is refused.
 Report Evolution::carry_fields_of_mesh(const Scene& start, const Scene& moved,
-                                       const FlowSolution& flow, double dt) {
+                                       const StageFlow& whole, double dt) {
   if (!state_.mesh || (state_.mesh->fields().empty() && state_.scalars.empty() && !state_.flow))
     return {};
-  const Report followed = move_mesh(start, mean_motion(start, moved, dt), flow, dt);
+  const Report followed = move_mesh(start, mean_motion(start, moved, dt), whole.flow, dt);
   if (!state_.scalars.empty()) {
     if (!followed.ok() || has_soluble_surfactant(moved)) return followed;
     const FlowDomain from = domain_of(start, state_.mesh->start()),
                      to = domain_of(moved, state_.mesh->tetrahedra());
     state_.scalars = start_scalars_;
-    return judge_scalars(scalar_solver_->advance({from, to, dt, flow}, state_.scalars));
+    return judge_scalars(
+        scalar_solver_->advance({from, to, dt, scalar_carrier(whole)}, state_.scalars));
   }
   if (state_.flow) return followed;
   if (!followed.ok()) log::debug("fields are carried over a longer way: {}", followed.text());

@@ -94,12 +94,12 @@ class Evolution {
   void move_surfactant(const Scene& start, const StageFlow& stage, double duration);
   ScalarAdvance move_scalars(const Scene& start, const FlowSolution& flow, double duration);
   Report judge_scalars(const ScalarAdvance& moved);
-  Report exchange_with_liquids(const Scene& start, const FlowSolution& flow, double dt);
+  Report exchange_with_liquids(const Scene& start, const StageFlow& whole, double dt);
   Report judge_motion(const Scene& start, const StageFlow& whole, double dt);
   void report_refusal(double dt, const Fault& fault);
   void accept_step(const StepPlan& plan);
   void notice_departure();
-  Report carry_fields_of_mesh(const Scene& start, const Scene& moved, const FlowSolution& flow,
+  Report carry_fields_of_mesh(const Scene& start, const Scene& moved, const StageFlow& whole,
                               double dt);
   Report follow_interfaces(const Scene& before, double t, const RegionSources& sources = {});
   [[nodiscard]] Report move_mesh(const Scene& start, const InterfaceMotion& motion,

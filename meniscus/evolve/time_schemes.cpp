@@ -161,6 +161,18 @@ std::vector<Vec3> beyond(const std::vector<Vec3>& a, const std::vector<Vec3>& b,
   return result;
 }
 
+/// The velocity in the bulk a + factor (b − a), which carries the scalars of a step.
+std::optional<FlowSolution> carrier_of(const Step& step, const FlowSolution& a,
+                                       const FlowSolution& b, double factor) {
+  if (step.start.scalars.empty()) return {};
+  FlowSolution result;
+  result.bulk = *a.bulk;
+  for (const TetVertexId v : result.bulk->v.ids())
+    result.bulk->v[v] += factor * (b.bulk->v[v] - a.bulk->v[v]);
+  result.bulk->v_at_edges = beyond(a.bulk->v_at_edges, b.bulk->v_at_edges, factor);
+  return result;
+}
+
 /// a − b.
 InterfaceMotion difference(InterfaceMotion a, const InterfaceMotion& b) {
   add(a, -1.0, b);
@@ -277,6 +289,7 @@ StageFlow implicit_step(const StageFlow& first, const Step& step, const Implicit
   InterfaceMotion whole = scaled(weight, middle.motion);
   add(whole, gamma, end.motion);
   end.motion = std::move(whole);
+  end.carrier = carrier_of(step, middle.flow, end.flow, gamma);
   set_mean_rates(end, combined(weight, middle.surfactant, gamma, end.surfactant), step, step.dt);
   end.surface_rate = weight * middle.surface_rate + gamma * end.surface_rate;
   const InterfaceNormals normals = interface_normals(step.start, MotionNormal::area_vector);
@@ -295,6 +308,7 @@ StageFlow chebyshev_step(const StageFlow& first, const Step& step, const Chebysh
   Displacement before = scaled(0.0, at_first), now = before, to_middle;
   StageFlow stage = first;
   double middle_rate = 0.0;
+  std::optional<FlowSolution> carrier;
   for (std::size_t j = 0; j < scheme.stages().size(); ++j) {
     const ChebyshevScheme::Stage& c = scheme.stages()[j];
     Displacement next = scaled(c.mu, now);
@@ -312,6 +326,7 @@ StageFlow chebyshev_step(const StageFlow& first, const Step& step, const Chebysh
     if (j != middle) continue;
     to_middle = now;
     middle_rate = stage.surface_rate;
+    carrier = carrier_of(step, first.flow, stage.flow, 1.0 / (2.0 * c.c));
   }
   const double c = scheme.stages()[middle].c;
   const InterfaceNormals normals = interface_normals(step.start, MotionNormal::area_vector);
@@ -322,6 +337,7 @@ StageFlow chebyshev_step(const StageFlow& first, const Step& step, const Chebysh
                 (1.0 - c);
   stage.surface_rate = first.surface_rate + (middle_rate - first.surface_rate) / (2.0 * c);
   stage.motion = std::move(now.vertices);
+  stage.carrier = std::move(carrier);
   stage.amount_rates = std::move(now.amounts);
   add_adsorption(stage, step, step.dt);
   stage.damps_waves = true;

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <span>
 
 #include "meniscus/evolve/chebyshev.hpp"
@@ -15,6 +16,9 @@ namespace meniscus {
 /// The flow at one stage of a step, and the velocity with which it moves the interfaces' vertices.
 struct StageFlow : Report {
   FlowSolution flow = {};
+  /// Of a whole step: the velocity in the bulk that carries scalars, where it is not that of
+  /// `flow`. It is the mean over the step, of the order of the scheme.
+  std::optional<FlowSolution> carrier = {};
   InterfaceMotion motion = {};
   InterfaceNormals normals = {};   ///< n at the vertices
   NormalSpeeds normal_speed = {};  ///< n·v at the vertices

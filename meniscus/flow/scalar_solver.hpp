@@ -13,7 +13,7 @@ namespace meniscus {
 struct ScalarPath {
   FlowDomain start, end;
   double duration = 0.0;
-  const FlowSolution& flow;  ///< of the whole way: of its middle, or of its start
+  const FlowSolution& flow;  ///< of the whole way: of its middle, or the mean over it
   /// Rates of adsorption [G] that the surfactants at the end hold already, by interface; empty
   /// where nothing is exchanged.
   std::span<const VertexField<double>> expected_adsorption = {};
