@@ -267,13 +267,20 @@ TEST(InertialDrop, AJumpOfTheFlowIsSaid) {
   EXPECT_EQ(jumps("ramp = 0.5\n"), 0);
 }
 
-void expect_to_go_on_from_a_checkpoint(const std::string& more) {
-  Evolution whole = bubble(more);
+/// The bubble with another viscosity.
+std::string bubble_of_viscosity(const std::string& value) {
+  std::string text = kBubble;
+  const std::string key = "viscosity-ratio = ";
+  return text.replace(text.find(key) + key.size(), 3, value);
+}
+
+void expect_to_go_on_from_a_checkpoint(const std::string& text) {
+  Evolution whole = evolution_of(text);
   ASSERT_TRUE(whole.prepare().ok());
   for (int k = 0; k < 3; ++k) step(whole);
   Archive archive;
   whole.save(archive);
-  Evolution resumed = bubble(more);
+  Evolution resumed = evolution_of(text);
   resumed.load(archive);
   Archive at_end, at_end_too;
   step(whole);
@@ -285,8 +292,14 @@ void expect_to_go_on_from_a_checkpoint(const std::string& more) {
 }
 
 TEST(InertialDrop, GoesOnFromACheckpointToTheSameBits) {
-  expect_to_go_on_from_a_checkpoint("");
-  expect_to_go_on_from_a_checkpoint(kLinearElements);
+  expect_to_go_on_from_a_checkpoint(kBubble);
+  expect_to_go_on_from_a_checkpoint(std::string(kBubble) + kLinearElements);
+}
+
+// Its slow motions are found by products in which the liquid convects.
+TEST(InertialDrop, OfHighViscosityGoesOnFromACheckpointToTheSameBits) {
+  expect_to_go_on_from_a_checkpoint(bubble_of_viscosity("100"));
+  expect_to_go_on_from_a_checkpoint(bubble_of_viscosity("100") + kLinearElements);
 }
 
 }  // namespace

@@ -81,6 +81,24 @@ void level_pressure(const TetMesh& mesh, const PressureSpace& space,
   for (double& p : pressure) p -= integral / volume;
 }
 
+/// Whether a kept preconditioner can be made again from a checkpoint, whose concentrations are
+/// later ones.
+bool can_be_made_again(const Scene& scene) {
+  const auto varies_in_matrix = [&](const Interface& interface) {
+    return has_inertia(scene) && has_varying_tension(interface);
+  };
+  return !has_varying_viscosity(scene) && std::ranges::none_of(scene.interfaces, varies_in_matrix);
+}
+
+/// With inertia the velocity past the mesh with which a solve begins to convect; else empty.
+Field<NodeId, Vec3> convecting_velocity(const StokesProblem& problem, const StokesState& begin) {
+  if (!problem.inertia) return {};
+  Field<NodeId, Vec3> v = begin.v;
+  problem.constraints.impose(v);
+  for (const NodeId i : v.ids()) v[i] -= problem.inertia->mesh_velocity[i];
+  return v;
+}
+
 class FiniteElementFlow final : public FlowSolver {
  public:
   FiniteElementFlow(const Options& options, std::shared_ptr<KnownElements> elements)
@@ -283,6 +301,7 @@ TransferredFlow FiniteElementFlow::transferred(const MeshChange& change, const S
                  {v.begin(), v.end()},
                  history_.empty() ? stokes_->state_at_rest().p : history_.states().front().p,
                  flow.power};
+  if (!can_be_made_again(domain.scene)) preconditioner_.at.reset();
   const MotionLost lost = motion_lost(then, flow.v, now, result.flow.v);
   result.momentum_lost = lost.momentum;
   result.energy_lost = lost.energy;
@@ -314,17 +333,13 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
     preconditioner_.drop_unless_of_stage(last_duration_);
   }
   const bool is_kept = preconditioner_.at.has_value();
+  Field<NodeId, Vec3> convecting = convecting_velocity(problem.stokes, state);
   const StokesReport report = stokes_->solve(
       problem.stokes, state, is_kept ? linear::Preconditioner::kept : linear::Preconditioner::fresh,
       times_);
-  preconditioner_.decide(problem.stokes, report, is_kept);
-  // A kept one could not be made again from a checkpoint, whose concentrations are later ones.
-  const auto varies_in_matrix = [&](const Interface& interface) {
-    return problem.stokes.inertia && has_varying_tension(interface);
-  };
-  if (has_varying_viscosity(domain.scene) ||
-      std::ranges::any_of(domain.scene.interfaces, varies_in_matrix))
-    preconditioner_.at.reset();
+  if (!stokes_->has_slow_velocities()) convecting = {};
+  preconditioner_.decide(problem.stokes, report, is_kept, std::move(convecting));
+  if (!can_be_made_again(domain.scene)) preconditioner_.at.reset();
   if (report.ok() && !problem.stokes.has_open_boundary)
     level_pressure(mesh, space_->pressure, state.p);
   FlowSolution result =
@@ -399,15 +414,19 @@ void FiniteElementFlow::restore_preconditioner(const Archive& archive, const Flo
   if (preconditioner_.at->x.size() != space_->velocity.num_nodes ||
       preconditioner_.at->is_curved.size() != domain.mesh->num_cells())
     reject_input("checkpoint: flow/preconditioner/x does not fit the volume mesh");
+  if (!preconditioner_.convecting.empty() &&
+      preconditioner_.convecting.size() != space_->velocity.num_nodes)
+    reject_input("checkpoint: flow/preconditioner/velocity does not fit the volume mesh");
   FlowDomain then = domain;
   ImplicitStage stage;
   if (has_inertia(domain.scene)) {
     stage = stage_at_rest(domain.scene, preconditioner_.duration, preconditioner_.at->x);
     then.stage = &stage;
   }
-  // Time, forces and velocities matter to the right-hand side alone.
+  // Time and forces matter to the right-hand side alone.
   stokes_->prepare(
-      instant_problem(then, *space_, *preconditioner_.at, options_.capillary, 0.0).stokes);
+      instant_problem(then, *space_, *preconditioner_.at, options_.capillary, 0.0).stokes,
+      preconditioner_.convecting);
 }
 
 void FiniteElementFlow::load(const Archive& archive, const FlowDomain& domain) {

@@ -35,7 +35,7 @@ StokesReport StageProjection::apply(Field<NodeId, Vec3>& v) {
       problem_, v, preconditioner_.at ? Preconditioner::kept : Preconditioner::fresh, times_);
   // The stages of generalised liquids make their own.
   if (report.ok() && report.iterations > 0 && !preconditioner_.at && !problem_.is_generalised())
-    preconditioner_ = {problem_.positions, 0, problem_.inertia->duration};
+    preconditioner_ = {problem_.positions, 0, problem_.inertia->duration, {}};
   return report;
 }
 

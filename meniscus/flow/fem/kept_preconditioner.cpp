@@ -1,5 +1,7 @@
 #include "meniscus/flow/fem/kept_preconditioner.hpp"
 
+#include <utility>
+
 #include "meniscus/core/archive_entries.hpp"
 #include "meniscus/flow/fem/solver_archive.hpp"
 
@@ -11,7 +13,7 @@ void KeptPreconditioner::drop_unless_of_stage(double stage_duration) {
 }
 
 void KeptPreconditioner::decide(const StokesProblem& problem, const StokesReport& report,
-                                bool is_kept) {
+                                bool is_kept, Field<NodeId, Vec3> convects) {
   constexpr int kWorthOfOne = 3;
   const bool is_own = report.ok() && report.failed_solvers.empty() && report.iterations > 0 &&
                       !problem.is_generalised();  // whose steps make their own
@@ -22,6 +24,7 @@ void KeptPreconditioner::decide(const StokesProblem& problem, const StokesReport
   if (is_kept || !is_own) return;
   at = problem.positions;
   duration = problem.inertia ? problem.inertia->duration : 0.0;
+  convecting = std::move(convects);
   iterations = report.iterations;
 }
 
@@ -30,6 +33,7 @@ void KeptPreconditioner::save(Archive& archive) const {
   save_positions(*at, archive, "flow/preconditioner");
   archive.integers["flow/preconditioner/iterations"] = {iterations};
   if (duration > 0.0) archive.reals["flow/preconditioner/duration"] = {duration};
+  if (!convecting.empty()) archive.reals["flow/preconditioner/velocity"] = flat(convecting);
 }
 
 KeptPreconditioner load_preconditioner(const Archive& archive) {
@@ -40,6 +44,9 @@ KeptPreconditioner load_preconditioner(const Archive& archive) {
       entry_of_size(archive.integers, "flow/preconditioner/iterations", 1).front());
   if (archive.reals.contains("flow/preconditioner/duration"))
     loaded.duration = entry_of_size(archive.reals, "flow/preconditioner/duration", 1).front();
+  if (archive.reals.contains("flow/preconditioner/velocity"))
+    loaded.convecting =
+        vectors<NodeId>(entry_of_rows(archive.reals, "flow/preconditioner/velocity", 3));
   return loaded;
 }
 

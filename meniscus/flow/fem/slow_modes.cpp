@@ -77,6 +77,7 @@ void add_pressure(const PressureSpace& space, RegionId region, const VertexWeigh
 void add_pressure_slopes(const StokesProblem& problem, RegionId region,
                          const VertexWeights& section, linear::CsrMatrix& pressures) {
   const PressureSpace& space = problem.space.pressure;
+  const Field<NodeId, Vec3>& x = problem.positions.x;
   std::vector<std::size_t> columns;
   Vec3 middle = Vec3::Zero();
   double sum = 0.0;
@@ -84,14 +85,14 @@ void add_pressure_slopes(const StokesProblem& problem, RegionId region,
     const TetVertexId v = space.vertex[i];
     if (space.region[i] != region || section[v] == 0.0) continue;
     columns.push_back(i);
-    middle += section[v] * problem.mesh.x[v];
+    middle += section[v] * x[node_at(v)];
     sum += section[v];
   }
   middle /= sum;
   for (int k = 0; k < 3; ++k) {
     for (const std::size_t i : columns) {
       const TetVertexId v = space.vertex[i];
-      add_entry(pressures, i, section[v] * (problem.mesh.x[v][k] - middle[k]));
+      add_entry(pressures, i, section[v] * (x[node_at(v)][k] - middle[k]));
     }
     end_row(pressures);
   }
@@ -99,17 +100,25 @@ void add_pressure_slopes(const StokesProblem& problem, RegionId region,
 
 /// Whether the matrix's viscosity holds a region in a long implicit stage: ρR²/τ ≤ 10 μ_out for the
 /// region and the matrix. R is the radius of the sphere of the region's volume.
-bool is_held_by_matrix(const StokesProblem& problem, RegionId region) {
+bool is_held_by_matrix(const StokesProblem& problem, const TetMesh& mesh, RegionId region) {
   constexpr double kOutweighs = 10.0;
   if (!problem.inertia) return false;
   double volume = 0.0, density = 0.0;
-  for (const CellId c : problem.mesh.cells.ids()) {
-    if (problem.mesh.region[c] == region) volume += signed_volume(problem.mesh, c);
-    if (problem.mesh.region[c] == region || problem.mesh.region[c] == RegionId{0})
+  for (const CellId c : mesh.cells.ids()) {
+    if (mesh.region[c] == region) volume += signed_volume(mesh, c);
+    if (mesh.region[c] == region || mesh.region[c] == RegionId{0})
       density = std::max(density, problem.inertia->density[c]);
   }
   const double radius = std::cbrt(3.0 / (4.0 * std::numbers::pi) * volume);
   return density * radius * radius <= kOutweighs * problem.inertia->duration;
+}
+
+/// The mesh with its vertices where the problem has its nodes: where the preconditioner is made,
+/// which may be kept longer than the mesh stays there.
+TetMesh mesh_of(const StokesProblem& problem) {
+  TetMesh mesh = problem.mesh;
+  for (const TetVertexId v : mesh.x.ids()) mesh.x[v] = problem.positions.x[node_at(v)];
+  return mesh;
 }
 
 /// The entries in owned columns. `item_of` gives the owned items in their order, each of so many
@@ -145,10 +154,11 @@ SlowModes slow_modes(const StokesProblem& problem) {
   const auto count = static_cast<int>(
       std::ranges::count_if(around.ids(), [&](RegionId r) { return is_stiff(r) || is_thin(r); }));
   if (count == 0 || count > kMostSections) return modes;
+  const TetMesh mesh = mesh_of(problem);
   for (const RegionId region : around.ids()) {
     if (!is_stiff(region) && !is_thin(region)) continue;
-    const std::vector<VertexWeights> all = sections(problem.mesh, region, kMostSections / count);
-    const bool has_slopes = is_thin(region) && is_held_by_matrix(problem, region);
+    const std::vector<VertexWeights> all = sections(mesh, region, kMostSections / count);
+    const bool has_slopes = is_thin(region) && is_held_by_matrix(problem, mesh, region);
     for (const VertexWeights& section : all) {
       if (is_stiff(region)) {
         add_rigid_motions(problem, section, modes.velocities);

@@ -94,17 +94,22 @@ linear::SaddleSolver& StokesSolver::linear_solver(LinearSolver which) {
   return linear_solvers_.emplace(which, make_linear_solver(which, options_)).first->second;
 }
 
-void StokesSolver::prepare(const StokesProblem& problem) {
+void StokesSolver::prepare(const StokesProblem& problem, const Field<NodeId, Vec3>& convecting) {
   examine(problem, linear::Preconditioner::fresh);
-  const auto prepare_local = [&](const StokesProblem& local) {
+  StokesState state = state_at_rest();
+  if (!convecting.empty()) state.v = convecting;
+  const auto prepare_local = [&](const StokesProblem& local, const StokesState& begin) {
     use_product(local);
+    if (product_ && !convecting.empty()) product_->convect(numbers(begin.v));
+    const Linearization about{begin, Linearization::Kind::picard};
     linear_solver(options_.linear)
-        .prepare(assembled_system(local, options_.linear, linear::Preconditioner::fresh, nullptr));
+        .prepare(assembled_system(local, options_.linear, linear::Preconditioner::fresh,
+                                  convecting.empty() ? nullptr : &about));
   };
   if (partition_)
-    prepare_local(local_part(problem, *partition_));
+    prepare_local(local_part(problem, *partition_), local_part(state, *partition_));
   else
-    prepare_local(problem);
+    prepare_local(problem, state);
 }
 
 void StokesSolver::examine(const StokesProblem& global, linear::Preconditioner preconditioner) {

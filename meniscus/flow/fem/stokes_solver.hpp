@@ -52,8 +52,15 @@ class StokesSolver {
   /// Gives every process the values that the others have at the nodes they own. Collective.
   void share(StokesState& state) const;
 
-  /// Makes and keeps the preconditioner that a fresh solve of this problem would make.
-  void prepare(const StokesProblem& problem);
+  /// Makes and keeps the preconditioner that a fresh solve of this problem would make, or a
+  /// projection by it. With inertia `convecting` is the velocity past the mesh that the solve would
+  /// begin with, the problem's mesh being at rest; empty: a projection's, which has none.
+  void prepare(const StokesProblem& problem, const Field<NodeId, Vec3>& convecting = {});
+  /// Whether the velocity that convects matters to the preconditioner: it has slow velocities,
+  /// whose coarse operator is made of products.
+  [[nodiscard]] bool has_slow_velocities() const {
+    return slow_modes_ && slow_modes_->velocities.row_start.size() > 1;
+  }
 
   /// Improves `state` until the residual is below rtol times the reference, in the norm of
   /// `free_norm` by `residual_weights`. That is the residual of
