@@ -55,7 +55,7 @@ void add_resume(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<ResumeArguments>();
   CLI::App* command = app.add_subcommand("resume", "Go on with a run from its last checkpoint");
   command->add_option("directory", arguments->directory, "Folder of the run")->required();
-  command->add_option("--until", arguments->until, "New end time");
+  command->add_option("--until", arguments->until, "New end, in the case's unit of time");
   CLI::Option* from =
       command->add_option("--from", arguments->from, "Go on from this checkpoint file");
   CLI::Option* output =

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -113,12 +114,14 @@ int resume(const ResumeArguments& arguments) {
   const Archive archive = io::read_archive(checkpoint);
   require_changeable(arguments.overrides);
   std::vector<std::string> overrides = arguments.overrides;
-  if (arguments.until) overrides.push_back(fmt::format("time.end={}", *arguments.until));
+  if (arguments.until) {
+    if (!(*arguments.until >= 0.0) || !std::isfinite(*arguments.until))
+      reject_input("--until = {:g} must be finite and at least 0", *arguments.until);
+    overrides.push_back(fmt::format("time.end={}", *arguments.until));
+  }
   const Case c = case_of_checkpoint(archive, checkpoint, overrides);
   Evolution evolution = resumed_evolution(c, archive, checkpoint);
-  if (arguments.until && *arguments.until < evolution.t())
-    reject_input("--until {:g} lies before the checkpoint's t = {:g}", *arguments.until,
-                 evolution.t());
+  require_end_ahead(c, evolution.t(), overrides, arguments.until ? "--until" : "time.end");
   const fs::path folder = arguments.output.empty() ? source : fs::path(arguments.output);
   if (!arguments.output.empty()) {
     require_usable(folder, false);

@@ -1,5 +1,7 @@
 #include "meniscus/app/run_parts.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "meniscus/app/ranks.hpp"
@@ -96,6 +98,17 @@ Case case_of_checkpoint(const Archive& archive, const fs::path& checkpoint,
   if (text == archive.texts.end() || folder == archive.texts.end())
     reject_input("{}: not the checkpoint of a run", checkpoint.string());
   return shared_case(parse_case(text->second, checkpoint.string(), folder->second, overrides));
+}
+
+void require_end_ahead(const Case& c, double t, std::span<const std::string> overrides,
+                       std::string_view name) {
+  const auto sets_end = [](const std::string& each) { return each.starts_with("time.end="); };
+  if (std::ranges::none_of(overrides, sets_end) || c.evolution.end >= t) return;
+  const std::optional<Scale>& scale = c.settings.scale();
+  const double unit = scale ? scale->unit(schema::Dimension::time) : 1.0;
+  const std::string_view word = scale ? " s" : "";
+  reject_input("{} = {:g}{} lies before the checkpoint's t = {:g}{}", name, c.evolution.end * unit,
+               word, t * unit, word);
 }
 
 void require_changeable(std::span<const std::string> overrides) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "meniscus/app/run_directory.hpp"
 #include "meniscus/app/run_record.hpp"
@@ -38,6 +39,10 @@ namespace meniscus {
 [[nodiscard]] Case case_of_checkpoint(const Archive& archive,
                                       const std::filesystem::path& checkpoint,
                                       std::span<const std::string> overrides);
+/// Refuses an end among the overrides that lies before the time t of the checkpoint. The line calls
+/// it `name`, and is in the case's unit of time.
+void require_end_ahead(const Case& c, double t, std::span<const std::string> overrides,
+                       std::string_view name);
 /// Refuses overrides of drops, domain and units: the checkpoint holds their evolved state.
 void require_changeable(std::span<const std::string> overrides);
 

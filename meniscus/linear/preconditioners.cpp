@@ -45,11 +45,13 @@ void PressureMass::apply(std::span<const double> r, double s, Vec z) const {
     petsc_check(KSPSolve(solver_.get(), right.get(), z), "KSPSolve");
     petsc_check(VecScale(z, s), "VecScale");
   }
-  std::vector<double> constant(system_.group_weights.size(), 0.0);
+  const bool has_constants =
+      std::ranges::any_of(system_.group_weights, [](double weight) { return weight != 0.0; });
+  std::vector<double> constant(has_constants ? system_.group_weights.size() : 0, 0.0);
   for (std::size_t i = 0; !constant.empty() && i < r.size(); ++i)
     constant[static_cast<std::size_t>(system_.group_of_pressure[i])] += r[i];
-  for (std::size_t g = 0; g < constant.size(); ++g)
-    constant[g] = s * system_.group_weights[g] * sum(communicator_, constant[g]);
+  if (has_constants) sum(communicator_, constant);
+  for (std::size_t g = 0; g < constant.size(); ++g) constant[g] *= s * system_.group_weights[g];
   with_array(z, [&](double* p) {
     for (std::size_t i = 0; !solver_ && i < r.size(); ++i)
       p[i] = s * r[i] / system_.pressure_mass[i];

@@ -68,9 +68,7 @@ std::unique_ptr<DrivenRun> DrivenRun::resume(const fs::path& source,
   PythonCase given(archive.texts.at("case/toml"), checkpoint.string(),
                    archive.texts.at("case/folder"), settings);
   Evolution evolution = resumed_evolution(c, archive, checkpoint);
-  if (c.evolution.end < evolution.t())
-    reject_input("time.end = {:g} lies before the checkpoint's t = {:g}", c.evolution.end,
-                 evolution.t());
+  require_end_ahead(c, evolution.t(), settings, "time.end");
   const bool goes_on = is_run && !output;
   const std::optional<fs::path> folder = goes_on ? source : output;
   RunRecord record(c, given.file(), given.text());

@@ -216,6 +216,13 @@ class RefusalTest(FolderCase):
         with self.assertRaisesRegex(ValueError, "give overwrite=True or another output$"):
             Simulation(SHEAR, folder)
 
+    def test_a_run_that_has_ended_is_resumed_at_its_end(self):
+        folder = self.folder / "ended"
+        with Simulation(SHEAR, folder) as simulation:
+            simulation.run()
+        with Simulation.resume(folder) as simulation:
+            self.assertTrue(simulation.is_finished)
+
     def test_runs_are_resumed_with_sound_arguments_only(self):
         file = self.folder / "middle.h5"
         simulation = Simulation(SHEAR)

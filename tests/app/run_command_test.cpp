@@ -148,6 +148,48 @@ TEST(RunCommand, ResumeRefusesAnEndThatLiesBeforeTheCheckpoint) {
             std::string::npos);
 }
 
+TEST(RunCommand, ResumeTakesItsEndInTheCasesUnitOfTime) {
+  const test::TemporaryFolder folder;
+  RunArguments begin;
+  begin.case_file = (folder / "si.toml").string();
+  test::put(begin.case_file, R"(
+[scale]
+length = 1e-3
+viscosity = 0.1
+surface-tension = 0.025
+[flow]
+kind = "quiescent"
+[[drop]]
+axes = [1.2e-3, 0.95e-3, 0.95e-3]
+nodes = 42
+[domain]
+shape = "unbounded"
+[solver]
+method = "boundary-integral"
+[time]
+end = 0.0005
+max-step = 0.0001
+)");
+  begin.output = (folder / "run").string();
+  begin.is_quiet = true;
+  ASSERT_EQ(run_command(begin), 0);
+  // μ_out R0/σ = 4 ms.
+  const auto time_in_ms = [&] { return 4.0 * record_of(folder / "run")["t"].get<double>(); };
+  EXPECT_GE(time_in_ms(), 0.5 - 1e-9);
+  ResumeArguments further;
+  further.directory = begin.output;
+  further.is_quiet = true;
+  further.until = 0.0001;
+  const std::string line = test::message_of<InvalidInput>([&] { (void)resume_command(further); });
+  EXPECT_NE(line.find("--until = 0.0001 s lies before the checkpoint's t = 0.000"),
+            std::string::npos)
+      << line;
+  further.until = 0.001;
+  EXPECT_EQ(resume_command(further), 0);
+  EXPECT_GE(time_in_ms(), 1.0 - 1e-9);
+  EXPECT_LT(time_in_ms(), 2.0);
+}
+
 TEST(RunCommand, AFolderThatHoldsARunIsKeptUnlessItMayBeReplaced) {
   const test::TemporaryFolder folder;
   const fs::path run = run_in(folder);

@@ -61,7 +61,7 @@ def main():
     check(["resume", "nowhere"], "nowhere")
     check(["resume", "foreign"], "checkpoint-000001.h5")
     check(["resume", "corrupt"], "checkpoint-")
-    check(["resume", "run", "--until", "-1"], "time.end")
+    check(["resume", "run", "--until", "-1"], "--until = -1")
     check(["resume", "run", "--from", "run/none.h5", "-o", "new"], "none.h5")
     check(["resume", "run", "--set", "time.end=1"], "--from")
     checkpoint = str(next((work / "run").glob("checkpoint-*.h5")))

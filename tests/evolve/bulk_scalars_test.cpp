@@ -475,6 +475,22 @@ value = 2.0
   EXPECT_NEAR(dissipation(0.7) / dissipation(0.0), std::exp(-0.7), 1e-6);
 }
 
+TEST(BulkScalars, ViscosityVariesWithinALiquidOfLinearElementsToo) {
+  const auto dissipation = [](const std::string& elements, double exponent) {
+    Evolution evolution = evolution_of(linear_temperature(
+        elements, fmt::format("viscosity-exponent = {}\nbuoyancy = [0.0, 0.0, 1.0]", exponent)));
+    const Report solved = evolution.solve();
+    EXPECT_TRUE(solved.ok()) << solved.text();
+    EXPECT_TRUE(evolution.notices().empty());
+    return evolution.flow().power->dissipation;
+  };
+  const auto rise = [&](const std::string& elements) {
+    return dissipation(elements, 0.5) / dissipation(elements, 0.0);
+  };
+  // Of a viscosity from 0.2 to 4.5. Measured: 0.953 and 0.987; P1 alone is 16 % off on this mesh.
+  EXPECT_NEAR(rise("P1-P1") / rise("P2-P1"), 1.0, 0.05);
+}
+
 // A uniform temperature multiplies all viscosities and drives nothing.
 TEST(BulkScalars, InertiaWithAUniformTemperatureIsThatOfOtherNumbers) {
   const auto deformation = [](double Re, double Ca, const std::string& scalar) {

@@ -51,18 +51,6 @@ std::vector<std::int32_t> number_edges(const NodeGraph& graph) {
   return edges;
 }
 
-[[maybe_unused]] bool is_constant_in_regions(const StokesProblem& problem) {
-  Field<RegionId, double> of_region;
-  for (const CellId c : problem.mesh.cells.ids()) {
-    const RegionId region = problem.mesh.region[c];
-    if (region.value >= of_region.size()) of_region.resize(region.value + 1);
-    double& own = of_region[region];
-    if (own == 0.0) own = problem.viscosity[c];
-    if (own != problem.viscosity[c]) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 EdgeSums::EdgeSums(const FlowSpace& space, const NodeGraph& velocity_graph,
@@ -101,9 +89,21 @@ EdgeSums::EdgeSums(const FlowSpace& space, const NodeGraph& velocity_graph,
   std::ranges::stable_sort(corners_, {}, &BoundaryCorner::pressure);
 }
 
+bool EdgeSums::can_assemble(const StokesProblem& problem) {
+  Field<RegionId, double> of_region;
+  for (const CellId c : problem.mesh.cells.ids()) {
+    const RegionId region = problem.mesh.region[c];
+    if (region.value >= of_region.size()) of_region.resize(region.value + 1);
+    double& own = of_region[region];
+    if (own == 0.0) own = problem.viscosity[c];
+    if (own != problem.viscosity[c]) return false;
+  }
+  return true;
+}
+
 void EdgeSums::assemble(const StokesProblem& problem, std::span<const CellId> cells,
                         std::int32_t num_pressures, const Matrices& matrices) {
-  MENISCUS_ASSERT(is_constant_in_regions(problem));
+  MENISCUS_ASSERT(can_assemble(problem));
   std::ranges::fill(sums_, EdgeIntegrals<double>{});
   add(problem, cells);
   write(problem, num_pressures, matrices);

@@ -46,6 +46,8 @@ class EdgeSums {
   /// in their order; viscosity is constant in each region.
   void assemble(const StokesProblem& problem, std::span<const CellId> cells,
                 std::int32_t num_pressures, const Matrices& matrices);
+  /// Whether the viscosity is constant in each region of a problem, as `assemble` asks.
+  [[nodiscard]] static bool can_assemble(const StokesProblem& problem);
 
  private:
   void add(const StokesProblem& problem, std::span<const CellId> cells);

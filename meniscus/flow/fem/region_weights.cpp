@@ -22,12 +22,11 @@ void RegionWeights::update(std::span<const double> pressure_mass) {
     MENISCUS_ASSERT(region < mass.size(), "region {} of {}", region, mass.size());
     mass[region] += pressure_mass[i];
   }
+  if (partition_ != nullptr && !mass.empty()) linear::sum(partition_->communicator, mass);
   weights_.clear();
   for (std::size_t r = 0; r < mass.size(); ++r) {
-    const double whole =
-        partition_ == nullptr ? mass[r] : linear::sum(partition_->communicator, mass[r]);
-    MENISCUS_ASSERT(shares_[r] == 0.0 || whole > 0.0, "region {}", r);
-    weights_.push_back(shares_[r] / whole);
+    MENISCUS_ASSERT(shares_[r] == 0.0 || mass[r] > 0.0, "region {}", r);
+    weights_.push_back(shares_[r] / mass[r]);
   }
 }
 

@@ -87,11 +87,11 @@ void StokesJacobian::assemble(const StokesProblem& problem, const Linearization*
 }
 
 /// Sets A, B, C and the Laplacians to what plain cells, whose matrices are summed by edges, make of
-/// them: linear ones on Newtonian liquids.
+/// them: linear ones on Newtonian liquids of one viscosity in each region.
 /// Returns the other cells.
 std::vector<CellId> StokesJacobian::assemble_plain_cells(const StokesProblem& problem,
                                                          const Linearization* about) {
-  if (!edge_sums_.has_value() || !values_.lower_left.empty()) {
+  if (!edge_sums_.has_value() || !values_.lower_left.empty() || !EdgeSums::can_assemble(problem)) {
     for (std::vector<double>* values : {&values_.A, &values_.B, &values_.C})
       std::ranges::fill(*values, 0.0);
     const auto all = problem.mesh.cells.ids();
