@@ -210,6 +210,9 @@ int check_cases(const CheckArguments& arguments) {
       held += is_counted ? 1 : 0;
       failed += is_counted && !row.passes() ? 1 : 0;
     }
+  if (lines.empty())
+    reject_input("check: no run is chosen{}",
+                 arguments.is_short ? ": none of these cases has a short one" : "");
   fmt::print("{}\n{} of {} passed\n", report::check_text(lines), held - failed, held);
   fs::create_directories(arguments.output);
   report::write_check_page(

@@ -23,6 +23,7 @@ fs::path output_file(const RemeshArguments& arguments) {
   if (!arguments.output.empty()) return arguments.output;
   const fs::path surface = arguments.surface;
   const std::string extension = surface.extension().string();
+  if (extension != ".vtu") io::require_surface_extension(surface);
   return surface.parent_path() /
          (surface.stem().string() + "-remeshed" + (extension == ".vtu" ? ".vtp" : extension));
 }

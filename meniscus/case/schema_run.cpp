@@ -63,7 +63,7 @@ const std::vector<Key> kRunKeys{
 
     {.path = "topology.breakup-radius",
      .dimension = Dimension::length,
-     .range = kNotNegative,
+     .range = {.min = 0.0, .max = 1e6},
      .value = 0.01,
      .sentence = "A thinning neck below this radius (perimeter over 2 pi) is cut; 0: never."},
     {.path = "topology.coalescence",

@@ -216,6 +216,7 @@ StageFlow Evolution::solve_stage(const Scene& start, const StageFlow& stage, dou
     move_interfaces(state_.scene, stage.motion, duration);
     move_surfactant(start, stage, duration);
   });
+  if (auto fault = find_wild_motion(start, state_.scene)) return {Report{std::move(fault)}};
   if (Report moved = move_mesh(start, stage.motion, stage.flow, duration); !moved.ok())
     return {std::move(moved)};
   if (act_on_flow(state_.scene) || has_soluble_surfactant(state_.scene))

@@ -20,7 +20,8 @@ struct RefusedStep {
 struct FailedSurgery {
   std::string why;
 };
-/// A linear solver that failed where another one then succeeded.
+/// What a solver did in another way than asked for (`FlowSolution::warnings`): a linear solver that
+/// failed where another one then succeeded, or edges of interfaces that are less curved.
 struct FailedSolver {
   std::string why;
 };

@@ -66,7 +66,7 @@ InverseSum inverse_sum(double alpha, double least, double most) {
       continue;
     }
     sum.rest += weight;
-    if (y > 1.0 && weight < kSmallest) return sum;
+    if (!(y <= 1.0) && !(weight >= kSmallest)) return sum;  // what is no number as well
   }
 }
 
@@ -74,6 +74,8 @@ InverseSum inverse_sum(double alpha, double least, double most) {
 Eigen::VectorXd damped(const SparseMatrix& K, const Eigen::VectorXd& mass, double k, double alpha,
                        const Eigen::VectorXd& s) {
   const double most = 2.0 * (K.diagonal().array() / mass.array()).maxCoeff() + k;
+  constexpr double kUndamped = 1e-9;  // α√Λ below which b is roundoff
+  if (alpha * std::sqrt(most) < kUndamped) return s;
   const InverseSum sum = inverse_sum(alpha, k, most);
   const Eigen::VectorXd moment = mass.cwiseProduct(s);
   Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> factors;

@@ -159,7 +159,7 @@ const std::vector<BadCase> kValues{
     {"coalescence", shear_with("[topology]\ncoalescence = \"sometimes\"\n"),
      "case.toml:7: topology.coalescence = \"sometimes\" must be one of \"on\", \"off\""},
     {"breakup", shear_with("[topology]\nbreakup-radius = -0.01\n"),
-     "case.toml:7: topology.breakup-radius = -0.01 must be at least 0"},
+     "case.toml:7: topology.breakup-radius = -0.01 must be between 0 and 1000000"},
     {"gap layers", shear_with("[interface]\ngap-layers = 101\n"),
      "case.toml:7: interface.gap-layers = 101 must be between 0 and 100"},
     {"Ca = 0", flow("kind = \"simple-shear\"\ncapillary-number = 0\n"),

@@ -46,6 +46,19 @@ double factor_of_mode(int l, double viscosity_ratio, double duration, int num_ve
   return product / square;
 }
 
+// Neither is a sum that ends by itself.
+TEST(WaveDamping, EndsWhereNumbersOverflow) {
+  Scene scene = sphere_in_matrix(60);
+  const std::int32_t count = scene.interfaces[0].mesh.num_vertices();
+  const NormalSpeeds speeds(1, VertexField<double>(count, 1.0)),
+      none(1, VertexField<double>(count, 0.0));
+  scene.interfaces[0].tension = 1e-300;
+  EXPECT_EQ(damped_speeds(scene, kViscosities, speeds, none, 1.0), speeds);
+  scene.interfaces[0].tension = 1e300;
+  const NormalSpeeds damped = damped_speeds(scene, kViscosities, speeds, none, 1.0);
+  EXPECT_FALSE(std::abs(damped[0][VertexId{0}]) > 1e-6);
+}
+
 // On a sphere −Δ_s has the eigenvalues l(l + 1)/R².
 TEST(WaveDamping, DampsTheModesOfASphereByTheirWaveNumbers) {
   for (const int l : {2, 4, 8})

@@ -144,6 +144,7 @@ class FiniteElementFlow final : public FlowSolver {
   std::shared_ptr<const FlowSpace> space_;
   std::optional<StokesSolver> stokes_;
   std::optional<int> made_flattened_;  // edges, when the flow was first asked for on the mesh
+  int told_flattened_ = 0;             // most edges that a warning told of on the mesh
   SolutionHistory history_;            // for the next solve's first guess
   double guess_duration_ = 0.0;        // of the stage that the last solution comes from; 0: of none
   KeptPreconditioner preconditioner_;
@@ -157,6 +158,7 @@ void FiniteElementFlow::use_connectivity(const FlowDomain& domain) {
   stokes_.emplace(*space_, options_);
   history_.clear();
   made_flattened_.reset();
+  told_flattened_ = 0;
   preconditioner_.at.reset();
   connectivity_ = domain.connectivity;
 }
@@ -346,9 +348,10 @@ FlowSolution FiniteElementFlow::solve(const FlowDomain& domain, const Instant& i
       report.ok() ? solution(domain, problem, state, report.power) : failed_flow(*report.fault);
   if (report.ok()) keep_solution(problem.stokes, instant.t, std::move(state));
   result.iterations = report.iterations;
-  if (const int flattened = problem.stokes.positions.num_flattened; flattened > 0)
+  if (const int flattened = problem.stokes.positions.num_flattened; flattened > told_flattened_)
     result.warnings.push_back(
         fmt::format("{} edges of surfaces are less curved in the elements", flattened));
+  told_flattened_ = std::max(told_flattened_, problem.stokes.positions.num_flattened);
   result.warnings.insert(result.warnings.end(), report.failed_solvers.begin(),
                          report.failed_solvers.end());
   return result;
