@@ -106,7 +106,7 @@ const std::vector<Key> kLiquidKeys{
     {.path = "drop[].from-run",
      .type = path,
      .default_note = kShapeRequired,
-     .sentence = "Another run's folder: the shape in its newest checkpoint."},
+     .sentence = "Another run's folder: the shape in its newest checkpoint, with its volume."},
     {.path = "drop[].from-drop",
      .type = whole,
      .range = {.min = 0, .max = 1e9},

@@ -71,6 +71,17 @@ void shift(SurfaceMesh& mesh, const Vec3& by) {
   for (Vec3& x : mesh.x) x += by;
 }
 
+/// Gives the surface of a checkpoint the volume that it had there where faces of another kind, flat
+/// or curved, enclose another one.
+void keep_volume(const Archive& archive, int index, SurfaceShape faces, SurfaceMesh& mesh) {
+  constexpr double kRoundOff = 1e-9;
+  const auto found = archive.reals.find(fmt::format("interfaces/{}/properties", index));
+  if (found == archive.reals.end() || found->second.size() != 4) return;
+  const double volume = found->second[2];
+  if (std::abs(ReconstructedSurface(mesh, faces).volume() / volume - 1.0) > kRoundOff)
+    restore_volume(mesh, volume, faces);
+}
+
 /// The volume that a given surface encloses, with flat or curved faces. A rough surface (a cube, a
 /// scan) approximates no smooth one and always has flat faces.
 double given_volume(const SurfaceMesh& mesh, SurfaceShape faces) {
@@ -161,6 +172,7 @@ SurfaceMesh read_run_surface(const Case& c, const std::string& path, const RunSh
   const int index = interface_of_drop(c, path, archive, shape.drop);
   SurfaceMesh mesh = surface_from_archive(c, path, archive, index);
   require_fit(c, path, mesh);
+  keep_volume(archive, index, c.evolution.surface, mesh);
   return mesh;
 }
 

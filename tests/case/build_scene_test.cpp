@@ -12,6 +12,7 @@
 #include "meniscus/scene/interface_tension.hpp"
 #include "meniscus/surface/reconstructed_surface.hpp"
 #include "meniscus/surface/remesh.hpp"
+#include "meniscus/surface/restore_volume.hpp"
 #include "tests/case/case_files.hpp"
 
 namespace meniscus {
@@ -280,6 +281,28 @@ TEST(BuildScene, TakesTheLastShapeOfAnotherRun) {
   const SurfaceMesh mesh = build_scene(c).interfaces[0].mesh;
   EXPECT_EQ(mesh.faces, last_shape.faces);
   for (const VertexId v : mesh.x.ids()) EXPECT_EQ(mesh.x[v], last_shape.x[v] + Vec3(0, 1, 0));
+}
+
+// Whose faces were curved, where those of this case are flat, and the other way round.
+TEST(BuildScene, KeepsTheVolumeOfAShapeOfAnotherRun) {
+  const double volume = 4.0 / 3.0 * std::numbers::pi;
+  for (const auto& [of_run, solver] : {std::pair(SurfaceShape::splined, "elements = \"P1-P1\""),
+                                       std::pair(SurfaceShape::faceted, "elements = \"P2-P1\""),
+                                       std::pair(SurfaceShape::splined, "elements = \"P2-P1\"")}) {
+    SurfaceMesh shape = stretched_sphere(80, Vec3(1.3, 0.9, 0.85));
+    restore_volume(shape, volume, of_run);
+    Archive archive = archive_of({shape});
+    archive.reals["interfaces/0/properties"] = {1.0, 8.75, volume, volume};
+    const test::TemporaryFolder folder;
+    io::write_archive(folder.path() / "checkpoint-1.h5", archive);
+    const Case c = parse_case(fmt::format("[flow]\nkind = \"quiescent\"\n[[drop]]\nfrom-run = "
+                                          "\".\"\n[domain]\nhalf-width = 4\n[solver]\n{}\n",
+                                          solver),
+                              "case.toml", folder.path());
+    const Interface drop = build_scene(c).interfaces[0];
+    EXPECT_NEAR(drop.volume, volume, 1e-9) << solver;
+    EXPECT_NEAR(ReconstructedSurface(drop.mesh, c.evolution.surface).volume(), volume, 1e-9);
+  }
 }
 
 TEST(BuildScene, ChoosesOneDropOfAnotherRun) {
