@@ -106,12 +106,24 @@ int run(const RunArguments& arguments) {
                   view.get());
 }
 
+/// A checkpoint of a run. Where the newest one is damaged the line names the one before it.
+Archive read_checkpoint(const fs::path& checkpoint) {
+  try {
+    return io::read_archive(checkpoint);
+  } catch (const InvalidInput& error) {
+    const auto all = io::checkpoints(checkpoint.parent_path());
+    if (all.size() < 2 || all.back().second.filename() != checkpoint.filename()) throw;
+    reject_input("{}; go on from the one before it with --from {} -o NEW", error.what(),
+                 all[all.size() - 2].second.string());
+  }
+}
+
 int resume(const ResumeArguments& arguments) {
   if (arguments.is_quiet) log::set_level(log::Level::error);
   const fs::path source(arguments.directory);
   const fs::path checkpoint =
       arguments.from.empty() ? newest_checkpoint(source) : fs::path(arguments.from);
-  const Archive archive = io::read_archive(checkpoint);
+  const Archive archive = read_checkpoint(checkpoint);
   require_changeable(arguments.overrides);
   std::vector<std::string> overrides = arguments.overrides;
   if (arguments.until) {

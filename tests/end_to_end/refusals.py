@@ -45,6 +45,9 @@ def main():
     shutil.copytree(work / "run", work / "corrupt")
     for checkpoint in (work / "corrupt").glob("checkpoint-*.h5"):
         checkpoint.write_bytes(checkpoint.read_bytes()[:1000])
+    shutil.copytree(work / "run", work / "cut")
+    newest = max((work / "cut").glob("checkpoint-*.h5"))
+    newest.write_bytes(newest.read_bytes()[:1000])
     (work / "foreign").mkdir()
     (work / "foreign/checkpoint-000001.h5").write_text("step,t\n0,0\n")
 
@@ -61,6 +64,7 @@ def main():
     check(["resume", "nowhere"], "nowhere")
     check(["resume", "foreign"], "checkpoint-000001.h5")
     check(["resume", "corrupt"], "checkpoint-")
+    check(["resume", "cut"], newest.name, "is cut short", "--from cut/checkpoint-")
     check(["resume", "run", "--until", "-1"], "--until = -1")
     check(["resume", "run", "--from", "run/none.h5", "-o", "new"], "none.h5")
     check(["resume", "run", "--set", "time.end=1"], "--from")
