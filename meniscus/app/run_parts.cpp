@@ -54,6 +54,7 @@ Case shared_case(Case c) {
   c.evolution.processes = linear::Processes::all;
   c.flow_solver.processes = linear::Processes::all;
   c.boundary_integral.processes = linear::Processes::all;
+  c.volume_mesh.tetrahedra.processes = linear::Processes::all;
   return c;
 }
 

@@ -17,7 +17,7 @@ namespace meniscus {
 // What begins, resumes and ends a run, for the commands and the Python module. Every rank makes the
 // same calls.
 
-/// The case with evolution and either flow solver shared by all ranks.
+/// The case with evolution, meshing and either flow solver shared by all ranks.
 [[nodiscard]] Case shared_case(Case c);
 
 /// Writes warnings to the log and adds them to `warnings`, for run.json.

@@ -158,15 +158,15 @@ StageFlow Evolution::time_scheme_step(const Scene& start, double dt) {
     return solve_stage(start, stage, duration, instant);
   };
   const double stiffness = options_.surface == SurfaceShape::faceted ? kFacetedStiffness : 1.0;
-  const double duration = kDampedShare * stiffness * dt;
+  const Damping damping{kDampedShare * stiffness * dt, options_.processes};
   const StageDampers damp{[&](StageFlow& stage, const NormalSpeeds& about) {
                             const PhaseTimer timer(times_, "move interfaces");
-                            meniscus::damp(stage, state_.scene, about, duration);
+                            meniscus::damp(stage, state_.scene, about, damping);
                           },
                           [&](const StageFlow& stage, const SurfactantPath& path,
                               const ConcentrationRates& rates, const ConcentrationRates& about) {
                             const PhaseTimer timer(times_, "move interfaces");
-                            return damped(stage, path, rates, about, duration);
+                            return damped(stage, path, rates, about, damping);
                           }};
   switch (options_.scheme) {
     case TimeScheme::euler:

@@ -7,7 +7,6 @@
 #include "meniscus/evolve/chebyshev.hpp"
 #include "meniscus/evolve/constants.hpp"
 #include "meniscus/evolve/vertex_travel.hpp"
-#include "meniscus/evolve/wave_damping.hpp"
 #include "meniscus/mesh/sphere_radius.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 #include "meniscus/scene/interface_tension.hpp"
@@ -222,10 +221,10 @@ StageFlow semi_implicit_step(const StageFlow& first, const Step& step, const Sta
   return middle;
 }
 
-void damp(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, double duration) {
+void damp(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, const Damping& damping) {
   const NormalSpeeds rest = normal_speeds(stage.normals, stage.shape.rest);
   set_rest(stage, scene, rest,
-           damped_speeds(scene, least_viscosities(stage.flow, scene), rest, about, duration));
+           damped_speeds(scene, least_viscosities(stage.flow, scene), rest, about, damping));
 }
 
 void slow_down(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, double duration) {
@@ -241,9 +240,9 @@ SurfactantPath surfactant_path(const Step& step, const InterfaceMotion& motion, 
 
 ConcentrationRates damped(const StageFlow& stage, const SurfactantPath& path,
                           const ConcentrationRates& rates, const ConcentrationRates& about,
-                          double duration) {
+                          const Damping& damping) {
   return damped_concentration_rates(path.start, least_viscosities(stage.flow, path.start), rates,
-                                    about, path.at_end, duration);
+                                    about, path.at_end, damping);
 }
 
 StageFlow implicit_step(const StageFlow& first, const Step& step, const ImplicitSolver& solve,

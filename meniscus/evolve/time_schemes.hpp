@@ -9,6 +9,7 @@
 #include "meniscus/evolve/interface_motion.hpp"
 #include "meniscus/evolve/shape_motion.hpp"
 #include "meniscus/evolve/surfactant_motion.hpp"
+#include "meniscus/evolve/wave_damping.hpp"
 #include "meniscus/flow/flow_solver.hpp"
 
 namespace meniscus {
@@ -61,9 +62,9 @@ using ImplicitSolver =
 /// Damps the normal speeds that the shapes of a stage have beyond their rigid motions about others,
 /// where the stage's interfaces are.
 using StageDamper = std::function<void(StageFlow& stage, const NormalSpeeds& about)>;
-/// What tension would change in `duration` (`damped_speeds`). A rigid motion meets no resistance
+/// What tension would change in a duration (`damped_speeds`). A rigid motion meets no resistance
 /// of it.
-void damp(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, double duration);
+void damp(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, const Damping& damping);
 /// What tension changes in an implicit stage (`expected_speeds`).
 void slow_down(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, double duration);
 
@@ -71,10 +72,10 @@ void slow_down(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, 
 using ConcentrationDamper = std::function<ConcentrationRates(
     const StageFlow& stage, const SurfactantPath& path, const ConcentrationRates& rates,
     const ConcentrationRates& about)>;
-/// What the elasticity would change in `duration` (`damped_concentration_rates`).
+/// What the elasticity would change in a duration (`damped_concentration_rates`).
 [[nodiscard]] ConcentrationRates damped(const StageFlow& stage, const SurfactantPath& path,
                                         const ConcentrationRates& rates,
-                                        const ConcentrationRates& about, double duration);
+                                        const ConcentrationRates& about, const Damping& damping);
 
 /// How a step is damped.
 struct StageDampers {

@@ -72,7 +72,7 @@ InverseSum inverse_sum(double alpha, double least, double most) {
 
 /// What 1/(1 + b(α(M⁻¹K + k)^½)) makes of s.
 Eigen::VectorXd damped(const SparseMatrix& K, const Eigen::VectorXd& mass, double k, double alpha,
-                       const Eigen::VectorXd& s) {
+                       const Eigen::VectorXd& s, linear::Processes processes) {
   const double most = 2.0 * (K.diagonal().array() / mass.array()).maxCoeff() + k;
   constexpr double kUndamped = 1e-9;  // α√Λ below which b is roundoff
   if (alpha * std::sqrt(most) < kUndamped) return s;
@@ -82,7 +82,7 @@ Eigen::VectorXd damped(const SparseMatrix& K, const Eigen::VectorXd& mass, doubl
   factors.analyzePattern(K);
   const auto size = static_cast<std::size_t>(s.size());
   const std::vector<double> parts =
-      linear::shared_numbers(linear::Communicator::world(), sum.terms.size(), size,
+      linear::shared_numbers(linear::Communicator::of(processes), sum.terms.size(), size,
                              [&](std::size_t first, std::size_t end) {
                                std::vector<double> values(size * (end - first));
                                for (std::size_t term = first; term < end; ++term) {
@@ -145,23 +145,25 @@ Eigen::VectorXd slowed(const SparseMatrix& K, const Eigen::VectorXd& mass, doubl
   return result;
 }
 
-/// What A would change in `duration` on one interface, of tension or elasticity `modulus`, about
+/// What A would change in the duration on one interface, of tension or elasticity `modulus`, about
 /// zero; `mesh` is where its vertices are.
 Eigen::VectorXd damped_on(const Scene& scene, std::size_t i, const SurfaceMesh& mesh,
                           std::span<const double> viscosity, double modulus,
-                          const Eigen::VectorXd& mass, const Eigen::VectorXd& s, double duration) {
+                          const Eigen::VectorXd& mass, const Eigen::VectorXd& s,
+                          const Damping& damping) {
   const Interface& interface = scene.interfaces[i];
   const double viscosities = viscosity[static_cast<std::size_t>(interface.inside.value)] +
                              viscosity[static_cast<std::size_t>(interface.outside.value)];
   const double radius = sphere_radius(interface.volume);
   return damped(stiffness(mesh), mass, kSphereStiffness / (radius * radius),
-                duration * modulus / (2.0 * viscosities), s);
+                damping.duration * modulus / (2.0 * viscosities), s, damping.processes);
 }
 
 }  // namespace
 
 NormalSpeeds damped_speeds(const Scene& scene, std::span<const double> viscosity,
-                           const NormalSpeeds& speeds, const NormalSpeeds& about, double duration) {
+                           const NormalSpeeds& speeds, const NormalSpeeds& about,
+                           const Damping& damping) {
   MENISCUS_ASSERT(speeds.size() == scene.interfaces.size() && about.size() == speeds.size(),
                   "{} and {} speeds of {} interfaces", speeds.size(), about.size(),
                   scene.interfaces.size());
@@ -176,7 +178,7 @@ NormalSpeeds damped_speeds(const Scene& scene, std::span<const double> viscosity
       s[v.value] = speeds[i][v] - about[i][v];
     }
     s = damped_on(scene, i, interface.mesh, viscosity, largest_tension(interface), mass, s,
-                  duration);
+                  damping);
     for (const VertexId v : area.ids()) result[i][v] = about[i][v] + s[v.value];
   }
   return result;
@@ -210,7 +212,8 @@ NormalSpeeds expected_speeds(const Scene& scene, const NormalSpeeds& speeds,
 ConcentrationRates damped_concentration_rates(const Scene& scene, std::span<const double> viscosity,
                                               const ConcentrationRates& rates,
                                               const ConcentrationRates& about,
-                                              const SceneCarriers& carriers, double duration) {
+                                              const SceneCarriers& carriers,
+                                              const Damping& damping) {
   MENISCUS_ASSERT(rates.size() == carriers.size() && about.size() == rates.size(),
                   "{} and {} rates of {} interfaces", rates.size(), about.size(), carriers.size());
   ConcentrationRates result = rates;
@@ -225,7 +228,7 @@ ConcentrationRates damped_concentration_rates(const Scene& scene, std::span<cons
     }
     const double mean = mass.dot(s) / mass.sum();
     s.array() -= mean;
-    s = damped_on(scene, i, carriers[i]->mesh, viscosity, elasticity, mass, s, duration);
+    s = damped_on(scene, i, carriers[i]->mesh, viscosity, elasticity, mass, s, damping);
     for (const VertexId v : area.ids()) result[i][v] = about[i][v] + mean + s[v.value];
   }
   return result;

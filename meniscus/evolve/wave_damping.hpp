@@ -3,11 +3,18 @@
 #include <span>
 
 #include "meniscus/evolve/surfactant_motion.hpp"
+#include "meniscus/linear/communicator.hpp"
 
 namespace meniscus {
 
+/// How long rates are damped, and by which processes together.
+struct Damping {
+  double duration = 0.0;  ///< [1/G]
+  linear::Processes processes = linear::Processes::alone;
+};
+
 /// What the semi-implicit scheme makes of normal speeds s: s* with
-///   (1 + b(τA))(s* − s0) = s − s0,   A = σ/(2(μ_in + μ_out)) (−Δ_s + k/R²)^½,   τ = `duration`,
+///   (1 + b(τA))(s* − s0) = s − s0,   A = σ/(2(μ_in + μ_out)) (−Δ_s + k/R²)^½,   τ the duration,
 ///   b(q) = q²/(q + q0),   q0 = `kUndampedShare`.
 /// σ|q|/(2(μ_in + μ_out)) is the rate at which waves of wave number q decay that are short against
 /// all other lengths; long ones decay more slowly. k is `kSphereStiffness`, R the radius of the
@@ -18,7 +25,7 @@ namespace meniscus {
 /// 3 %.
 [[nodiscard]] NormalSpeeds damped_speeds(const Scene& scene, std::span<const double> viscosity,
                                          const NormalSpeeds& speeds, const NormalSpeeds& about,
-                                         double duration);
+                                         const Damping& damping);
 
 /// What is expected of normal speeds s in an implicit stage of liquids with inertia, s* with
 ///   s* − s0 = (s − s0)/(1 + q²),   q = στ²κ³/(ρ_in + ρ_out + 2(μ_in + μ_out)τκ²),
@@ -36,6 +43,6 @@ namespace meniscus {
 /// would leave the other.
 [[nodiscard]] ConcentrationRates damped_concentration_rates(
     const Scene& scene, std::span<const double> viscosity, const ConcentrationRates& rates,
-    const ConcentrationRates& about, const SceneCarriers& carriers, double duration);
+    const ConcentrationRates& about, const SceneCarriers& carriers, const Damping& damping);
 
 }  // namespace meniscus

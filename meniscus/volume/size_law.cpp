@@ -289,7 +289,7 @@ std::vector<double> SizeLaw::at_surface_vertices() const {
   std::vector<OnSurface> all;
   for (std::size_t i = 0; i < surfaces_.size(); ++i)
     for (const Vec3& x : surfaces_[i].mesh->x) all.push_back({x, i});
-  return linear::shared_numbers(linear::Communicator::world(), all.size(), 1,
+  return linear::shared_numbers(communicator(), all.size(), 1,
                                 [&](std::size_t first, std::size_t end) {
                                   std::vector<double> sizes;
                                   for (std::size_t k = first; k < end; ++k) {

@@ -75,6 +75,10 @@ class SizeLaw {
   /// The wanted edge at each vertex of the surfaces: the interfaces', then the outer boundary's.
   /// That a vertex lies on its own interface is known, and the exact test is spared. Collective.
   [[nodiscard]] std::vector<double> at_surface_vertices() const;
+  /// Of the processes that share the law's work.
+  [[nodiscard]] linear::Communicator communicator() const {
+    return linear::Communicator::of(options_.processes);
+  }
   /// How often the nearest point of a surface has been looked for: what the law costs.
   [[nodiscard]] std::int64_t num_searches() const { return num_searches_; }
 

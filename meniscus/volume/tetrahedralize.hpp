@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "meniscus/core/fault.hpp"
+#include "meniscus/linear/communicator.hpp"
 #include "meniscus/scene/scene.hpp"
 
 namespace meniscus {
@@ -25,6 +26,8 @@ struct VolumeMeshOptions {
   /// Whether the faces of interfaces will be curved. Then vertices between the surfaces move for
   /// the shape of cells, above all of those on such faces (`smooth_cells`).
   bool curves_interfaces = false;
+  /// Which processes share the sizes of cells; each makes the same mesh of the same scene.
+  linear::Processes processes = linear::Processes::alone;
   void validate() const;
 };
 

@@ -14,12 +14,12 @@ constexpr double kFromSurface = 0.6;
 constexpr double kApart = 0.8;
 
 /// The edge wanted at each vertex between the surfaces, 0 at those near or on a surface. Found by
-/// all ranks together.
+/// the processes of the law together.
 Field<TetVertexId, double> sizes_off_surfaces(const TetMesh& mesh, const SizeLaw& law) {
   const std::int32_t first_free = first_free_vertex(mesh).value;
   const auto count = static_cast<std::size_t>(mesh.num_vertices() - first_free);
-  const std::vector<double> found = linear::shared_numbers(
-      linear::Communicator::world(), count, 1, [&](std::size_t first, std::size_t end) {
+  const std::vector<double> found =
+      linear::shared_numbers(law.communicator(), count, 1, [&](std::size_t first, std::size_t end) {
         std::vector<double> sizes;
         sizes.reserve(end - first);
         for (const Vec3& x :

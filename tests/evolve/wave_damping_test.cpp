@@ -37,7 +37,7 @@ double factor_of_mode(int l, double viscosity_ratio, double duration, int num_ve
     speeds[0][v] = std::legendre(static_cast<unsigned>(l), mesh.x[v].x() / kRadius);
   const NormalSpeeds none(1, VertexField<double>(mesh.num_vertices(), 0.0));
   const NormalSpeeds damped =
-      damped_speeds(scene, std::vector{1.0, viscosity_ratio}, speeds, none, duration);
+      damped_speeds(scene, std::vector{1.0, viscosity_ratio}, speeds, none, {duration});
   double product = 0.0, square = 0.0;
   for (const VertexId v : mesh.x.ids()) {
     product += damped[0][v] * speeds[0][v];
@@ -53,9 +53,9 @@ TEST(WaveDamping, EndsWhereNumbersOverflow) {
   const NormalSpeeds speeds(1, VertexField<double>(count, 1.0)),
       none(1, VertexField<double>(count, 0.0));
   scene.interfaces[0].tension = 1e-300;
-  EXPECT_EQ(damped_speeds(scene, kViscosities, speeds, none, 1.0), speeds);
+  EXPECT_EQ(damped_speeds(scene, kViscosities, speeds, none, {1.0}), speeds);
   scene.interfaces[0].tension = 1e300;
-  const NormalSpeeds damped = damped_speeds(scene, kViscosities, speeds, none, 1.0);
+  const NormalSpeeds damped = damped_speeds(scene, kViscosities, speeds, none, {1.0});
   EXPECT_FALSE(std::abs(damped[0][VertexId{0}]) > 1e-6);
 }
 
@@ -87,7 +87,7 @@ TEST(WaveDamping, KeepsTheRateOfTheVolume) {
     total += area[v].norm();
   }
   for (double& s : speeds[0]) s -= rate / total;
-  const NormalSpeeds damped = damped_speeds(scene, kViscosities, speeds, none, 0.3);
+  const NormalSpeeds damped = damped_speeds(scene, kViscosities, speeds, none, {0.3});
   double left = 0.0;
   for (const VertexId v : area.ids()) left += area[v].norm() * damped[0][v];
   EXPECT_NEAR(left, 0.0, 1e-12 * total);
@@ -97,7 +97,7 @@ TEST(WaveDamping, LeavesWhatItIsAbout) {
   const Scene scene = sphere_in_matrix(110);
   NormalSpeeds speeds(1);
   for (const Vec3& x : scene.interfaces[0].mesh.x) speeds[0].add(x.x());
-  EXPECT_EQ(damped_speeds(scene, kViscosities, speeds, speeds, 10.0), speeds);
+  EXPECT_EQ(damped_speeds(scene, kViscosities, speeds, speeds, {10.0}), speeds);
 }
 
 }  // namespace
