@@ -84,7 +84,9 @@ bool is_chosen(const CheckedRun& run, const CheckArguments& arguments) {
 /// Makes the run of a check, or resumes it where it stopped. Returns whether it reached its end.
 bool simulate(const fs::path& case_file, const CheckedRun& run, const fs::path& folder,
               bool is_quiet) {
-  switch (state_of_run(folder, read_case(case_file, run.overrides))) {
+  RunState state = state_of_run(folder, read_case(case_file, run.overrides));
+  if (state == RunState::unfinished && io::checkpoints(folder).empty()) state = RunState::absent;
+  switch (state) {
     case RunState::finished:
       return true;
     case RunState::unfinished:

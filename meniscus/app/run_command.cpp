@@ -96,14 +96,14 @@ int run(const RunArguments& arguments) {
   check_field_names(evolution);
   const std::unique_ptr<LiveView> view = make_live_view(arguments.watch);
   // Nothing is written before the run can begin.
+  RunRecord record(c, arguments.case_file, text, warnings);
   std::optional<RunDirectory> directory =
       new_directory(folder, arguments.is_overwrite, evolution, file.parent_path());
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, file.parent_path()));
   simulation.stop_when(c.stop);
   Progress progress(0.0, c.evolution.end, arguments.is_quiet);
-  return simulate(simulation, RunRecord(c, arguments.case_file, text, warnings), progress,
-                  view.get());
+  return simulate(simulation, record, progress, view.get());
 }
 
 /// A checkpoint of a run. Where the newest one is damaged the line names the one before it.

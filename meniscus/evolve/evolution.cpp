@@ -318,6 +318,8 @@ Report Evolution::finish_step(const Scene& start, const StageFlow& whole, double
     if (Report moved = exchange_with_liquids(start, whole, dt); !moved.ok()) return moved;
     exchanged_at = state_.mesh->tetrahedra();
   }
+  // Before what is carried is remeshed, which must not fail on one process alone.
+  if (auto fault = find_surfactant_fault(state_.scene)) return {std::move(fault)};
   const Scene moved = time_phase(times_, "move interfaces", [&] { return state_.scene; });
   const bool is_due = is_remesh_due();
   bool are_remeshed = false;

@@ -94,6 +94,7 @@ std::vector<InterfaceRemesh> remesh_interfaces(State& state, const EvolutionOpti
   for (std::size_t k = 0; k < interfaces.size(); ++k) {
     Interface& interface = state.scene.interfaces[interfaces[k]];
     interface.mesh = all[k].mesh;
+    interface.tension_factor = {};  // of the vertices before
     interface.fields = all[k].fields;
     VolumeShift shift = all[k].shift;
     if (options.surface != SurfaceShape::faceted)

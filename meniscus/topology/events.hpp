@@ -19,8 +19,9 @@ struct TopologyEvent {
   std::vector<int> parents, children;              ///< ids of drops
   double volume_before = 0.0, volume_after = 0.0;  ///< all parents, all children [R0³]
   double area_before = 0.0, area_after = 0.0;      ///< [R0²]
-  double energy_before = 0.0, energy_after = 0.0;  ///< Σ tension · area [μ_out G R0³]
-  std::optional<double> neck_radius, gap;          ///< [R0]; the one that the kind has
+  /// Σ tension · area [μ_out G R0³], bulk scalars left out.
+  double energy_before = 0.0, energy_after = 0.0;
+  std::optional<double> neck_radius, gap;  ///< [R0]; the one that the kind has
   /// Liquid that the cut or the bridge moved from one place to another before volumes were made to
   /// add up [R0³].
   double volume_moved = 0.0;

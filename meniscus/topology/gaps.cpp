@@ -22,6 +22,7 @@ namespace {
 constexpr double kFacing = 0.5;    // cosine of 60°
 constexpr double kSameFilm = 6.0;  // limits: closer places of one film are one
 constexpr double kNearby = 3.0;    // limits: radius of the ball that must not join two parts
+constexpr double kLink = 3.0;      // mean edges: the same of places that vertices of a film are at
 
 /// One interface while gaps are looked for.
 struct Sheet {
@@ -151,28 +152,62 @@ bool approaches(const Contact& c, const SurfaceMotion& motion) {
          motion.at(c.from).dot(c.into_from) + motion.at(c.to).dot(c.into_to) > 0.0;
 }
 
-/// One gap for each film: its closest place that the surfaces approach at. `is_film` has the last
-/// word on a place.
+/// Numbers the films that contacts are in. Those of one film lead to each other by steps no longer
+/// than `link`.
+std::vector<int> film_numbers(const std::vector<Contact>& contacts, double link) {
+  std::vector<Box> places;
+  places.reserve(contacts.size());
+  for (const Contact& c : contacts) places.emplace_back(Vec3(0.5 * (c.from + c.to)));
+  const BoxTree tree(places);
+  std::vector<int> number(contacts.size(), -1);
+  int films = 0;
+  for (std::size_t first = 0; first < number.size(); ++first) {
+    if (number[first] >= 0) continue;
+    std::vector<std::size_t> front{first};
+    number[first] = films;
+    while (!front.empty()) {
+      const Box here = places[front.back()];
+      front.pop_back();
+      tree.visit_within(here, link, [&](std::size_t next) {
+        if (number[next] >= 0) return;
+        number[next] = films;
+        front.push_back(next);
+      });
+    }
+    ++films;
+  }
+  return number;
+}
+
+/// The gaps of films: the closest places that the surfaces approach at. `is_film` has the last word
+/// on a place.
 template <class IsFilm>
-void collect(std::vector<Contact> contacts, Gap gap, double limit, const SurfaceMotion& motion,
-             const IsFilm& is_film, std::vector<Gap>& gaps) {
+void collect(std::vector<Contact> contacts, Gap gap, double limit, double mean_edge,
+             const SurfaceMotion& motion, const IsFilm& is_film, std::vector<Gap>& gaps) {
   std::ranges::sort(contacts, comes_before);
+  const std::vector<int> film =
+      film_numbers(contacts, std::max(kSameFilm * limit, kLink * mean_edge));
   std::vector<Gap> found;
-  for (const Contact& c : contacts) {
+  std::vector<int> film_of_found;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& c = contacts[i];
     gap.width = c.width;
     gap.from = c.from;
     gap.to = c.to;
     const bool is_known = std::ranges::any_of(found, [&](const Gap& other) {
       return (other.middle() - gap.middle()).norm() < kSameFilm * limit;
     });
-    if (!is_known && approaches(c, motion) && is_film(c)) found.push_back(gap);
+    if (is_known || !approaches(c, motion) || !is_film(c)) continue;
+    found.push_back(gap);
+    film_of_found.push_back(film[i]);
   }
-  for (Gap& each : found) {
-    for (const Contact& c : contacts) {
-      each.patch.push_back(c.from);
-      each.patch.push_back(c.to);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      if (film[i] != film_of_found[k]) continue;
+      found[k].patch.push_back(contacts[i].from);
+      found[k].patch.push_back(contacts[i].to);
     }
-    gaps.push_back(std::move(each));
+    gaps.push_back(std::move(found[k]));
   }
 }
 
@@ -183,8 +218,9 @@ std::vector<Gap> gaps_between(const Sheet& a, const Sheet& b, const std::array<S
   add_contacts(b, film.back(), a, film.front(), limit, true, contacts);
   std::vector<Gap> gaps;
   collect(
-      std::move(contacts), {.side = film.front()}, limit, motion,
-      [](const Contact&) { return true; }, gaps);
+      std::move(contacts), {.side = film.front()}, limit,
+      std::max(mean_edge(a.mesh), mean_edge(b.mesh)), motion, [](const Contact&) { return true; },
+      gaps);
   return gaps;
 }
 
@@ -196,7 +232,8 @@ std::vector<Gap> gaps_within(const Sheet& sheet, double limit, const SurfaceMoti
     if (contacts.empty()) continue;
     if (!joins) joins.emplace(sheet);
     const auto is_film = [&](const Contact& c) { return !joins->are_joined(c, kNearby * limit); };
-    collect(std::move(contacts), {.side = side}, limit, motion, is_film, gaps);
+    collect(std::move(contacts), {.side = side}, limit, mean_edge(sheet.mesh), motion, is_film,
+            gaps);
   }
   return gaps;
 }

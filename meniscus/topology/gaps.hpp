@@ -20,7 +20,7 @@ struct Gap {
   double width = 0.0;         ///< [R0]
   Vec3 from = Vec3::Zero();   ///< on a
   Vec3 to = Vec3::Zero();     ///< on b
-  /// Points of either surface across from which the film is thinner than the limit.
+  /// Points of either surface across from which this film is thinner than the limit.
   std::vector<Vec3> patch = {};
 
   [[nodiscard]] Vec3 middle() const { return 0.5 * (from + to); }
@@ -30,9 +30,9 @@ struct Gap {
 ///   v(from)·m(from) + v(to)·m(to) > 0,  m the normal into the film.
 /// Facing: the normals into the film are opposed to within 60°, and the line between the points is
 /// within 60° of both. Two parts of one surface count as facing only if no faces within 3 `limit`
-/// of the middle join them. Neither the rim of a film nor a neck is a gap. Of the places of one
-/// film that the limit joins, only the closest is given. O(n log n) in the number of drops as long
-/// as few are near each one.
+/// of the middle join them. Neither the rim of a film nor a neck is a gap. Of places within 6
+/// limits of each other only the closest is given. Places of one film are joined by steps of 6
+/// limits or three mean edges. O(n log n) in the number of drops as long as few are near each one.
 [[nodiscard]] std::vector<Gap> find_gaps(const Scene& scene, double limit,
                                          const SurfaceMotion& motion);
 

@@ -170,9 +170,13 @@ void add_curved_part(std::vector<Child>& children, const LiquidVolume& volume) {
   if (last != nullptr) last->interface.volume += volume.kept - enclosed_liquid(children);
 }
 
+/// Without what bulk scalars multiply tensions by, which is known at the parents' vertices alone.
 double energy(std::span<const Interface> interfaces) {
   double sum = 0.0;
-  for (const Interface& each : interfaces) sum += tension_energy(each);
+  for (Interface each : interfaces) {
+    each.tension_factor = {};
+    sum += tension_energy(each);
+  }
   return sum;
 }
 

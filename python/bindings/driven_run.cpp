@@ -43,12 +43,12 @@ std::unique_ptr<DrivenRun> DrivenRun::begin(PythonCase given, const std::optiona
   if (folder) require_usable(*folder, is_overwrite);
   Evolution evolution = begun_evolution(c, std::move(scene));
   check_field_names(evolution);
+  RunRecord record(c, given.file(), given.text(), warnings);
   std::optional<RunDirectory> directory;
   if (folder) directory = new_directory(*folder, is_overwrite, evolution, given.folder());
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, given.folder()));
   simulation.stop_when(c.stop);
-  RunRecord record(c, given.file(), given.text(), warnings);
   std::unique_ptr<DrivenRun> run(
       new DrivenRun(std::move(given), folder, std::move(simulation), std::move(record)));
   run->start();

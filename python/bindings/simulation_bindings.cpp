@@ -94,10 +94,16 @@ void step(Handle& self) {
   raise_signals();
 }
 
+/// What a time and a rate are multiplied by to be in the case's own units.
+std::pair<double, double> case_units(const PythonCase& c) {
+  const auto& scale = c.parsed().settings.scale();
+  if (!scale) return {1.0, 1.0};
+  return {scale->unit(schema::Dimension::time), scale->unit(schema::Dimension::rate)};
+}
+
 /// t in the case's own unit, as a setting that is read back to t or just before.
 std::string time_setting(const PythonCase& c, double t) {
-  const auto& scale = c.parsed().settings.scale();
-  const double unit = scale ? scale->unit(schema::Dimension::time) : 1.0;
+  const double unit = case_units(c).first;
   double own = t * unit;
   while (own / unit > t) own = std::nextafter(own, 0.0);
   return schema::to_toml(own);
@@ -296,6 +302,8 @@ void bind_simulation(py::module_& m) {
       .def_property_readonly("has_failed", [](Handle& self) { return self.run().has_failed(); })
       .def_property_readonly("end",
                              [](Handle& self) { return self.run().given().parsed().evolution.end; })
+      .def_property_readonly("case_units",
+                             [](Handle& self) { return case_units(self.run().given()); })
       .def_property_readonly("output", [](Handle& self) { return self.run().folder(); })
       .def_property_readonly("case", [](Handle& self) { return self.run().given(); })
       .def_property_readonly("interfaces", interfaces)

@@ -200,6 +200,11 @@ class Simulation:
             text_of(kind, "kind")
         numbers = {name: number_of(value, name)
                    for name, value in (("factor", factor), ("ramp", ramp)) if value is not None}
+        time_unit, rate_unit = self._core.case_units
+        if "ramp" in numbers:
+            numbers["ramp"] *= time_unit
+        if gradient is not None:
+            gradient = _in_unit(gradient, rate_unit)
         given = {"kind": kind, "gradient": gradient} | numbers
         keys = [f"{key}={_toml.value(value, key)}" for key, value in given.items()
                 if value is not None]
@@ -264,6 +269,14 @@ def _of_resume(line: str, is_until_given: bool) -> str:
     """A line of the program in the words of the arguments of ``resume``."""
     line = line.replace("give overwrite=True or another output", "give another output")
     return re.sub(r"^time\.end\b", "until", line) if is_until_given else line
+
+
+def _in_unit(rows: Any, unit: float) -> Any:
+    """Rows of numbers in another unit; what is not made of rows of numbers stays, to be refused."""
+    try:
+        return [[unit * float(each) for each in row] for row in rows] if unit != 1.0 else rows
+    except (TypeError, ValueError):
+        return rows
 
 
 def _is_true(answer: Any) -> bool:

@@ -378,6 +378,19 @@ class ArrayTest(FolderCase):
 
 
 class FlowTest(FolderCase):
+    def test_a_gradient_and_a_ramp_are_in_the_units_of_t_with_a_scale_too(self):
+        scaled = SHEAR | {"scale": {"length": 1e-3, "viscosity": 0.1, "surface-tension": 0.025, "rate": 50.0},
+                          "flow": {"kind": "simple-shear"},
+                          "drop": [{"radius": 1e-3, "nodes": 42}],
+                          "time": {"end": 0.004, "max-step": 0.0004}, "output": {"interval": 0.001}}
+        simulation = Simulation(scaled)
+        before = simulation.interfaces[0].fields["velocity"]
+        simulation.set_flow(gradient=np.array([[0, 1, 0], [0, 0, 0], [0, 0, 0]]), ramp=0.01)
+        self.assertAlmostEqual(simulation.case["flow.schedule[0].ramp"], 0.0002)  # s
+        np.testing.assert_allclose(simulation.case["flow.schedule[0].gradient"][0], [0, 50, 0])  # 1/s
+        simulation.step()
+        np.testing.assert_allclose(simulation.interfaces[0].fields["velocity"], before, atol=0.05)
+
     def test_the_flow_changes_while_it_runs_and_the_change_is_recorded(self):
         folder = self.folder / "run"
         with Simulation(Case.from_dict(SHEAR), folder) as simulation:

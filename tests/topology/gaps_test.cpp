@@ -1,5 +1,6 @@
 #include "meniscus/topology/gaps.hpp"
 
+#include <array>
 #include <cmath>
 #include <ctime>
 #include <limits>
@@ -88,6 +89,21 @@ double least_time(const Scene& scene) {
     least = std::min(least, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
   }
   return least;
+}
+
+// The poles of a long drop within a round one are two films.
+TEST(FindGaps, GivesEachFilmItsOwnPatch) {
+  const double half = 0.97;
+  Scene scene =
+      test::scene_of(std::array{sphere(500), stretched_sphere(300, Vec3(half, 0.5, 0.5))});
+  scene.interfaces[1].outside = scene.interfaces[0].inside;
+  const std::vector<Gap> gaps = find_gaps(scene, 0.05, SurfaceMotion());
+  ASSERT_EQ(gaps.size(), 2U);
+  EXPECT_LT(gaps[0].middle().x() * gaps[1].middle().x(), 0.0);
+  for (const Gap& gap : gaps) {
+    EXPECT_FALSE(gap.patch.empty());
+    for (const Vec3& x : gap.patch) EXPECT_LT((x - gap.middle()).norm(), 0.5);
+  }
 }
 
 TEST(FindGaps, CostsNLogN) {

@@ -230,11 +230,13 @@ void FiniteElementScalars::ride(const FlowDomain& from, const FlowDomain& to,
                                 BulkScalars& scalars) {
   const PhaseTimer timer(times_, "scalars");
   const Placed before = placed(from), after = placed(to);
-  for (std::size_t k = 0; k < scalars.size(); ++k)
+  for (std::size_t k = 0; k < scalars.size(); ++k) {
+    if (to.scene.scalars[k].peclet == 0.0) continue;  // has no amount to keep
     keep_range({}, amount(mass(before, from.scene, *from.mesh, k).rows, scalars[k].values),
                mass(after, to.scene, *to.mesh, k).rows, *after.space,
                given_values(to.scene, k, *after.space, *after.positions).is_given,
                scalars[k].values);
+  }
 }
 
 BulkScalars FiniteElementScalars::follow(const MeshChange& change, const Scene& before,
