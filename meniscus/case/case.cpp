@@ -127,8 +127,9 @@ Case parse_case(std::string_view text, const std::string& name, const std::files
     require_weak_form(c);
     c.volume_mesh = read_volume_mesh(c.settings, c.flow_solver.elements);
   }
+  const double inertia = c.reynolds > 0.0 ? c.reynolds * c.Ca : 0.0;
   c.evolution =
-      read_evolution(c.settings, c.method, c.flow_solver.elements, c.reynolds, c.flow.family());
+      read_evolution(c.settings, c.method, c.flow_solver.elements, inertia, c.flow.family());
   require_inertia_fits(c);
   c.stop = read_stop_rules(c.settings, c.domain);
   if (!c.scalars.empty() && c.evolution.follows_drops)

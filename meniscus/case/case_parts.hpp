@@ -32,9 +32,9 @@ void require_no_scalars(const Settings& settings);
 void read_inertia(Case& c);
 /// Throws InvalidInput where another part of the case does not go with inertia or its absence.
 void require_inertia_fits(const Case& c);
-/// The default of a scheme depends on whether liquids have inertia.
+/// Defaults depend on the inertia Re Ca = ρ_out G² R0³/σ of liquids; infinite without tension.
 [[nodiscard]] EvolutionOptions read_evolution(Settings& settings, FlowMethod method,
-                                              fem::Elements elements, double reynolds,
+                                              fem::Elements elements, double inertia,
                                               FlowFamily family);
 /// Reads [time.stop-when]. Rules that a case does not give leave no trace in its settings.
 [[nodiscard]] StopRules read_stop_rules(Settings& settings, const DomainCase& domain);

@@ -71,9 +71,9 @@ TimeScheme read_scheme(Settings& settings, StepControl control, bool has_inertia
 }
 
 /// How steps are made, and how long they are.
-void read_steps(Settings& settings, double reynolds, FlowFamily family, EvolutionOptions& options) {
+void read_steps(Settings& settings, double inertia, FlowFamily family, EvolutionOptions& options) {
   options.control = read_control(settings);
-  options.scheme = read_scheme(settings, options.control, reynolds > 0.0);
+  options.scheme = read_scheme(settings, options.control, inertia > 0.0);
   if (options.control == StepControl::paper) {
     options.step_factor = settings.number("time.step-factor");
     options.step_edges = settings.choice("time.step-edges", words::step_edges);
@@ -81,8 +81,8 @@ void read_steps(Settings& settings, double reynolds, FlowFamily family, Evolutio
     options.max_step = settings.number_or("time.max-step", 0.1);
   } else {
     options.tolerance = settings.number("time.tolerance");
-    const double wave =
-        family == FlowFamily::quiescent ? kDefaultLongestWave * std::sqrt(reynolds) : 0.0;
+    const bool has_waves = family == FlowFamily::quiescent && std::isfinite(inertia);
+    const double wave = has_waves ? kDefaultLongestWave * std::sqrt(inertia) : 0.0;
     options.max_step = settings.number_or("time.max-step", std::max(kDefaultLongestStep, wave));
   }
   options.min_step = settings.number("time.min-step");
@@ -118,12 +118,12 @@ double read_elements_residual(Settings& settings, fem::Elements elements, bool c
 }  // namespace
 
 EvolutionOptions read_evolution(Settings& settings, FlowMethod method, fem::Elements elements,
-                                double reynolds, FlowFamily family) {
+                                double inertia, FlowFamily family) {
   EvolutionOptions options;
   options.surface = surface_shape(method, elements);
   read_motion_normal(settings, options);
   options.end = settings.number("time.end");
-  read_steps(settings, reynolds, family, options);
+  read_steps(settings, inertia, family, options);
   options.follows_drops = settings.choice("domain.frame", words::domain_frames);
   settings.prefer("interface.remesh-every",
                   std::int64_t{options.control == StepControl::paper ? 1 : 0});

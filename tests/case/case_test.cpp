@@ -60,6 +60,22 @@ TEST(Case, WithInertiaThePeriodOfADropMayAllowLongerSteps) {
   EXPECT_NEAR(inertial_drop(1e4).evolution.max_step, 7.0, 1e-12);
 }
 
+// Its time is the drop's own, whatever rate the case counts times in.
+TEST(Case, LongestStepOfAnInertialDropDoesNotDependOnTheRate) {
+  const auto longest = [](const std::string& rate) {
+    const Case c = parse_case(
+        "[scale]\nlength = 1e-3\nviscosity = 1e-5\nsurface-tension = 0.07\ndensity = 1000\n" +
+            rate +
+            "[flow]\nkind = \"quiescent\"\n[[drop]]\nradius = 1e-3\n"
+            "[domain]\nhalf-width = 4e-3\n[time]\nend = 0.1\n",
+        "case.toml");
+    return c.evolution.max_step / c.settings.scale()->rate;
+  };
+  // 0.07 (ρ_out R0³/σ)^½
+  EXPECT_NEAR(longest(""), 0.07 * std::sqrt(1000.0 * 1e-9 / 0.07), 1e-12);
+  EXPECT_NEAR(longest("rate = 70000.0\n") / longest(""), 1.0, 1e-12);
+}
+
 TEST(Case, WhatLinearElementsAloneCanDoChoosesThem) {
   const auto elements = [](const std::string& tables) {
     return shear_case(tables).flow_solver.elements;
