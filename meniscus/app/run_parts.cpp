@@ -105,9 +105,8 @@ void require_end_ahead(const Case& c, double t, std::span<const std::string> ove
                        std::string_view name) {
   const auto sets_end = [](const std::string& each) { return each.starts_with("time.end="); };
   if (std::ranges::none_of(overrides, sets_end) || c.evolution.end >= t) return;
-  const std::optional<Scale>& scale = c.settings.scale();
-  const double unit = scale ? scale->unit(schema::Dimension::time) : 1.0;
-  const std::string_view word = scale ? " s" : "";
+  const double unit = c.settings.unit(schema::Dimension::time);
+  const std::string_view word = c.settings.scale() ? " s" : "";
   reject_input("{} = {:g}{} lies before the checkpoint's t = {:g}{}", name, c.evolution.end * unit,
                word, t * unit, word);
 }

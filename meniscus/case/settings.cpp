@@ -35,7 +35,7 @@ double Scale::unit(Dimension dimension) const {
 double Settings::unit_of(const std::string& path) const {
   const schema::Key* key = schema::find_key(schema::generic_path(path));
   MENISCUS_ASSERT(key != nullptr, "no key {} in the schema", path);
-  return scale_ ? scale_->unit(key->dimension) : 1.0;
+  return unit(key->dimension);
 }
 
 const Value& Settings::own_value(const std::string& path) {

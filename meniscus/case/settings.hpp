@@ -69,6 +69,10 @@ class Settings {
 
   void set_scale(const Scale& scale) { scale_ = scale; }
   [[nodiscard]] const std::optional<Scale>& scale() const { return scale_; }
+  /// What a dimensionless number is multiplied by to be in the case's own units: 1 without [scale].
+  [[nodiscard]] double unit(schema::Dimension dimension) const {
+    return scale_ ? scale_->unit(dimension) : 1.0;
+  }
 
   /// The source of a key such as "case.toml:7", else of the nearest table around it, else
   /// "case.toml".

@@ -22,7 +22,7 @@ namespace {
 constexpr double kFacing = 0.5;    // cosine of 60°
 constexpr double kSameFilm = 6.0;  // limits: closer places of one film are one
 constexpr double kNearby = 3.0;    // limits: radius of the ball that must not join two parts
-constexpr double kLink = 3.0;      // mean edges: the same of places that vertices of a film are at
+constexpr double kLink = 3.0;      // mean edges: vertices this close look across one film
 
 /// One interface while gaps are looked for.
 struct Sheet {

@@ -96,9 +96,8 @@ void step(Handle& self) {
 
 /// What a time and a rate are multiplied by to be in the case's own units.
 std::pair<double, double> case_units(const PythonCase& c) {
-  const auto& scale = c.parsed().settings.scale();
-  if (!scale) return {1.0, 1.0};
-  return {scale->unit(schema::Dimension::time), scale->unit(schema::Dimension::rate)};
+  const Settings& settings = c.parsed().settings;
+  return {settings.unit(schema::Dimension::time), settings.unit(schema::Dimension::rate)};
 }
 
 /// t in the case's own unit, as a setting that is read back to t or just before.

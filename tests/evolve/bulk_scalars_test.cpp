@@ -439,6 +439,19 @@ TEST(BulkScalars, BuoyancyOfALinearTemperatureTurnsTheLiquid) {
   }
 }
 
+/// A temperature that begins with 2 in the drop, and has it where liquid comes in.
+constexpr const char* kTwoEverywhere = R"([[scalar.drop]]
+initial = 2.0
+[[scalar.patch]]
+name = "x-"
+condition = "value"
+value = 2.0
+[[scalar.patch]]
+name = "x+"
+condition = "value"
+value = 2.0
+)";
+
 TEST(BulkScalars, ViscosityFollowsTheTemperature) {
   const auto dissipation = [](double exponent) {
     Evolution evolution = evolution_of(fmt::format(R"(
@@ -457,18 +470,8 @@ peclet = 10
 initial = 2.0
 reference = 1.0
 viscosity-exponent = {}
-[[scalar.drop]]
-initial = 2.0
-[[scalar.patch]]
-name = "x-"
-condition = "value"
-value = 2.0
-[[scalar.patch]]
-name = "x+"
-condition = "value"
-value = 2.0
-)",
-                                                   exponent));
+{})",
+                                                   exponent, kTwoEverywhere));
     EXPECT_TRUE(evolution.solve().ok());
     return evolution.flow().power->dissipation;
   };
@@ -516,7 +519,7 @@ max-step = 0.05
     return evolution.drop_rows()[0].shape.D;
   };
   const double factor = std::exp(-0.7);
-  const double warm = deformation(1.0, 0.3, R"(
+  const double warm = deformation(1.0, 0.3, std::string() + R"(
 [[scalar]]
 name = "temperature"
 peclet = 10
@@ -524,17 +527,7 @@ initial = 2.0
 reference = 1.0
 viscosity-exponent = 0.7
 buoyancy = [0.0, 0.3, 0.0]
-[[scalar.drop]]
-initial = 2.0
-[[scalar.patch]]
-name = "x-"
-condition = "value"
-value = 2.0
-[[scalar.patch]]
-name = "x+"
-condition = "value"
-value = 2.0
-)");
+)" + kTwoEverywhere);
   EXPECT_NEAR(warm, deformation(1.0 / factor, 0.3 * factor, ""), 1e-3 * warm);
 }
 

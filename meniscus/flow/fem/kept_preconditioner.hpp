@@ -21,8 +21,8 @@ struct KeptPreconditioner {
   /// seven times the length took 2000 iterations.
   void drop_unless_of_stage(double stage_duration);
   /// After a solve: keeps it while it saves more than it costs. To make one takes as long as three
-  /// or four iterations (docs/benchmark-stokes.md). `convects` is that of
-  /// the solve's beginning, where it matters.
+  /// or four iterations (docs/benchmark-stokes.md). `convects` is the velocity past the mesh with
+  /// which the solve began, where it matters.
   void decide(const StokesProblem& problem, const StokesReport& report, bool is_kept,
               Field<NodeId, Vec3> convects);
 
