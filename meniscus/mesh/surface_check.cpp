@@ -205,11 +205,14 @@ std::optional<Fault> find_self_intersection(const SurfaceMesh& mesh) {
 std::optional<Fault> find_intersection(const SurfaceMesh& a, const SurfaceMesh& b) {
   if (!is_finite(a) || !is_finite(b))
     return Fault{FaultKind::not_finite, "a surface is not finite"};
-  const SurfaceTree tree(b);
+  return find_intersection(a, SurfaceTree(b));
+}
+
+std::optional<Fault> find_intersection(const SurfaceMesh& a, const SurfaceTree& b) {
   std::optional<Fault> found;
   for (const FaceId f : a.faces.ids()) {
     const Triangle s = corners(a, f);
-    tree.visit_box(low(s), high(s), [&](FaceId g, const Triangle& t) {
+    b.visit_box(low(s), high(s), [&](FaceId g, const Triangle& t) {
       if (!do_intersect(s, t)) return true;
       const Vec3 x = meeting_point(s, t);
       found = Fault{FaultKind::intersection,

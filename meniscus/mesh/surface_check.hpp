@@ -19,6 +19,8 @@ namespace meniscus {
 [[nodiscard]] std::optional<Fault> find_self_intersection(const SurfaceMesh& mesh);
 /// The first place where two surfaces cross or touch; none if they do not.
 [[nodiscard]] std::optional<Fault> find_intersection(const SurfaceMesh& a, const SurfaceMesh& b);
+/// The same for finite surfaces, b by its tree, for many others.
+[[nodiscard]] std::optional<Fault> find_intersection(const SurfaceMesh& a, const SurfaceTree& b);
 /// Whether a point lies inside a closed surface (exact ray shooting); a point on
 /// the surface does not.
 [[nodiscard]] bool encloses(const SurfaceMesh& mesh, const Vec3& point);

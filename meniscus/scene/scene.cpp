@@ -5,32 +5,21 @@
 #include <fmt/format.h>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/mesh/box_tree.hpp"
 #include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
+#include "meniscus/mesh/surface_tree.hpp"
 
 namespace meniscus {
 namespace {
 
 RegionId region_within(std::size_t interface) { return {static_cast<std::int32_t>(interface) + 1}; }
 
-struct Bounds {
-  explicit Bounds(const SurfaceMesh& mesh) : low(mesh.x[VertexId{0}]), high(low) {
-    for (const Vec3& x : mesh.x) {
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
-    }
-  }
-  [[nodiscard]] bool overlap(const Bounds& other) const {
-    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
-  }
-  Vec3 low, high;
-};
-
-std::vector<Bounds> bounds_of(const Scene& scene) {
-  std::vector<Bounds> bounds;
-  bounds.reserve(scene.interfaces.size());
-  for (const Interface& interface : scene.interfaces) bounds.emplace_back(interface.mesh);
-  return bounds;
+std::vector<Box> boxes_of(const Scene& scene) {
+  std::vector<Box> boxes;
+  boxes.reserve(scene.interfaces.size());
+  for (const Interface& interface : scene.interfaces) boxes.push_back(bounding_box(interface.mesh));
+  return boxes;
 }
 
 std::optional<Fault> find_not_finite(const Scene& scene) {
@@ -42,29 +31,27 @@ std::optional<Fault> find_not_finite(const Scene& scene) {
   return {};
 }
 
-std::optional<Fault> find_touching(const Scene& scene, const std::vector<Bounds>& bounds) {
+std::optional<Fault> find_touching(const Scene& scene, const BoxTree& boxes) {
   const auto& interfaces = scene.interfaces;
   for (std::size_t i = 0; i < interfaces.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!bounds[i].overlap(bounds[j])) continue;
-      if (auto meeting = find_intersection(interfaces[j].mesh, interfaces[i].mesh))
+    for (const std::size_t j : boxes.earlier_within(i, 0.0))
+      if (auto meeting = find_intersection(interfaces[j].mesh, SurfaceTree(interfaces[i].mesh)))
         return with_context(
             fmt::format("drops {} and {} touch", interfaces[j].drop, interfaces[i].drop),
             *std::move(meeting));
-    }
-  if (scene.is_unbounded) return {};
-  for (const Interface& interface : interfaces)
-    if (auto meeting = find_intersection(interface.mesh, scene.boundary.mesh))
-      return with_context(fmt::format("drop {} touches the outer boundary", interface.drop),
-                          *std::move(meeting));
   return {};
 }
 
 /// For surfaces that do not meet, one vertex tells on which side of the other a surface lies.
 std::optional<Fault> find_outside(const Scene& scene) {
   if (scene.is_unbounded) return {};
+  const SurfaceTree boundary(scene.boundary.mesh);
   for (const Interface& interface : scene.interfaces)
-    if (const Vec3& x = interface.mesh.x[VertexId{0}]; !encloses(scene.boundary.mesh, x))
+    if (auto meeting = find_intersection(interface.mesh, boundary))
+      return with_context(fmt::format("drop {} touches the outer boundary", interface.drop),
+                          *std::move(meeting));
+  for (const Interface& interface : scene.interfaces)
+    if (const Vec3& x = interface.mesh.x[VertexId{0}]; !encloses(boundary, x))
       return Fault{
           FaultKind::outside_domain,
           fmt::format("drop {} lies outside the outer boundary, at {}", interface.drop, text_of(x)),
@@ -73,15 +60,17 @@ std::optional<Fault> find_outside(const Scene& scene) {
 }
 
 /// The innermost interface around each interface: the enclosing one that is itself enclosed most.
-std::vector<RegionId> surrounding_regions(const Scene& scene, const std::vector<Bounds>& bounds) {
+std::vector<RegionId> surrounding_regions(const Scene& scene, const BoxTree& boxes) {
   const std::size_t n = scene.interfaces.size();
-  MENISCUS_ASSERT(bounds.size() == n, "{} {}", bounds.size(), n);
   std::vector<std::vector<std::size_t>> enclosing(n);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j)
-      if (i != j && bounds[i].overlap(bounds[j]) &&
-          encloses(scene.interfaces[j].mesh, scene.interfaces[i].mesh.x[VertexId{0}]))
+  for (std::size_t j = 0; j < n; ++j) {
+    const SurfaceMesh& around = scene.interfaces[j].mesh;
+    const SurfaceTree tree(around);
+    boxes.visit_within(bounding_box(around), 0.0, [&](std::size_t i) {
+      if (i != j && encloses(tree, scene.interfaces[i].mesh.x[VertexId{0}]))
         enclosing[i].push_back(j);
+    });
+  }
   std::vector<RegionId> result(n, RegionId{0});
   for (std::size_t i = 0; i < n; ++i) {
     const auto innermost = std::ranges::max_element(
@@ -91,8 +80,8 @@ std::vector<RegionId> surrounding_regions(const Scene& scene, const std::vector<
   return result;
 }
 
-std::optional<Fault> find_wrong_nesting(const Scene& scene, const std::vector<Bounds>& bounds) {
-  const std::vector<RegionId> surrounding = surrounding_regions(scene, bounds);
+std::optional<Fault> find_wrong_nesting(const Scene& scene, const BoxTree& boxes) {
+  const std::vector<RegionId> surrounding = surrounding_regions(scene, boxes);
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
     const Interface& interface = scene.interfaces[i];
     const Vec3 x = mean_vertex(interface.mesh);
@@ -144,8 +133,7 @@ bool has_inertia(const Scene& scene) {
 }
 
 void assign_regions(Scene& scene) {
-  const std::vector<Bounds> bounds = bounds_of(scene);
-  const std::vector<RegionId> surrounding = surrounding_regions(scene, bounds);
+  const std::vector<RegionId> surrounding = surrounding_regions(scene, BoxTree(boxes_of(scene)));
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
     scene.interfaces[i].inside = region_within(i);
     scene.interfaces[i].outside = surrounding[i];
@@ -154,10 +142,10 @@ void assign_regions(Scene& scene) {
 
 std::optional<Fault> find_conflict(const Scene& scene) {
   if (auto fault = find_not_finite(scene)) return fault;
-  const std::vector<Bounds> bounds = bounds_of(scene);
-  if (auto fault = find_touching(scene, bounds)) return fault;
+  const BoxTree boxes(boxes_of(scene));
+  if (auto fault = find_touching(scene, boxes)) return fault;
   if (auto fault = find_outside(scene)) return fault;
-  return find_wrong_nesting(scene, bounds);
+  return find_wrong_nesting(scene, boxes);
 }
 
 }  // namespace meniscus
