@@ -29,10 +29,11 @@ inline constexpr double kUndampedShare = 0.5;
 /// slow motions would be less late. But then a sheared drop in steps as long as slip allows turns
 /// away from its angle. Boundary integrals, Ca = 0.2, 110 vertices: by 1.3° in 21 steps.
 inline constexpr double kSphereStiffness = 6.0;
-/// How much more waves on flat faces are damped. Where the drop is viscous, linear elements let the
-/// shortest decay up to a fifth faster than the exact flow does. With 1.1 a deformed drop of a
-/// hundredfold viscosity became unstable (tests/evolve/semi_implicit_long_test.cpp).
-inline constexpr double kFacetedStiffness = 1.2;
+/// How much more waves are damped with finite elements. They let the shortest decay up to a quarter
+/// faster than the exact flow does: linear ones where the drop is viscous, quadratic ones where it
+/// is not, around vertices of seven edges. With 1.1 a deformed drop of a hundredfold viscosity
+/// became unstable, with 1 a sheared one of a hundredth (tests/evolve/semi_implicit_long_test.cpp).
+inline constexpr double kElementStiffness = 1.2;
 /// How far a turning moves a shape along its normals, relative to the turning itself, squared.
 /// Below this a shape is too round to have a spin. So are ellipsoids of D below 0.02.
 inline constexpr double kRoundness = 1e-3;
@@ -101,7 +102,7 @@ inline constexpr std::array kEvolveConstants{
     NamedConstant{"damped-share", kDampedShare},
     NamedConstant{"undamped-share", kUndampedShare},
     NamedConstant{"sphere-stiffness", kSphereStiffness},
-    NamedConstant{"faceted-stiffness", kFacetedStiffness},
+    NamedConstant{"element-stiffness", kElementStiffness},
     NamedConstant{"roundness", kRoundness},
     NamedConstant{"aimed-share", kAimedShare},
     NamedConstant{"most-growth", kMostGrowth},

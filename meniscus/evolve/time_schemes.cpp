@@ -153,6 +153,16 @@ void set_rest(StageFlow& stage, const Scene& scene, const NormalSpeeds& rest,
   stage.surface_rate = surface_energy_rate(scene, velocity_of(stage.shape, scene));
 }
 
+/// Leaves a shape a share of its spin; the normal speeds of the other part join the rest.
+void keep_spin(ShapeMotion& shape, std::size_t i, const SurfaceMesh& mesh,
+               const VertexField<Vec3>& normals, double share) {
+  RigidMotion& rigid = shape.rigid[i];
+  const Vec3 given_up = (1.0 - share) * rigid.spin;
+  rigid.spin *= share;
+  for (const VertexId v : normals.ids())
+    shape.rest[i][v] += normals[v].dot(given_up.cross(mesh.x[v] - rigid.center)) * normals[v];
+}
+
 /// a + factor (b − a), node by node.
 std::vector<Vec3> beyond(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double factor) {
   std::vector<Vec3> result = a;
@@ -222,9 +232,12 @@ StageFlow semi_implicit_step(const StageFlow& first, const Step& step, const Sta
 }
 
 void damp(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, const Damping& damping) {
+  const std::vector<double> viscosities = least_viscosities(stage.flow, scene);
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+    keep_spin(stage.shape, i, scene.interfaces[i].mesh, stage.normals[i],
+              share_of_spin(scene.interfaces[i], viscosities, damping.duration));
   const NormalSpeeds rest = normal_speeds(stage.normals, stage.shape.rest);
-  set_rest(stage, scene, rest,
-           damped_speeds(scene, least_viscosities(stage.flow, scene), rest, about, damping));
+  set_rest(stage, scene, rest, damped_speeds(scene, viscosities, rest, about, damping));
 }
 
 void slow_down(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, double duration) {

@@ -70,6 +70,14 @@ InverseSum inverse_sum(double alpha, double least, double most) {
   }
 }
 
+/// α of `damped`: the duration times A per wave number.
+double rate_factor(const Interface& interface, std::span<const double> viscosity, double modulus,
+                   double duration) {
+  const double viscosities = viscosity[static_cast<std::size_t>(interface.inside.value)] +
+                             viscosity[static_cast<std::size_t>(interface.outside.value)];
+  return duration * modulus / (2.0 * viscosities);
+}
+
 /// What 1/(1 + b(α(M⁻¹K + k)^½)) makes of s.
 Eigen::VectorXd damped(const SparseMatrix& K, const Eigen::VectorXd& mass, double k, double alpha,
                        const Eigen::VectorXd& s, linear::Processes processes) {
@@ -152,14 +160,21 @@ Eigen::VectorXd damped_on(const Scene& scene, std::size_t i, const SurfaceMesh& 
                           const Eigen::VectorXd& mass, const Eigen::VectorXd& s,
                           const Damping& damping) {
   const Interface& interface = scene.interfaces[i];
-  const double viscosities = viscosity[static_cast<std::size_t>(interface.inside.value)] +
-                             viscosity[static_cast<std::size_t>(interface.outside.value)];
   const double radius = sphere_radius(interface.volume);
   return damped(stiffness(mesh), mass, kSphereStiffness / (radius * radius),
-                damping.duration * modulus / (2.0 * viscosities), s, damping.processes);
+                rate_factor(interface, viscosity, modulus, damping.duration), s, damping.processes);
 }
 
 }  // namespace
+
+double share_of_spin(const Interface& interface, std::span<const double> viscosity,
+                     double duration) {
+  constexpr double kEllipsoidMode = 6.0;  // l(l + 1) of the waves of degree l = 2
+  const double q = rate_factor(interface, viscosity, largest_tension(interface), duration) *
+                   std::sqrt(kEllipsoidMode + kSphereStiffness) / sphere_radius(interface.volume),
+               damped = 1.0 / (1.0 + q * q / (q + kUndampedShare));
+  return damped * damped;
+}
 
 NormalSpeeds damped_speeds(const Scene& scene, std::span<const double> viscosity,
                            const NormalSpeeds& speeds, const NormalSpeeds& about,

@@ -27,6 +27,13 @@ struct Damping {
                                          const NormalSpeeds& speeds, const NormalSpeeds& about,
                                          const Damping& damping);
 
+/// Which share of a shape's spin is carried along rather than damped: 1/(1 + b(τA))² at the slowest
+/// wave, l = 2. A spin is found from normal speeds, of which tension may have made a part. Of that
+/// part an undamped step would be no longer stable than an explicit one. Where tension is fast, a
+/// shape does not turn by itself.
+[[nodiscard]] double share_of_spin(const Interface& interface, std::span<const double> viscosity,
+                                   double duration);
+
 /// What is expected of normal speeds s in an implicit stage of liquids with inertia, s* with
 ///   s* − s0 = (s − s0)/(1 + q²),   q = στ²κ³/(ρ_in + ρ_out + 2(μ_in + μ_out)τκ²),
 /// τ = `duration` and κ² = −Δ_s + k/R², s0 and k as for `damped_speeds`. q is what a stage would

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "tests/evolve/boundary_integral_run.hpp"
 #include "tests/evolve/damped_drop.hpp"
 
 namespace meniscus::test {
@@ -45,6 +46,23 @@ TEST_P(SemiImplicitBy, IsStableAtLongSteps) {
     for (std::size_t k = 1; k < excess.size() && excess[k - 1] > least; ++k)
       EXPECT_LT(excess[k], excess[k - 1]) << "lambda " << viscosity_ratio << ", step " << k;
   }
+}
+
+// Vertices of seven edges let short waves decay fastest where the drop has no viscosity to speak
+// of.
+TEST(SemiImplicitLong, ShearedDropsOfLittleViscosityComeToRest) {
+  const Case c = parse_case(
+      "[flow]\nkind = \"simple-shear\"\ncapillary-number = 0.0483\n[[drop]]\nradius = 1.0\n"
+      "viscosity-ratio = 0.01\nnodes = 220\n[time]\nend = 3.0\n",
+      "drop.toml");
+  double error = 1.0;
+  const Report report = run(
+      c, build_scene(c), [](EvolutionOptions&) {},
+      [&](const Evolution& evolution) {
+        error = evolution.rows().history.step_error.value_or(error);
+      });
+  ASSERT_TRUE(report.ok()) << report.text();
+  EXPECT_LT(error, 0.002);  // edges of the shortest
 }
 
 }  // namespace
