@@ -47,6 +47,25 @@ std::optional<Fault> find_misfit(const Scene& scene) {
   return {};
 }
 
+/// Solves the double layer's equation from the unknowns of the last velocity. After a jump of the
+/// flow, or where the double layer makes much of small changes, these may be so far off that PETSc
+/// gives up at once; then from the right-hand side.
+linear::LinearReport solve_equation(const IntegralEquation& equation,
+                                    std::span<const VertexField<Vec3>> last_velocity,
+                                    const Options& options, std::vector<double>& w) {
+  const auto solve_from = [&](std::vector<double> guess) {
+    w = std::move(guess);
+    return linear::solve_matrix_free(
+        [&](std::span<const double> x, std::span<double> result) { equation.apply(x, result); },
+        equation.right_hand_side(), w,
+        {.rtol = options.rtol, .max_iterations = options.max_iterations});
+  };
+  if (last_velocity.empty()) return solve_from(equation.right_hand_side());
+  linear::LinearReport report = solve_from(equation.unknowns(last_velocity));
+  if (report.converged || report.iterations >= options.max_iterations) return report;
+  return solve_from(equation.right_hand_side());
+}
+
 FlowSolution BoundaryIntegralFlow::solve(const FlowDomain& domain, const Instant& instant) {
   if (auto misfit = find_misfit(domain.scene)) return failed_flow(*std::move(misfit));
   if (connectivity_ != domain.connectivity) velocity_.clear();
@@ -57,14 +76,10 @@ FlowSolution BoundaryIntegralFlow::solve(const FlowDomain& domain, const Instant
     equation.emplace(domain.scene, instant.t, options_);
   }
   const PhaseTimer timer(times_, "solve");
-  std::vector<double> w =
-      velocity_.empty() ? equation->right_hand_side() : equation->unknowns(velocity_);
+  std::vector<double> w;
   linear::LinearReport report;
   if (equation->has_double_layer()) {
-    report = linear::solve_matrix_free(
-        [&](std::span<const double> x, std::span<double> result) { equation->apply(x, result); },
-        equation->right_hand_side(), w,
-        {.rtol = options_.rtol, .max_iterations = options_.max_iterations});
+    report = solve_equation(*equation, velocity_, options_, w);
     if (!report.converged)
       return failed_flow(
           {FaultKind::not_converged,
