@@ -31,7 +31,7 @@ void judge_past(StopJudge& judge, const std::filesystem::path& file) {
   for (std::size_t row = 0; row < t.size(); ++row) {
     drops.push_back({static_cast<int>(std::lround(drop[row])), L[row]});
     if (row + 1 < t.size() && t[row + 1] == t[row]) continue;
-    judge.add(t[row], std::move(drops));
+    judge.past().add(t[row], std::move(drops));
     drops.clear();
   }
 }
@@ -48,12 +48,13 @@ Simulation::Simulation(Evolution evolution, std::optional<RunDirectory> director
   check_field_names(evolution_);
 }
 
-void Simulation::load_schedule(const Archive& archive) {
+void Simulation::load(const Archive& archive) {
   const auto next = archive.reals.find("output/next");
   if (next == archive.reals.end() || next->second.size() != 2)
     reject_input("checkpoint lacks \"output/next\"");
   next_surface_frame_ = next->second[0];
   next_volume_frame_ = next->second[1];
+  if (judge_ && judge_->past().is_empty()) judge_->past().load(archive);
 }
 
 Outcome Simulation::run(Progress& progress) {
@@ -130,6 +131,7 @@ void Simulation::keep_state() {
   state_ = {};
   evolution_.save(state_);
   state_.reals["output/next"] = {next_surface_frame_, next_volume_frame_};
+  if (judge_) judge_->past().save(state_);
   describe_(state_);
 }
 

@@ -24,8 +24,9 @@ std::string text_to_toml(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') quoted += '\\';
-    if (static_cast<unsigned char>(c) < 0x20)  // TOML allows no bare control characters
-      quoted += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x20 || code == 0x7f)  // TOML allows no bare control characters
+      quoted += fmt::format("\\u{:04x}", code);
     else
       quoted += c;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,9 @@ namespace meniscus {
 namespace {
 
 constexpr std::array kWords{"time", "steady", "broken", "length", "patch"};
+
+constexpr const char *kTimes = "evolution/lengths/t", *kDrops = "evolution/lengths/drop",
+                     *kLengths = "evolution/lengths/L";
 
 /// What a window's bounds may be off by, in round-off of the times.
 constexpr double kTimeRoundOff = 1e-12;
@@ -46,6 +50,33 @@ void LengthRates::add(double t, std::vector<DropLength> drops) {
   // The sample at or before the start of the window before the last one stays.
   const double start = t - 2.0 * kRateWindow;
   while (samples_.size() > 2 && samples_[1].t <= start) samples_.pop_front();
+}
+
+void LengthRates::save(Archive& archive) const {
+  std::vector<double>&t = archive.reals[kTimes], &L = archive.reals[kLengths];
+  std::vector<std::int64_t>& drops = archive.integers[kDrops];
+  if (samples_.empty()) return;
+  for (const DropLength& each : samples_.back().drops) drops.push_back(each.drop);
+  for (const Sample& sample : samples_) {
+    t.push_back(sample.t);
+    for (const DropLength& each : sample.drops) L.push_back(each.L);
+  }
+}
+
+void LengthRates::load(const Archive& archive) {
+  const auto t = archive.reals.find(kTimes), L = archive.reals.find(kLengths);
+  const auto drops = archive.integers.find(kDrops);
+  samples_.clear();
+  if (t == archive.reals.end()) return;
+  if (L == archive.reals.end() || drops == archive.integers.end() ||
+      L->second.size() != t->second.size() * drops->second.size() ||
+      std::ranges::adjacent_find(t->second, std::greater_equal()) != t->second.end())
+    reject_input("checkpoint entries \"evolution/lengths\" do not fit together");
+  for (std::size_t i = 0, at = 0; i < t->second.size(); ++i) {
+    Sample& sample = samples_.emplace_back(Sample{t->second[i], {}});
+    for (const std::int64_t drop : drops->second)
+      sample.drops.push_back({static_cast<int>(drop), L->second[at++]});
+  }
 }
 
 double LengthRates::length_at(double t, std::size_t drop) const {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "meniscus/core/archive.hpp"
 #include "meniscus/core/named_constant.hpp"
 #include "meniscus/evolve/record.hpp"
 #include "meniscus/scene/scene.hpp"
@@ -67,6 +68,10 @@ struct DropLength {
 class LengthRates {
  public:
   void add(double t, std::vector<DropLength> drops);
+  void save(Archive& archive) const;
+  /// Nothing where the archive holds none. Throws InvalidInput where entries do not fit together.
+  void load(const Archive& archive);
+  [[nodiscard]] bool is_empty() const { return samples_.empty(); }
   /// Whether every L stayed within bound · window during the last window, and within no more than
   /// during the one before. False before two windows have passed.
   [[nodiscard]] bool are_steady(double bound) const;
@@ -106,8 +111,9 @@ class StopJudge {
  public:
   explicit StopJudge(const StopRules& rules) : rules_(rules) {}
 
-  /// Adds a time of an earlier part of the run.
-  void add(double t, std::vector<DropLength> drops) { rates_.add(t, std::move(drops)); }
+  /// The lengths of earlier steps, to which a resumed run adds those that it knows.
+  [[nodiscard]] LengthRates& past() { return rates_; }
+  [[nodiscard]] const LengthRates& past() const { return rates_; }
   /// The end of the run, if it ends at this step, before the `next` one.
   [[nodiscard]] std::optional<RunEnd> judge(double t, std::span<const DropRow> drops,
                                             std::span<const TopologyEvent> events,

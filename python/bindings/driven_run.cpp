@@ -1,5 +1,7 @@
 #include "python/bindings/driven_run.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "meniscus/app/ranks.hpp"
@@ -78,14 +80,14 @@ std::unique_ptr<DrivenRun> DrivenRun::resume(const fs::path& source,
   if (output && !is_run) directory = new_directory(*output, false, evolution, given.folder());
   if (is_run)
     on_first_rank([&] {
-      record.go_on_from(*folder / io::RunFiles::record);
+      record.go_on_from(*folder);
       directory = RunDirectory::take_up(*folder, evolution.step(), evolution.t(),
                                         physics_of(evolution.scene()));
     });
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, given.folder()));
-  simulation.load_schedule(archive);
   simulation.stop_when(c.stop);
+  simulation.load(archive);
   std::unique_ptr<DrivenRun> run(
       new DrivenRun(std::move(given), folder, std::move(simulation), std::move(record)));
   if (is_run) run->read_earlier_rows();
@@ -139,6 +141,7 @@ void DrivenRun::require_going() const {
 void DrivenRun::step() {
   require_going();
   try {
+    if (std::exchange(is_stopped_, false)) write_record("running");
     simulation_.advance();
     record_state();
   } catch (const std::exception& failure) {
@@ -151,6 +154,7 @@ void DrivenRun::stop() {
   if (has_failed() || simulation_.has_ended()) return;
   simulation_.write_checkpoint();
   end("stopped");
+  is_stopped_ = true;
 }
 
 void DrivenRun::write_checkpoint(const fs::path& file) { simulation_.write_checkpoint(file); }
@@ -169,6 +173,7 @@ void DrivenRun::set_flow(const std::vector<std::string>& settings) {
   try {
     simulation_.set_surroundings(surroundings, case_description(c, case_.folder()));
     write_record("running");
+    is_stopped_ = false;
   } catch (const std::exception& failure) {
     note_failure(failure);
     throw;

@@ -83,6 +83,7 @@ class DrivenRun {
   RunTables tables_;
   std::string failure_;
   std::size_t settings_at_step_ = 0;
+  bool is_stopped_ = false;  // as run.json says
   std::shared_ptr<const SurfaceSnapshot> surfaces_;
   std::shared_ptr<const VolumeSnapshot> volume_;
 };

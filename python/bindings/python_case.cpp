@@ -33,7 +33,8 @@ namespace {
 
 PythonCase case_of_file(const std::string& file, const std::vector<std::string>& settings) {
   static_cast<void>(read_case(file, settings));  // its messages name what cannot be read
-  return {io::read_file(file), file, std::filesystem::path(file).parent_path(), settings, file};
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  return {io::read_file(file), file, std::filesystem::absolute(folder / "."), settings, file};
 }
 
 }  // namespace
@@ -44,6 +45,7 @@ void bind_case(py::module_& m) {
            py::arg("text"), py::arg("name"), py::arg("folder"), py::arg("settings"))
       .def(py::init<const PythonCase&>(), py::arg("other"))
       .def_static("from_file", case_of_file, py::arg("file"), py::arg("settings"))
+      .def_property_readonly("folder", &PythonCase::folder)
       .def("set", &PythonCase::set, py::arg("settings"))
       .def("to_toml", [](const PythonCase& self) { return case_toml(self.parsed()); });
 }

@@ -1,4 +1,7 @@
+#include <chrono>
 #include <cmath>
+#include <mutex>
+#include <thread>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -22,6 +25,46 @@ void raise_signals() {
   throw py::error_already_set();
 }
 
+/// What computes while other threads of Python go on. Of all simulations one computes at a time, as
+/// PETSc and HDF5 bear no more; others wait. When Python ends, threads that compute come to the end
+/// of what they do, and begin nothing else.
+class Computing {
+ public:
+  Computing() {
+    if (is_ending_ && std::this_thread::get_id() != ending_thread_)
+      reject_input("Python is ending");
+    ++num_threads_;
+    others_go_on_.emplace();
+    turn_ = std::unique_lock(one_at_a_time_);
+  }
+  Computing(const Computing&) = delete;
+  Computing& operator=(const Computing&) = delete;
+  ~Computing() {
+    turn_.unlock();
+    others_go_on_.reset();  // Python's lock is held again
+    --num_threads_;
+  }
+  /// Waits until no other thread computes; none begins after that.
+  static void end_others() {
+    is_ending_ = true;
+    ending_thread_ = std::this_thread::get_id();
+    while (num_threads_ > 0) {
+      const py::gil_scoped_release they_end;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
+ private:
+  // Read and written under Python's lock.
+  static inline int num_threads_ = 0;
+  static inline bool is_ending_ = false;
+  static inline std::thread::id ending_thread_;
+  static inline std::mutex one_at_a_time_;
+
+  std::optional<py::gil_scoped_release> others_go_on_;
+  std::unique_lock<std::mutex> turn_;
+};
+
 /// A simulation as Python holds it: closed or open, and computing in one thread at a time while
 /// other threads of Python go on.
 class Handle {
@@ -38,20 +81,26 @@ class Handle {
   void compute(const Work& work) {
     DrivenRun& open = run();
     const Busy busy(is_busy_);
-    const py::gil_scoped_release others_go_on;
+    const Computing computing;
     work(open);
   }
   void close() {
     if (is_closed()) return;
     compute([](DrivenRun& open) { open.stop(); });
-    run_.reset();
+    let_go();
   }
   /// Lets go of the folder, which keeps its last checkpoint.
   void abandon() {
-    if (!is_busy_) run_.reset();
+    if (!is_closed() && !is_busy_) let_go();
   }
 
  private:
+  /// Its matrices and files are freed in turn as well.
+  void let_go() {
+    std::unique_ptr<DrivenRun> run = std::move(run_);
+    const Computing computing;
+    run.reset();
+  }
   struct Busy {
     explicit Busy(bool& busy) : flag(busy) { flag = true; }
     Busy(const Busy&) = delete;
@@ -63,12 +112,13 @@ class Handle {
   bool is_busy_ = false;  // read and written under Python's lock
 };
 
-/// Makes a run while other threads of Python go on. Ranks fail together or end together.
+/// Makes a run while other threads of Python go on. Ranks fail together or end together. A signal
+/// that comes meanwhile stops the run, which can be resumed.
 template <class Make>
 Handle made_run(const Make& make) {
   std::unique_ptr<DrivenRun> run;
   {
-    const py::gil_scoped_release others_go_on;
+    const Computing computing;
     try {
       run = make();
     } catch (const std::exception& failure) {
@@ -76,12 +126,19 @@ Handle made_run(const Make& make) {
       throw;
     }
   }
-  raise_signals();
-  return Handle(std::move(run));
+  Handle made(std::move(run));
+  try {
+    raise_signals();
+  } catch (const py::error_already_set&) {
+    made.close();
+    throw;
+  }
+  return made;
 }
 
-Handle begin(const PythonCase& c, const std::optional<fs::path>& output, bool is_overwrite) {
-  return made_run([&] { return DrivenRun::begin(c, output, is_overwrite); });
+// The case is a copy: other threads may change the one they hold.
+Handle begin(PythonCase c, const std::optional<fs::path>& output, bool is_overwrite) {
+  return made_run([&] { return DrivenRun::begin(std::move(c), output, is_overwrite); });
 }
 
 Handle resume(const fs::path& source, const std::optional<fs::path>& output,
@@ -317,6 +374,8 @@ void bind_simulation(py::module_& m) {
         for (const auto& [phase, spent] : self.run().seconds()) seconds[py::str(phase)] = spent;
         return seconds;
       });
+  m.def("end_other_threads", Computing::end_others);
+  m.def("any_rank", any_rank, py::arg("local"));
   m.def("num_ranks", num_ranks);
   m.def("is_first_rank", is_first_rank);
 }

@@ -148,6 +148,14 @@ class Case:
         """A case of its own, which ``set`` changes without changing this one."""
         return Case._of(_core.Case(self._core))
 
+    __copy__ = copy
+
+    def __deepcopy__(self, known: Any) -> Case:
+        return self.copy()
+
+    def __reduce__(self) -> Any:
+        return Case.from_toml, (self.to_toml(), self._core.folder)
+
     def __repr__(self) -> str:
         tables = self.to_dict()
         kind = tables["flow"].get("kind", "general")
@@ -155,7 +163,7 @@ class Case:
 
 
 def _folder_of(given: PathLike) -> Path:
-    return Path() if isinstance(given, str) and not given else Path(path_of(given, "folder"))
+    return Path("" if isinstance(given, str) and not given else path_of(given, "folder")).absolute()
 
 
 def _core_of(tables: Mapping[str, Any], folder: PathLike, settings: list[str]) -> _core.Case:

@@ -84,7 +84,8 @@ def volume_mesh(surfaces: Sequence[Any], boundary: Any, *, grading: str = "linea
     within one another but must not touch. boundary: the closed surface around them. No vertex or
     face of a surface is added, moved or lost. The size of the cells follows the edges of the
     surfaces and passes from one to the other as ``grading`` says: "linear", "exponential" or
-    "gaussian". The other arguments are keys of [solver] (``meniscus.explain("solver")``).
+    "gaussian". The other arguments are keys of [domain], ``gap_layers`` one of [interface]
+    (``meniscus.explain("domain")``).
 
     Raises ValueError when a surface is unfit, RuntimeError when no mesh could be made.
     """

@@ -3,8 +3,12 @@ from __future__ import annotations
 import atexit
 import os
 import re
+import signal
+import sys
+import threading
 import weakref
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +20,7 @@ from ._case import Case, PathLike, settings_of
 from ._tables import Table, columns
 
 _open: weakref.WeakSet[Simulation] = weakref.WeakSet()
+_owner = os.getpid()  # children that are forked off end without closing the simulations of their parent
 
 
 class Simulation:
@@ -54,7 +59,7 @@ class Simulation:
         folder, or in a new one. ``until`` is a new end, in the case's unit of time; ``settings``
         replaces keys of [flow], [interface], [time], [solver], [topology] and [output].
         """
-        source, folder = Path(path_of(path, "path")), _output_of(output)
+        source, folder = Path(path_of(path, "path")).absolute(), _output_of(output)
         changes = dict(mapping_of(settings, "settings"))
         if changes and folder is None and os.path.isdir(source):
             raise ValueError("settings: the run in a folder goes on as it was; give an output folder "
@@ -91,18 +96,21 @@ class Simulation:
             callable_of(callback, "callback", "one argument, the simulation")
         if until is not None:
             until = number_of(until, "until", is_finite=True)
-            if until > self._core.end:
+            if until > self._core.end * (1.0 + 1e-12):  # an end in seconds is rounded
                 raise ValueError(f"until = {until:g} lies after the end of the case, t = "
                                  f"{self._core.end:g}: set time.end")
-        try:
-            while not self.is_finished and (until is None or self.t < until):
-                self.step()
-                if callback is not None and _is_true(callback(self)) or self.is_closed:
-                    return
-        except KeyboardInterrupt:
-            if not self.is_closed:
-                self._core.stop()
-            raise
+        with _common_interrupts() as raise_interrupt:
+            try:
+                while not self.is_finished and (until is None or self.t < until):
+                    self.step()
+                    is_pause = callback is not None and _is_true(callback(self))
+                    raise_interrupt()
+                    if is_pause or self.is_closed:
+                        return
+            except KeyboardInterrupt:
+                if not self.is_closed:
+                    self._core.stop()
+                raise
 
     @property
     def t(self) -> float:
@@ -191,8 +199,9 @@ class Simulation:
         It adds an entry to the case's schedule ([[flow.schedule]]): ``kind`` such as "quiescent", or
         ``gradient``, three rows of three numbers [G], or a ``factor`` on the flow that the case
         began with; ``ramp`` is the time over which it passes there linearly [1/G]. The row recorded
-        at t is that of the flow before. run.json lists the change under "changes". Raises ValueError
-        where the schedule has later entries.
+        at t is that of the flow before; a run that is resumed here records it by the new one. run.json
+        lists the change under "changes". Raises ValueError where the case's schedule has an entry at t
+        or later.
         """
         if kind is None and gradient is None and factor is None:
             raise ValueError("set_flow needs one of kind, gradient, factor")
@@ -240,6 +249,9 @@ class Simulation:
         except Exception:  # nobody could catch it
             self._core.abandon()
 
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        raise TypeError("a simulation cannot be copied or pickled; write a checkpoint and resume it")
+
     def __repr__(self) -> str:
         if self.is_closed:
             return "<Simulation: closed>"
@@ -247,8 +259,8 @@ class Simulation:
 
 
 def _close_alone(simulation: Simulation) -> None:
-    """Closes, unless other ranks would have to do so at the same moment."""
-    if _core.num_ranks() == 1:
+    """Closes, unless other ranks would have to do so at the same moment, or it is another process's."""
+    if _core.num_ranks() == 1 and os.getpid() == _owner:
         simulation.close()
     else:
         simulation._core.abandon()
@@ -256,13 +268,42 @@ def _close_alone(simulation: Simulation) -> None:
 
 @atexit.register
 def _close_all() -> None:
+    if os.getpid() == _owner:
+        _core.end_other_threads()
     for simulation in list(_open):
-        if not simulation.is_closed:
-            _close_alone(simulation)
+        try:
+            if not simulation.is_closed:
+                _close_alone(simulation)
+        except Exception as error:  # the others are closed all the same
+            print(f"meniscus: {error}", file=sys.stderr)
+
+
+@contextmanager
+def _common_interrupts() -> Iterator[Callable[[], None]]:
+    """Ctrl-C on several ranks: it acts after a step and on all, though it may reach one in a callback.
+
+    Yields what raises KeyboardInterrupt on all ranks where it came to one.
+    """
+    is_main = threading.current_thread() is threading.main_thread()
+    if _core.num_ranks() == 1 or not is_main or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        yield lambda: None
+        return
+    came: list[int] = []
+
+    def raise_interrupt() -> None:
+        if _core.any_rank(bool(came)):
+            came.clear()
+            raise KeyboardInterrupt
+
+    signal.signal(signal.SIGINT, lambda number, frame: came.append(number))
+    try:
+        yield raise_interrupt
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def _output_of(given: PathLike | None) -> Path | None:
-    return None if given is None else Path(path_of(given, "output", f"{A_PATH} or None"))
+    return None if given is None else Path(path_of(given, "output", f"{A_PATH} or None")).absolute()
 
 
 def _of_resume(line: str, is_until_given: bool) -> str:

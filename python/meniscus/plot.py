@@ -27,6 +27,7 @@ UNITS = {"t": "1/G", "dt": "1/G", "volume": "R0³", "area": "R0²", "L": "R0", "
          "x": "R0", "y": "R0", "z": "R0", "extent_x": "R0", "H_max": "1/R0", "angle_deg": "degrees",
          "neck_radius": "R0", "min_gap": "R0", "N1": "μ_out G", "N2": "μ_out G",
          "stress_xy": "μ_out G"}
+_QUIESCENT = {"1/G": "μ_out R0/σ", "μ_out G": "σ/R0"}  # without an imposed flow tension sets the pace
 
 
 def _surfaces(source: Any, t: float | None) -> list[Any]:
@@ -49,7 +50,8 @@ def _surfaces(source: Any, t: float | None) -> list[Any]:
 def _time(source: Any, surfaces: list[Any]) -> float | None:
     if isinstance(source, Simulation):
         return source.t
-    return surfaces[0].t if isinstance(surfaces[0], Shape) else None
+    times = {surface.t if isinstance(surface, Shape) else None for surface in surfaces}
+    return times.pop() if len(times) == 1 else None
 
 
 def interface(source: Any, t: float | None = None, *, color: str | None = None, ax: Any = None,
@@ -140,8 +142,23 @@ def history(source: Simulation | Run, columns: str | Iterable[str] = "D", *, ax:
             rows = drops["drop"] == number
             label = name if len(numbers) == 1 else f"{name}, drop {number}"
             series[label] = drops["t"][rows], drops[name][rows]
-    unit = UNITS.get(names[0], "")
-    return lines(series, x="t [1/G]", y=", ".join(names) + (f" [{unit}]" if unit else ""), ax=ax)
+    units = {name: _unit_of(source, name) for name in ["t", *names]}
+    return lines(series, x=_with_units(["t"], units), y=_with_units(names, units), ax=ax)
+
+
+def _unit_of(source: Simulation | Run, column: str) -> str:
+    unit, tables = UNITS.get(column, ""), source.case if isinstance(source, Run) else source.case.to_dict()
+    flow = tables.get("flow", {})
+    is_at_rest = isinstance(flow, Mapping) and flow.get("kind") == "quiescent"
+    return _QUIESCENT.get(unit, unit) if is_at_rest else unit
+
+
+def _with_units(names: list[str], units: Mapping[str, str]) -> str:
+    """Names with their units, which stand once where all are the same."""
+    if len({units[name] for name in names}) == 1:
+        names, last = [", ".join(names)], units[names[0]]
+        return names[0] + (f" [{last}]" if last else "")
+    return ", ".join(name + (f" [{units[name]}]" if units[name] else "") for name in names)
 
 
 # Colours that colour-blind readers can tell apart (Okabe and Ito), with marks that go with them.
@@ -195,12 +212,15 @@ def lines(series: Series, *, x: str, y: str, log: str = "", styles: Mapping[str,
 def order(nodes: Any, errors: Any) -> float | None:
     """The exponent of N0 in errors, by least squares of the logarithms.
 
-    None for fewer than two errors, where they change sign, and where one does not fall.
+    None for fewer than two errors, where they change sign, and where one does not fall or is not
+    finite. Raises ValueError where N0 is not positive or does not rise.
     """
     n, e = _row(nodes, "nodes"), _row(errors, "errors")
+    if not (np.all(np.isfinite(n)) and np.all(n > 0.0) and np.all(np.diff(n) > 0.0)):
+        raise ValueError("nodes must be positive and rise")
     if n.size != e.size:
         raise ValueError(f"nodes and errors must have as many numbers, not {n.size} and {e.size}")
-    if e.size < 2 or not np.all(np.abs(e) > 0.0):
+    if e.size < 2 or not np.all(np.isfinite(e)) or not np.all(np.abs(e) > 0.0):
         return None
     if e.min() < 0.0 < e.max() or np.any(np.abs(e[1:]) >= np.abs(e[:-1])):
         return None
@@ -218,8 +238,9 @@ def errors(series: Series, *, y: str, x: str = "N0", colours: Mapping[str, int] 
     numbers = _numbers(series)
     pairs = _pairs(numbers, colours)
     for label, (n, e) in numbers.items():
-        if n[0] <= 0.0 or not np.all(np.diff(n) > 0.0) or not np.all(np.abs(e) > 0.0):
-            raise ValueError(f"series[{label!r}]: N0 must be positive and rise, and no error may be 0")
+        is_sound = np.all(np.isfinite(n)) and n[0] > 0.0 and np.all(np.diff(n) > 0.0)
+        if not is_sound or not np.all(np.isfinite(e)) or not np.all(np.abs(e) > 0.0):
+            raise ValueError(f"series[{label!r}]: N0 must be positive and rise, errors finite and not 0")
     x, y, is_new = text_of(x, "x"), text_of(y, "y"), ax is None
     ax = _axes(ax)
     if is_new:
@@ -264,9 +285,10 @@ def _axes(ax: Any) -> Any:
 
 
 def _row(given: Any, name: str) -> np.ndarray:
-    """Numbers as an array of one dimension."""
+    """Numbers as an array of one dimension; those under a mask are none."""
     try:
-        array = np.asarray(given)
+        is_masked = isinstance(given, np.ma.MaskedArray)
+        array: np.ndarray = np.asarray(given.astype(np.float64).filled(np.nan) if is_masked else given)
     except (TypeError, ValueError, OverflowError):
         array = np.array(None)
     if array.ndim != 1 or array.dtype.kind not in "iuf":

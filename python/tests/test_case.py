@@ -1,4 +1,6 @@
+import copy
 import math
+import pickle
 import unittest
 
 import numpy as np
@@ -50,9 +52,20 @@ class CaseTest(FolderCase):
             with self.assertRaises(ValueError, msg=changes):
                 case.set(changes)
         self.assertEqual(case.to_toml(), before)
-        copy = case.copy()
-        copy.set("time.end", 7)
+        other = case.copy()
+        other.set("time.end", 7)
         self.assertEqual(case.to_toml(), before)
+
+    def test_copies_and_pickles_are_cases_of_their_own(self):
+        case = Case.from_dict(SHEAR, self.folder)
+        for made in (copy.copy(case), copy.deepcopy(case), pickle.loads(pickle.dumps(case))):
+            made.set("time.end", 7)
+            self.assertEqual((made["time.end"], case["time.end"]), (7.0, 0.2))
+            self.assertEqual(made._core.folder, case._core.folder)
+
+    def test_every_character_of_a_title_reads_back(self):
+        title = "".join(map(chr, range(1, 256)))
+        self.assertEqual(Case.from_dict(SHEAR | {"title": title})["title"], title)
 
     def test_errors_are_the_lines_of_the_program(self):
         good = Case.from_dict(SHEAR).to_toml()

@@ -9,7 +9,8 @@ import numpy as np
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
-from meniscus import plot  # noqa: E402
+from common import SHEAR  # noqa: E402
+from meniscus import Simulation, plot  # noqa: E402
 from misfits import WRONG_PATHS, WRONG_TEXTS  # noqa: E402
 
 NODES = np.array([110.0, 200.0, 400.0])
@@ -44,6 +45,19 @@ class LinesTest(Figure):
         self.assertEqual([line.get_marker() for line in ax.lines], ["None", "None", "^"])
         self.assertEqual(self.legend(ax), ["reference", "N0 = 110", "one"])
         self.assertGreater(ax.lines[0].zorder, ax.lines[1].zorder)
+
+    def test_what_is_under_a_mask_is_not_drawn(self):
+        ax = plot.lines({"a": ([1, 2, 3], np.ma.masked_greater([1, 2, 1000000], 100))}, x="x", y="y")
+        np.testing.assert_array_equal(ax.lines[0].get_ydata(), [1.0, 2.0, np.nan])
+
+    def test_units_are_those_of_each_column_and_of_the_flow(self):
+        shear = Simulation(SHEAR)
+        for columns, label in ((["L", "B"], "L, B [R0]"), (["L", "D"], "L [R0], D"), ("D", "D"),
+                               (["N1", "angle_deg"], "N1 [μ_out G], angle_deg [degrees]")):
+            ax = plot.history(shear, columns)
+            self.assertEqual((ax.get_xlabel(), ax.get_ylabel()), ("t [1/G]", label))
+        ax = plot.history(Simulation(SHEAR | {"flow": {"kind": "quiescent"}}), "N1")
+        self.assertEqual((ax.get_xlabel(), ax.get_ylabel()), ("t [μ_out R0/σ]", "N1 [σ/R0]"))
 
     def test_a_lone_line_has_no_legend(self):
         self.assertIsNone(plot.lines({"D": ([0, 1], [0, 1])}, x="t", y="D").get_legend())
@@ -128,6 +142,13 @@ class ErrorsTest(Figure):
         for nodes, errors in [([110], []), (110, 0.1), ([110], ["0.1"]), ([110], [None])]:
             with self.assertRaisesRegex(ValueError, "nodes|errors"):
                 plot.order(nodes, errors)
+
+    def test_what_is_no_row_of_resolutions_has_no_order(self):
+        for nodes in ([0, 110], [-1, 110], [np.nan, 110], [110, 110], [200, 110]):
+            with self.subTest(nodes=nodes), self.assertRaisesRegex(ValueError, "nodes must be positive and rise"):
+                plot.order(nodes, [1.0, 0.5])
+        self.assertIsNone(plot.order(NODES, [np.inf, 0.2, 0.1]))
+        self.assertIsNone(plot.order(NODES, np.ma.masked_less([1.0, 0.5, 1e-9], 1e-3)))
 
     def test_the_figure_shows_magnitudes_orders_and_signs(self):
         ax = plot.errors({"second": (NODES, 100.0 * NODES**-2.0), "mixed": (NODES[:2], [-0.1, 0.2])}, y="error [%]")

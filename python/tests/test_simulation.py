@@ -1,6 +1,8 @@
+import copy
 import gc
 import json
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -174,6 +176,86 @@ class RunTest(FolderCase):
         self.assertEqual(len(simulation.history()["t"]), steps + 1)
         simulation.step()
         self.assertEqual(simulation.step_number, steps + 1)
+        self.assertEqual(self.status(folder), "running")
+
+    def test_ctrl_c_while_the_first_state_is_made_leaves_a_run_to_resume(self):
+        folder = self.folder / "run"
+        timer = threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT))
+        slow = BOUNDED | {"drop": [{"radius": 1.0, "nodes": 400}]}
+        with self.assertRaises(KeyboardInterrupt):
+            case = Case.from_dict(slow)
+            timer.start()
+            Simulation(case, folder)
+        timer.join()
+        self.assertEqual(self.status(folder), "stopped")
+        with Simulation.resume(folder) as simulation:
+            self.assertEqual(simulation.step_number, 0)
+
+    def test_simulations_in_threads_compute_in_turn(self):
+        file, whole = self.run_program(Case.from_dict(SHEAR))
+        folders = [self.folder / f"run {i}" for i in range(3)]
+
+        def go(folder):
+            with Simulation(file, folder) as simulation:
+                simulation.run()
+        threads = [threading.Thread(target=go, args=(folder,)) for folder in folders]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for folder in folders:
+            self.assertSameRun(whole, folder)
+
+    def test_a_program_ends_after_the_step_of_a_thread_in_hand(self):
+        code = ("import threading, time\nfrom meniscus import Simulation\n"
+                f"case = {SHEAR | {'time': {'end': 50.0, 'max-step': 0.02}}!r}\n"
+                "idle = Simulation(case, 'idle')\nbusy = Simulation(case, 'busy')\n"
+                "threading.Thread(target=busy.run, daemon=True).start()\ntime.sleep(0.2)\n")
+        done = subprocess.run([sys.executable, "-c", code], cwd=self.folder, capture_output=True, text=True,
+                              check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("idle", "busy"):
+            self.assertEqual(self.status(self.folder / name), "stopped")
+            Simulation.resume(self.folder / name).step()
+
+    def test_relative_names_stay_where_they_were_given(self):
+        here = os.getcwd()
+        self.addCleanup(os.chdir, here)
+        (self.folder / "sub").mkdir()
+        os.chdir(self.folder)
+        simulation = Simulation(SHEAR, "run")
+        case = Case.from_dict(SHEAR, ".")
+        os.chdir("sub")
+        simulation.run()
+        simulation.close()
+        self.assertEqual(self.status(self.folder / "run"), "done")
+        self.assertEqual(case._core.folder.resolve(), self.folder.resolve())
+
+    def test_a_checkpoint_knows_what_rules_look_back_to(self):
+        tables = SHEAR | {"time": {"end": 20.0, "max-step": 0.2, "stop-when": {"steady-rate": 0.05}}}
+        simulation = Simulation(tables)
+        simulation.run(until=1.8)
+        simulation.checkpoint(self.folder / "middle.h5")
+        simulation.run()
+        self.assertLess(simulation.t, 19.0)
+        resumed = Simulation.resume(self.folder / "middle.h5")
+        resumed.run()
+        self.assertEqual(resumed.t, simulation.t)
+
+    def test_an_end_in_seconds_is_reached(self):
+        tables = SHEAR | {"scale": {"length": 1e-3, "viscosity": 0.1, "surface-tension": 0.025, "rate": 10.0},
+                          "flow": {"kind": "simple-shear"}, "drop": [{"radius": 1e-3, "nodes": 42}],
+                          "time": {"end": 0.01, "max-step": 0.01}, "output": {"interval": 0.01}}
+        simulation = Simulation(tables)
+        simulation.run(until=0.1)
+        self.assertTrue(simulation.is_finished)
+
+    def test_a_simulation_is_not_copied(self):
+        simulation = Simulation(SHEAR)
+        for copied in (copy.copy, copy.deepcopy, pickle.dumps):
+            with self.assertRaisesRegex(TypeError, "checkpoint"):
+                copied(simulation)
+        simulation.step()
 
     def test_other_threads_go_on_and_may_not_step_too(self):
         simulation = Simulation(Case.from_dict(SHEAR))
@@ -237,7 +319,7 @@ class RefusalTest(FolderCase):
         for arguments, words in (({"until": -1}, "until = -1.0 must be at least 0"),
                                  ({"until": 1e-9}, "until = 1e-09 lies before"),
                                  ({"until": 0.3, "settings": {"time.end": 0.4}}, "until and settings both"),
-                                 ({"settings": {"drop.nodes": 60}}, "drop.nodes: drops, domain"),
+                                 ({"settings": {"drop.nodes": 60}}, "drop.nodes: liquids, drops, domain"),
                                  ({"settings": {"time.max-step": -1}}, "time.max-step = -1.0 must be")):
             with self.assertRaisesRegex(ValueError, f"^{words}"):
                 Simulation.resume(file, self.folder / "new", **arguments)

@@ -108,14 +108,34 @@ TEST(StopRules, RowsOfAnEarlierPartCountAsIfJudged) {
     const std::vector<DropRow> drops{row(0, L(t))};
     const auto end = whole.judge(t, drops, {}, Scene(), {});
     if (step < 30) {
-      resumed.add(t, {{0, L(t)}});
+      resumed.past().add(t, {{0, L(t)}});
       ASSERT_FALSE(end);
     } else {
-      ASSERT_EQ(end.has_value(), resumed.judge(t, drops, {}, Scene(), {}).has_value()) << t;
+      const auto of_resumed = resumed.judge(t, drops, {}, Scene(), {});
+      Archive archive;  // the judge of every step goes on from that of the last one
+      resumed.past().save(archive);
+      resumed = StopJudge({.steady_rate = 1e-2});
+      resumed.past().load(archive);
+      ASSERT_EQ(end.has_value(), of_resumed.has_value()) << t;
       if (end) return;
     }
   }
   FAIL() << "it never ended";
+}
+
+TEST(StopRules, LengthsThatDoNotFitTogetherAreRefused) {
+  LengthRates rates;
+  rates.add(0.0, {{3, 2.0}, {5, 2.5}});
+  rates.add(0.5, {{3, 2.1}, {5, 2.4}});
+  Archive archive;
+  rates.save(archive);
+  LengthRates read;
+  read.load(archive);
+  EXPECT_FALSE(read.is_empty());
+  read.load(Archive());
+  EXPECT_TRUE(read.is_empty());
+  archive.reals.at("evolution/lengths/L").pop_back();
+  EXPECT_THROW(read.load(archive), InvalidInput);
 }
 
 /// A ball of radius ½ around (x, 0, 0) in a box of half-width 2, whose right face is open.
