@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "meniscus/app/run_json.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/version.hpp"
 #include "meniscus/io/atomic_file.hpp"
@@ -25,18 +25,13 @@ using io::RunFiles;
 /// Number of steps that a record keeps, besides the last.
 constexpr std::size_t kRecordedSteps = 120;
 
-Json read_run_json(const fs::path& folder) {
-  std::ifstream file(folder / RunFiles::record);
-  Json json = Json::parse(file, nullptr, false);
-  return json.is_object() ? json : Json::object();
-}
-
 std::string provenance(const fs::path& folder) {
   const Json run = read_run_json(folder);
+  const std::string none;
   return fmt::format("# {} {} ({}), {}: {} steps in {:.0f} s on one core\n",
-                     run.value("program", ""), run.value("version", ""), run.value("commit", ""),
-                     run.value("finished", "").substr(0, 10), run.value("steps", 0),
-                     run.value("wall_seconds", 0.0));
+                     member(run, "program", none), member(run, "version", none),
+                     member(run, "commit", none), member(run, "finished", none).substr(0, 10),
+                     member(run, "steps", 0), member(run, "wall_seconds", 0.0));
 }
 
 /// The step with the smallest gap: a regular stride would miss it. None without gaps.
@@ -100,10 +95,10 @@ std::string file_name_of(const std::string& name) {
 
 RunState state_of_run(const fs::path& folder, const Case& c) {
   const Json run = read_run_json(folder);
-  if (run.value("commit", "") != commit_string || !run.contains("case") ||
+  if (member(run, "commit", std::string()) != commit_string || !run.contains("case") ||
       run["case"] != Json::parse(case_json(c)))
     return RunState::absent;
-  return run.value("status", "") == "done" ? RunState::finished : RunState::unfinished;
+  return member(run, "status", std::string()) == "done" ? RunState::finished : RunState::unfinished;
 }
 
 RunTables read_run_tables(const fs::path& folder) {

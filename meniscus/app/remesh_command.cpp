@@ -195,7 +195,7 @@ void print_json(const Outcome& outcome) {
                      {"creases_rounded", outcome.report.are_creases_rounded},
                      {"creases_kept", outcome.report.are_creases_kept},
                      {"file", outcome.file.string()}};
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace

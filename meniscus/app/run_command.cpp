@@ -135,24 +135,30 @@ int resume(const ResumeArguments& arguments) {
   Evolution evolution = resumed_evolution(c, archive, checkpoint);
   require_end_ahead(c, evolution.t(), overrides, arguments.until ? "--until" : "time.end");
   const fs::path folder = arguments.output.empty() ? source : fs::path(arguments.output);
-  if (!arguments.output.empty()) {
+  const bool is_copy = !arguments.output.empty();
+  if (is_copy) {
     require_usable(folder, false);
     require_same_run(archive, checkpoint, source);
-    on_first_rank([&] { copy_run(source, folder); });
   }
   const std::unique_ptr<LiveView> view = make_live_view(arguments.watch);
   RunRecord record(c, "", "");
   std::optional<RunDirectory> directory;
   on_first_rank([&] {
-    record.go_on_from(folder / io::RunFiles::record);
-    directory = RunDirectory::take_up(folder, evolution.step(), evolution.t(),
-                                      physics_of(evolution.scene()));
+    if (is_copy) copy_run(source, folder);
+    try {
+      record.go_on_from(folder);
+      directory = RunDirectory::take_up(folder, evolution.step(), evolution.t(),
+                                        physics_of(evolution.scene()));
+    } catch (const std::exception&) {
+      if (is_copy) remove_run(folder);
+      throw;
+    }
   });
   Progress progress(evolution.t(), c.evolution.end, arguments.is_quiet);
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, archive.texts.at("case/folder")));
-  simulation.load_schedule(archive);
   simulation.stop_when(c.stop);
+  simulation.load(archive);
   return simulate(simulation, record, progress, view.get());
 }
 

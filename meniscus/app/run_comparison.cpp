@@ -155,9 +155,10 @@ class Comparison {
   void add_drift(const std::string& run) {
     const auto found = runs_.find(run);
     if (found == runs_.end()) return;
-    double drift = 0.0;
-    for (const double value : found->second.drops.column("volume_drift"))
-      drift = std::max(drift, std::abs(value));
+    const std::vector<double> drifts = found->second.drops.column("volume_drift");
+    double drift = drifts.empty() ? std::numeric_limits<double>::quiet_NaN() : 0.0;
+    for (const double value : drifts)
+      if (!(std::abs(value) <= drift)) drift = std::abs(value);  // what is no number stays one
     rows_.push_back({.case_name = case_name_,
                      .run = run,
                      .quantity = "largest volume_drift",

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "meniscus/app/run_json.hpp"
 #include "meniscus/io/atomic_file.hpp"
 #include "meniscus/io/run_files.hpp"
 
@@ -82,8 +83,9 @@ std::string action_status(const std::string& status) {
 void write_run_crate(const fs::path& folder) {
   const Json run = Json::parse(io::read_file(folder / RunFiles::record));
   const Json files = data_entities(folder);
-  const std::string title = run.value("title", ""), status = run.value("status", ""),
-                    started = run.value("started", ""), finished = run.value("finished", "");
+  const std::string none, title = member(run, "title", none), status = member(run, "status", none),
+                          started = member(run, "started", none),
+                          finished = member(run, "finished", none);
   Json graph = Json::array();
   graph.push_back({{"@id", RunFiles::crate},
                    {"@type", "CreativeWork"},
@@ -111,10 +113,10 @@ void write_run_crate(const fs::path& folder) {
   graph.push_back({{"@id", "#meniscus"},
                    {"@type", "SoftwareApplication"},
                    {"name", "Meniscus"},
-                   {"version", run.value("version", "")},
-                   {"identifier", run.value("commit", "")}});
+                   {"version", member(run, "version", none)},
+                   {"identifier", member(run, "commit", none)}});
   const Json crate{{"@context", "https://w3id.org/ro/crate/1.1/context"}, {"@graph", graph}};
-  io::write_file(folder / RunFiles::crate, crate.dump(2) + "\n");
+  io::write_file(folder / RunFiles::crate, file_text(crate));
 }
 
 }  // namespace meniscus

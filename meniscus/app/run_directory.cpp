@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -43,10 +44,32 @@ std::string volume_file(const Evolution& evolution) {
   return fmt::format("{0}/{0}-{1:06}.vtu", RunFiles::volume_folder, evolution.step());
 }
 
-io::TableWriter table(const fs::path& path, const std::vector<std::string>& columns,
+/// The columns of a run's tables, by file.
+std::map<std::string, std::vector<std::string>> columns_of(const RunPhysics& physics) {
+  return {{RunFiles::history, history_names(physics)},
+          {RunFiles::drops, drop_names(physics)},
+          {RunFiles::events, event_names(physics)},
+          {RunFiles::timing, timing_columns(!physics.scalars.empty())}};
+}
+
+io::TableWriter table(const fs::path& folder, const std::string& name, const RunPhysics& physics,
                       std::optional<std::int64_t> first_step) {
-  return first_step && fs::exists(path) ? io::TableWriter(path, columns, *first_step)
-                                        : io::TableWriter(path, columns);
+  const fs::path file = folder / name;
+  const std::vector<std::string> columns = columns_of(physics).at(name);
+  return first_step && fs::exists(file) ? io::TableWriter(file, columns, *first_step)
+                                        : io::TableWriter(file, columns);
+}
+
+/// Removes the frames of a run from their folder, and the folder if nothing else is there.
+void remove_frames(const fs::path& folder, const std::string& name) {
+  std::vector<fs::path> frames;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string file = entry.path().filename().string();
+    if (file.starts_with(name + "-") && entry.path().extension().string().starts_with(".vt"))
+      frames.push_back(entry.path());
+  }
+  for (const fs::path& frame : frames) fs::remove(frame);
+  if (fs::is_empty(folder)) fs::remove(folder);
 }
 
 }  // namespace
@@ -58,11 +81,10 @@ RunDirectory::RunDirectory(FolderLock lock, fs::path path, RunPhysics physics,
       physics_(std::move(physics)),
       kept_steps_(first_step ? steps_around_events(path_ / RunFiles::events)
                              : std::set<std::int64_t>{}),
-      history_(table(path_ / RunFiles::history, history_names(physics_), first_step)),
-      drops_(table(path_ / RunFiles::drops, drop_names(physics_), first_step)),
-      events_(table(path_ / RunFiles::events, event_names(physics_), first_step)),
-      timing_(
-          table(path_ / RunFiles::timing, timing_columns(!physics_.scalars.empty()), first_step)) {}
+      history_(table(path_, RunFiles::history, physics_, first_step)),
+      drops_(table(path_, RunFiles::drops, physics_, first_step)),
+      events_(table(path_, RunFiles::events, physics_, first_step)),
+      timing_(table(path_, RunFiles::timing, physics_, first_step)) {}
 
 RunDirectory RunDirectory::create(const fs::path& path, bool overwrite, RunPhysics physics) {
   require_usable(path, overwrite);
@@ -81,9 +103,15 @@ RunDirectory RunDirectory::create(const fs::path& path, bool overwrite, RunPhysi
 
 RunDirectory RunDirectory::take_up(const fs::path& path, std::int64_t first_step, double t,
                                    RunPhysics physics) {
-  RunDirectory directory(FolderLock(path), path, std::move(physics), first_step);
-  directory.surface_frames_ = frames_before(path / RunFiles::surface_frames, t);
-  directory.volume_frames_ = frames_before(path / RunFiles::volume_frames, t);
+  FolderLock lock(path);
+  // All is read before a table is cut.
+  std::vector<io::PvdEntry> surfaces = frames_before(path / RunFiles::surface_frames, t),
+                            volumes = frames_before(path / RunFiles::volume_frames, t);
+  for (const auto& [name, columns] : columns_of(physics))
+    if (fs::exists(path / name)) io::require_rows(path / name, columns);
+  RunDirectory directory(std::move(lock), path, std::move(physics), first_step);
+  directory.surface_frames_ = std::move(surfaces);
+  directory.volume_frames_ = std::move(volumes);
   return directory;
 }
 
@@ -142,13 +170,23 @@ void require_usable(const fs::path& path, bool overwrite) {
       reject_input("output folder {}: {} is a file", path.string(), part.string());
     break;
   }
-  if (holds_run(path) && !overwrite)
+  if (holds_run(path)) {
+    if (overwrite) return;
     reject_input("output folder {} holds a run already; give --overwrite or another -o",
                  path.string());
+  }
+  for (const char* name : RunFiles::written)
+    if (fs::exists(path / name, ignored))
+      reject_input("output folder {} holds {}, and no run; give another -o", path.string(), name);
 }
 
 void remove_run(const fs::path& path) {
-  for (const char* name : RunFiles::written) fs::remove_all(path / name);
+  for (const char* name : RunFiles::written) {
+    if (!fs::is_directory(path / name))
+      fs::remove(path / name);
+    else
+      remove_frames(path / name, name);
+  }
   for (const auto& [step, file] : io::checkpoints(path)) fs::remove(file);
 }
 
@@ -159,7 +197,8 @@ void remove_unbegun_run(const fs::path& path) {
 bool holds_run(const fs::path& path) {
   std::error_code error;
   if (!fs::is_directory(path, error)) return false;
-  return fs::exists(path / RunFiles::history, error) || !io::checkpoints(path).empty();
+  return fs::exists(path / RunFiles::history, error) ||
+         fs::exists(path / RunFiles::record, error) || !io::checkpoints(path).empty();
 }
 
 fs::path newest_checkpoint(const fs::path& path) {

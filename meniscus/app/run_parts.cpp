@@ -1,6 +1,9 @@
 #include "meniscus/app/run_parts.hpp"
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <ranges>
 
 #include <fmt/format.h>
 
@@ -33,6 +36,23 @@ void require_first_step(const Evolution& evolution, const Case& c) {
       "{}: time.min-step = {:g}: the first step would be {:.3g}, for the shortest edge and the "
       "tension",
       c.settings.source("time.min-step"), c.evolution.min_step, evolution.step_length());
+}
+
+/// The newest checkpoint of a run that is not damaged; none where all are.
+std::optional<Archive> newest_readable_checkpoint(const fs::path& run) {
+  for (const auto& [step, file] : std::views::reverse(io::checkpoints(run))) {
+    try {
+      return io::read_archive(file);
+    } catch (const InvalidInput&) {  // the one before it may be sound
+    }
+  }
+  return std::nullopt;
+}
+
+/// The case of a checkpoint as if its run ended at its start: --until changes the end.
+std::string case_but_for_end(const Archive& archive, const fs::path& checkpoint) {
+  const std::array no_end{std::string("time.end=0.0")};
+  return case_toml(case_of_checkpoint(archive, checkpoint, no_end));
 }
 
 /// Copies reference.csv of the case into the run's folder, where the page reads it. Removes the one
@@ -112,12 +132,21 @@ void require_end_ahead(const Case& c, double t, std::span<const std::string> ove
 }
 
 void require_changeable(std::span<const std::string> overrides) {
+  constexpr std::array of_the_checkpoint{"drop",
+                                         "domain",
+                                         "scale",
+                                         "scalar",
+                                         "matrix",
+                                         "flow.capillary-number",
+                                         "flow.reynolds-number",
+                                         "flow.gravity"};
   for (const std::string& override : overrides)
-    for (const char* of_the_start : {"drop", "domain", "scale", "scalar"})
-      if (override.starts_with(of_the_start))
+    for (const char* kept : of_the_checkpoint)
+      if (override.starts_with(kept))
         reject_input(
-            "--set {}: drops, domain, scale and scalars are those of the checkpoint; what may be "
-            "changed is in [flow], [interface], [time], [solver], [topology] and [output]",
+            "--set {}: liquids, drops, domain, scale and scalars are those of the checkpoint; what "
+            "may be changed is flow.kind, flow.gradient, flow.schedule, and in [interface], "
+            "[time], [solver], [topology] and [output]",
             override);
 }
 
@@ -150,12 +179,8 @@ void copy_run(const fs::path& from, const fs::path& to) {
 }
 
 void require_same_run(const Archive& archive, const fs::path& checkpoint, const fs::path& run) {
-  const fs::path own = newest_checkpoint(run);
-  const auto case_of = [](const Archive& a) {
-    const auto text = a.texts.find("case/toml");
-    return text == a.texts.end() ? std::string() : text->second;
-  };
-  if (case_of(archive) != case_of(io::read_archive(own)))
+  const std::optional<Archive> own = newest_readable_checkpoint(run);
+  if (own && case_but_for_end(archive, checkpoint) != case_but_for_end(*own, run))
     reject_input("{}: not a checkpoint of the run in {}: its case differs", checkpoint.string(),
                  run.string());
 }

@@ -1,7 +1,6 @@
 #include "meniscus/app/run_record.hpp"
 
 #include <array>
-#include <fstream>
 #include <span>
 
 #include <fmt/chrono.h>
@@ -9,6 +8,7 @@
 #include <unistd.h>
 
 #include "meniscus/app/ranks.hpp"
+#include "meniscus/app/run_json.hpp"
 #include "meniscus/app/wording.hpp"
 #include "meniscus/core/version.hpp"
 #include "meniscus/evolve/constants.hpp"
@@ -60,19 +60,19 @@ RunRecord::RunRecord(const Case& c, std::string case_file, std::string case_text
       started_(now_utc()),
       warnings_(std::move(warnings)) {}
 
-void RunRecord::go_on_from(const std::filesystem::path& run_json) {
-  std::ifstream file(run_json);
-  const Json before = Json::parse(file, nullptr, false);
-  if (before.is_discarded() || !before.is_object()) return;
-  started_ = before.value("started", started_);
-  case_file_ = before.value("case_file", case_file_);
-  case_text_ = before.value("case_text", case_text_);
-  wall_before_ = before.value("wall_seconds", 0.0);
-  warnings_ = before.value("warnings", warnings_);
-  if (before.contains("changes")) changes_json_ = before["changes"].dump();
-  if (!before.contains("seconds")) return;
-  for (const auto& [phase, seconds] : before["seconds"].items())
-    seconds_before_.emplace_back(phase, seconds);
+void RunRecord::go_on_from(const std::filesystem::path& folder) {
+  const Json before = read_run_json(folder);
+  started_ = member(before, "started", started_);
+  case_file_ = member(before, "case_file", case_file_);
+  case_text_ = member(before, "case_text", case_text_);
+  wall_before_ = member(before, "wall_seconds", 0.0);
+  warnings_ = member(before, "warnings", warnings_);
+  if (const Json changes = member(before, "changes", Json()); changes.is_array())
+    changes_json_ = changes.dump();
+  const Json seconds = member(before, "seconds", Json::object());
+  if (!seconds.is_object()) return;
+  for (const auto& [phase, spent] : seconds.items())
+    if (spent.is_number()) seconds_before_.emplace_back(phase, spent);
 }
 
 void RunRecord::change_case(const Case& c, std::int64_t step, double t,
@@ -118,7 +118,7 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
               {"warnings", warnings}};
   if (simulation.end()) record["ended"] = word_for(simulation.end()->ending);
   if (!changes_json_.empty()) record["changes"] = Json::parse(changes_json_);
-  simulation.directory().write_text(io::RunFiles::record, record.dump(2) + "\n");
+  simulation.directory().write_text(io::RunFiles::record, file_text(record));
 }
 
 }  // namespace meniscus

@@ -19,7 +19,7 @@ class RunRecord {
             std::vector<std::string> warnings = {});
 
   /// Adds the seconds, steps and warnings of an earlier part of the run, read from its run.json.
-  void go_on_from(const std::filesystem::path& run_json);
+  void go_on_from(const std::filesystem::path& folder);
   /// The case as it was changed after a step: the keys that were set, each as "key=value".
   void change_case(const Case& c, std::int64_t step, double t,
                    const std::vector<std::string>& settings);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
-#include <fstream>
 #include <set>
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 
 #include "meniscus/app/check_results.hpp"
 #include "meniscus/app/run_directory.hpp"
+#include "meniscus/app/run_json.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/evolve/stop_rules.hpp"
 #include "meniscus/io/atomic_file.hpp"
@@ -58,9 +58,7 @@ double prolonged_end(const Case& c, int prolongations) {
 
 /// Why a run ended, by its run.json: "time", "steady", …; empty where it does not say.
 std::string ending_of_run(const fs::path& folder) {
-  std::ifstream file(folder / io::RunFiles::record);
-  const auto run = nlohmann::json::parse(file, nullptr, false);
-  return run.is_object() ? run.value("ended", "") : std::string();
+  return member(read_run_json(folder), "ended", std::string());
 }
 
 std::string last_line(const fs::path& file) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -76,6 +77,21 @@ void require_sound(const Interface& interface) {
         enclosed < kMostVolumeKept * interface.volume))
     reject_input("checkpoint: drop {} encloses {:.4g}, and its volume is {:.4g}", interface.drop,
                  enclosed, interface.volume);
+}
+
+/// Throws InvalidInput unless time, step and regions are such as a run can have.
+void require_sound(const State& state) {
+  if (!(state.t >= 0.0) || !(state.dt >= 0.0) || !std::isfinite(state.t + state.dt) ||
+      state.step < 0)
+    reject_input("checkpoint: step {} at t = {:g} after {:g} is none of a run", state.step, state.t,
+                 state.dt);
+  const auto is_region = [&](RegionId region) {
+    return region.value >= 0 && region.value < state.scene.liquids.size();
+  };
+  for (const Interface& interface : state.scene.interfaces)
+    if (!is_region(interface.inside) || !is_region(interface.outside))
+      reject_input("checkpoint: drop {} lies between regions {} and {} of {}", interface.drop,
+                   interface.inside.value, interface.outside.value, state.scene.liquids.size());
 }
 
 Interface load_interface(const Archive& archive, std::size_t i) {
@@ -312,6 +328,7 @@ void load(State& state, const Archive& archive) {
   if (const auto fault = find_surfactant_fault(state.scene))
     reject_input("checkpoint: {}", fault->text);
   state.scene.liquids = load_liquids(archive, count);
+  require_sound(state);
   load_scalars(state, archive);
   load_flow(state, archive);
   state.events = load_events(archive);

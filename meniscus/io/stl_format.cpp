@@ -12,6 +12,7 @@
 #include "meniscus/io/binary.hpp"
 #include "meniscus/io/surface_formats.hpp"
 #include "meniscus/io/text_scanner.hpp"
+#include "meniscus/mesh/surface_check.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
 
 namespace meniscus::io {
@@ -174,6 +175,15 @@ void store_point(std::string& bytes, const Vec3& x) {
   for (const double coordinate : x) store(bytes, static_cast<float>(coordinate));
 }
 
+/// Throws InvalidInput where single precision leaves a face no area or has no such number.
+void require_single_precision(const std::filesystem::path& path, const SurfaceMesh& mesh) {
+  SurfaceMesh rounded = mesh;
+  for (Vec3& x : rounded.x) x = x.cast<float>().cast<double>();
+  if (!is_finite(rounded) || find_degenerate_face(rounded))
+    reject_input("{}: STL has single precision, too coarse for this surface; write .ply",
+                 path.string());
+}
+
 }  // namespace
 
 PolygonSoup parse_stl(const std::filesystem::path& path, std::string_view bytes) {
@@ -189,7 +199,8 @@ PolygonSoup parse_stl(const std::filesystem::path& path, std::string_view bytes)
   return welded(parse_ascii(scanner));
 }
 
-std::string format_stl(const SurfaceMesh& mesh) {
+std::string format_stl(const std::filesystem::path& path, const SurfaceMesh& mesh) {
+  require_single_precision(path, mesh);
   std::string bytes = "STL, binary, written by Meniscus";
   bytes.resize(header_size, '\0');
   store(bytes, static_cast<std::uint32_t>(mesh.num_faces()));

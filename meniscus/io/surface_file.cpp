@@ -119,7 +119,7 @@ void write_surface(const fs::path& path, const SurfaceMesh& mesh) {
     const SurfaceMesh* const surfaces[] = {&mesh};
     return write_vtp(path, surfaces, {}, 0.0);
   }
-  if (extension == ".stl") return write_file(path, format_stl(mesh));
+  if (extension == ".stl") return write_file(path, format_stl(path, mesh));
   if (extension == ".ply") return write_file(path, format_ply(mesh));
   if (extension == ".obj") return write_file(path, format_obj(mesh));
   if (extension == ".off") return write_file(path, format_off(mesh));

@@ -19,7 +19,8 @@ namespace meniscus::io {
 [[nodiscard]] PolygonSoup parse_off(const std::filesystem::path& path, std::string_view bytes);
 
 // Binary STL has single precision by its definition; the others give back the same doubles.
-[[nodiscard]] std::string format_stl(const SurfaceMesh& mesh);
+/// Throws InvalidInput naming the file where single precision is too coarse for the surface.
+[[nodiscard]] std::string format_stl(const std::filesystem::path& path, const SurfaceMesh& mesh);
 [[nodiscard]] std::string format_ply(const SurfaceMesh& mesh);
 [[nodiscard]] std::string format_obj(const SurfaceMesh& mesh);
 [[nodiscard]] std::string format_off(const SurfaceMesh& mesh);

@@ -60,6 +60,8 @@ std::vector<Record> parse_records(const fs::path& path, std::string_view text) {
     line += static_cast<int>(std::ranges::count(raw, '\n'));
     at = record.end;
     const std::size_t expected = records.empty() ? record.cells.size() : records[0].cells.size();
+    if (!record.is_ended && raw.find('\n') != std::string_view::npos)
+      reject_input("{}:{}: a quotation mark is not closed", path.string(), record.line);
     if (record.cells.size() != expected) {
       if (!record.is_ended) break;
       reject_input("{}:{}: {} cells where the header has {}", path.string(), record.line,
@@ -110,6 +112,19 @@ std::int64_t parse_step(const fs::path& path, const Record& record, std::size_t 
   return step;
 }
 
+/// Throws InvalidInput where a step lies before the one of the row above.
+void require_rising_steps(const fs::path& path, const std::vector<Record>& records,
+                          std::size_t column) {
+  std::int64_t last = 0;
+  for (std::size_t i = 1; i < records.size() && records[i].is_ended; ++i) {
+    const std::int64_t step = parse_step(path, records[i], column);
+    if (step < last)
+      reject_input("{}:{}: step = {} comes after step {}", path.string(), records[i].line, step,
+                   last);
+    last = step;
+  }
+}
+
 /// The text up to the first row with `step` ≥ first_step.
 std::string rows_before(const fs::path& path, const std::vector<std::string>& columns,
                         std::int64_t first_step) {
@@ -123,10 +138,10 @@ std::string rows_before(const fs::path& path, const std::vector<std::string>& co
   const std::size_t column = step_column(path, columns);
   std::size_t kept = records[0].end;
   for (std::size_t i = 1; i < records.size(); ++i) {
-    // The cells of a last line may all be there and its last number cut short all the same.
     if (!records[i].is_ended || parse_step(path, records[i], column) >= first_step) break;
     kept = records[i].end;
   }
+  require_rising_steps(path, records, column);
   return text.substr(0, kept);
 }
 
@@ -150,6 +165,10 @@ TableWriter::TableWriter(fs::path path, const std::vector<std::string>& columns,
     : path_(std::move(path)), num_columns_(columns.size()) {
   write_file(path_, rows_before(path_, columns, first_step));
   file_.open(path_, std::ios::binary | std::ios::app);
+}
+
+void require_rows(const fs::path& path, const std::vector<std::string>& columns) {
+  (void)rows_before(path, columns, 0);
 }
 
 void TableWriter::add(const std::vector<Cell>& row) {
@@ -198,8 +217,7 @@ std::vector<double> Table::column(const std::string& name) const {
 
 namespace {
 
-Table parse_table(const fs::path& path, std::string_view text) {
-  std::vector<Record> records = parse_records(path, text);
+Table table_of(std::vector<Record> records) {
   Table table{.columns = std::move(records[0].cells), .rows = {}};
   for (std::size_t i = 1; i < records.size(); ++i) {
     table.rows.push_back(std::move(records[i].cells));
@@ -209,7 +227,12 @@ Table parse_table(const fs::path& path, std::string_view text) {
 
 }  // namespace
 
-Table read_table(const fs::path& path) { return parse_table(path, read_file(path)); }
+Table read_table(const fs::path& path) {
+  std::vector<Record> records = parse_records(path, read_file(path));
+  // The cells of a last line may all be there and its last number cut short all the same.
+  if (records.size() > 1 && !records.back().is_ended) records.pop_back();
+  return table_of(std::move(records));
+}
 
 Table read_commented_table(const fs::path& path) {
   return parse_commented_table(path.string(), read_file(path));
@@ -224,7 +247,7 @@ Table parse_commented_table(const std::string& name, std::string_view text) {
       rows += line;
     at = end;
   }
-  return parse_table(name, rows);
+  return table_of(parse_records(name, rows));
 }
 
 }  // namespace meniscus::io

@@ -160,6 +160,11 @@ std::vector<std::array<std::size_t, 3>> cut_polygon(std::span<const Vec3> corner
 }
 
 bool make_consistent(SurfaceMesh& mesh) {
+  // CGAL never comes to an end on a face that has a corner twice.
+  const auto has_corner_twice = [](const FaceVertices& f) {
+    return f[0] == f[1] || f[1] == f[2] || f[2] == f[0];
+  };
+  if (std::ranges::any_of(mesh.faces, has_corner_twice)) return false;
   TriangleSoup soup = to_soup(mesh);
   if (!pmp::orient_polygon_soup(soup.points, soup.triangles)) return false;
   const TriangleSoup given = to_soup(mesh);

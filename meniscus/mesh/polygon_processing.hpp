@@ -15,7 +15,7 @@ namespace meniscus {
 [[nodiscard]] std::vector<std::array<std::size_t, 3>> cut_polygon(std::span<const Vec3> corners);
 
 /// Turns faces so that neighbours agree, in each piece as most of its faces are. False, and nothing
-/// changed, where that is impossible without tearing the surface.
+/// changed, where that is impossible without tearing the surface, or a face has a corner twice.
 [[nodiscard]] bool make_consistent(SurfaceMesh& mesh);
 
 /// Makes a closed surface of triangles as far as that can be done (`surface_of`); adds to `report`

@@ -5,6 +5,7 @@
 
 #include "meniscus/core/archive_entries.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/mesh/box_tree.hpp"
 #include "meniscus/mesh/field_archive.hpp"
 #include "meniscus/volume/mesh_archive.hpp"
 #include "meniscus/volume/quality.hpp"
@@ -32,6 +33,20 @@ std::optional<Fault> find_inverted_cell(const TetMesh& mesh) {
       return Fault{FaultKind::inverted_cell, "moving the volume mesh inverts a cell",
                    mesh.x[mesh.cells[c][0]]};
   return {};
+}
+
+/// Throws InvalidInput unless the outer boundary of a saved mesh is that of the case. Its file may
+/// have been changed since.
+void require_boundary_of(const SurfaceMesh& boundary, const TetMesh& mesh) {
+  constexpr double kRoundOff = 1e-9;  // of the boundary's extent
+  if (mesh.boundary.num_vertices != boundary.num_vertices())
+    reject_input("checkpoint: the outer boundary has {} vertices, that of the case {}",
+                 mesh.boundary.num_vertices, boundary.num_vertices());
+  const double most = kRoundOff * bounding_box(boundary).diagonal().norm();
+  for (const VertexId v : boundary.x.ids())
+    if (const Vec3& x = mesh.x[mesh.boundary.vertex(v)]; !((x - boundary.x[v]).norm() <= most))
+      reject_input("checkpoint: vertex {} of the outer boundary lies at {}, that of the case at {}",
+                   v.value, text_of(x), text_of(boundary.x[v]));
 }
 
 }  // namespace
@@ -167,6 +182,7 @@ void MovingMesh::load(const Archive& archive, const Scene& scene) {
     if (mesh_.interfaces[i].num_vertices != scene.interfaces[i].mesh.num_vertices())
       reject_input("checkpoint: interface {} has {} vertices in the volume mesh, {} in the scene",
                    i, mesh_.interfaces[i].num_vertices, scene.interfaces[i].mesh.num_vertices());
+  require_boundary_of(scene.boundary.mesh, mesh_);
   fields_ = load_fields(archive, "mesh/fields", mesh_);
   made_angle_deg_ = archive.reals.contains("mesh/made-angle")
                         ? entry_of_size(archive.reals, "mesh/made-angle", 1).front()

@@ -24,7 +24,7 @@ TEST(Table, WritesCellsOfEveryKind) {
   writer.add({std::int64_t{0}, 0.1, "a"});
   writer.add({std::int64_t{1}, std::monostate(), "b,\"c\"\nd"});
   EXPECT_EQ(get(folder / "t.csv"), "step,t,note\n0,0.1,a\n1,,\"b,\"\"c\"\"\nd\"\n");
-  const Table table = read_table(folder / "t.csv");
+  const Table table = read_commented_table(folder / "t.csv");
   EXPECT_EQ(table.columns, (std::vector<std::string>{"step", "t", "note"}));
   EXPECT_EQ(table.rows[1][2], "b,\"c\"\nd");
   EXPECT_EQ(table.column("t")[0], 0.1);
@@ -73,6 +73,16 @@ TEST(Table, ResumingDropsLaterRowsAndATornLine) {
     const TableWriter writer(folder / "t.csv", {"step", "t"}, 2);
     EXPECT_EQ(get(folder / "t.csv"), "step,t\n0,0\n") << torn;
   }
+}
+
+TEST(Table, ReadingARunsTableLeavesATornLineOut) {
+  const test::TemporaryFolder folder;
+  for (const char* torn : {"", "1", "1,", "1,0.12", "1,1.5e-"}) {
+    put(folder / "t.csv", std::string("step,t\n0,0.5\n") + torn);
+    EXPECT_EQ(read_table(folder / "t.csv").column("t"), std::vector<double>{0.5}) << torn;
+  }
+  put(folder / "t.csv", "step,t\n0,0.5\n1,0.12");
+  EXPECT_EQ(read_commented_table(folder / "t.csv").column("t").size(), 2);
 }
 
 TEST(Table, ResumedFileEqualsTheUninterruptedOneWhereverItWasCut) {
@@ -135,7 +145,7 @@ TEST(Table, SaysWhatIsWrong) {
 TEST(Table, ReadsWhatOthersWrite) {
   const test::TemporaryFolder folder;
   put(folder / "t.csv", "t,D\r\n0,0.5\r\n1,+inf\r\n2,1e-3");  // no line break at the end
-  const Table table = read_table(folder / "t.csv");
+  const Table table = read_commented_table(folder / "t.csv");
   EXPECT_EQ(table.column("t"), (std::vector<double>{0, 1, 2}));
   EXPECT_EQ(table.column("D")[0], 0.5);
   EXPECT_EQ(table.column("D")[2], 1e-3);
