@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/log.hpp"
@@ -35,32 +36,38 @@ std::int64_t size_of(const fs::path& file) {
   return error ? 0 : static_cast<std::int64_t>(size);
 }
 
-template <class Parts>
-WatchServer::Answer entries_from(const Parts& parts, std::int64_t from) {
+template <class Part>
+WatchServer::Answer entries_from(const std::vector<Part>& parts, std::int64_t from) {
   std::string list;
   for (std::size_t k = static_cast<std::size_t>(from); k < parts.size(); ++k)
     list += (list.empty() ? "" : ",") + parts[k].entry;
   return {200, json_type, "[" + list + "]", nullptr};
 }
 
-template <class Parts>
-WatchServer::Answer bytes_of(const Parts& parts, std::int64_t number) {
+template <class Part>
+WatchServer::Answer bytes_of(const std::vector<Part>& parts, std::int64_t number) {
   if (static_cast<std::size_t>(number) >= parts.size()) return {};
   return {200, binary_type, {}, parts[static_cast<std::size_t>(number)].bytes};
+}
+
+/// Of two processes with one number, one begins later.
+std::string new_id() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return fmt::format("{}-{}", getpid(),
+                     std::chrono::duration_cast<std::chrono::microseconds>(now).count());
 }
 
 }  // namespace
 
 LiveView::LiveView(const WatchAddress& address)
     : address_(address.address),
-      server_(address, [this](std::string_view path, std::optional<std::int64_t> number) {
-        return answer(path, number);
-      }) {}
+      id_(new_id()),
+      server_(address, [this](const WatchServer::Request& request) { return answer(request); }) {}
 
 std::string LiveView::url() const { return fmt::format("http://{}:{}/", address_, server_.port()); }
 
 void LiveView::begin(const fs::path& folder) {
-  auto page = std::make_shared<const std::string>(live_page(folder));
+  auto page = std::make_shared<const std::string>(live_page(folder, id_));
   const std::lock_guard lock(mutex_);
   folder_ = folder;
   page_ = std::move(page);
@@ -68,21 +75,22 @@ void LiveView::begin(const fs::path& folder) {
 
 void LiveView::update(const RunDirectory& directory) {
   // Only this thread adds to the lists, so it may read their sizes without the lock.
-  const auto add_new = [&](std::vector<Part>& parts, const std::vector<io::PvdEntry>& entries,
+  const auto add_new = [&](Parts& parts, const std::vector<io::PvdEntry>& entries,
                            LivePart (*pack)(const fs::path&, double)) {
-    for (std::size_t k = parts.size(); k < entries.size(); ++k) {
-      LivePart part = pack(directory.path() / entries[k].file, entries[k].t);
-      const std::lock_guard lock(mutex_);
-      parts.push_back(
-          {std::move(part.entry), std::make_shared<const std::string>(std::move(part.bytes))});
+    while (parts.num_tried < entries.size()) {
+      const io::PvdEntry& entry = entries[parts.num_tried++];
+      try {
+        LivePart part = pack(directory.path() / entry.file, entry.t);
+        const std::lock_guard lock(mutex_);
+        parts.packed.push_back(
+            {std::move(part.entry), std::make_shared<const std::string>(std::move(part.bytes))});
+      } catch (const InvalidInput& error) {  // a frame missing from the view must not end the run
+        log::warning("live view: {}", error.what());
+      }
     }
   };
-  try {
-    add_new(frames_, directory.surface_frames(), live_surface);
-    add_new(cuts_, directory.volume_frames(), live_cuts);
-  } catch (const InvalidInput& error) {  // a frame missing from the view must not end the run
-    log::warning("live view: {}", error.what());
-  }
+  add_new(frames_, directory.surface_frames(), live_surface);
+  add_new(cuts_, directory.volume_frames(), live_cuts);
 }
 
 void LiveView::end(const std::string& status) {
@@ -104,28 +112,33 @@ void LiveView::end(const std::string& status) {
     std::this_thread::sleep_for(50ms);
 }
 
-WatchServer::Answer LiveView::answer(std::string_view path, std::optional<std::int64_t> number) {
+WatchServer::Answer LiveView::answer(const WatchServer::Request& request) {
+  const auto& [path, number, run] = request;
   const std::lock_guard lock(mutex_);
   if (path == "/favicon.ico") return {204, "text/plain", {}, nullptr};
   if (page_ == nullptr) return {503, "text/plain", "the run is about to begin\n", nullptr};
+  if (!run.empty() && run != id_) return {409, "text/plain", "another run\n", nullptr};
   asked_ = Clock::now();
   if (path == "/") return {200, "text/html; charset=utf-8", {}, page_};
   if (path == "/state") {
     is_end_known_ = true;
     return {200, json_type, state(), nullptr};
   }
-  if (path == "/frames") return entries_from(frames_, number.value_or(0));
-  if (path == "/cuts") return entries_from(cuts_, number.value_or(0));
-  if (path == "/frame" && number) return bytes_of(frames_, *number);
-  if (path == "/cut" && number) return bytes_of(cuts_, *number);
+  if (path == "/frames") return entries_from(frames_.packed, number.value_or(0));
+  if (path == "/cuts") return entries_from(cuts_.packed, number.value_or(0));
+  if (path == "/frame" && number) return bytes_of(frames_.packed, *number);
+  if (path == "/cut" && number) return bytes_of(cuts_.packed, *number);
   return table(path, number.value_or(0));
 }
 
 std::string LiveView::state() const {
   nlohmann::ordered_json tables = nlohmann::ordered_json::object();
   for (const auto& [name, file] : io::RunFiles::tables) tables[name] = size_of(folder_ / file);
-  return nlohmann::ordered_json{
-      {"status", status_}, {"frames", frames_.size()}, {"cuts", cuts_.size()}, {"tables", tables}}
+  return nlohmann::ordered_json{{"run", id_},
+                                {"status", status_},
+                                {"frames", frames_.packed.size()},
+                                {"cuts", cuts_.packed.size()},
+                                {"tables", tables}}
       .dump();
 }
 

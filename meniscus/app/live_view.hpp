@@ -35,9 +35,13 @@ class LiveView {
     std::string entry;
     std::shared_ptr<const std::string> bytes;
   };
+  /// Frames or cuts; those that cannot be read are left out.
+  struct Parts {
+    std::vector<Part> packed;
+    std::size_t num_tried = 0;  ///< files of the run read so far, with success or without
+  };
 
-  [[nodiscard]] WatchServer::Answer answer(std::string_view path,
-                                           std::optional<std::int64_t> number);
+  [[nodiscard]] WatchServer::Answer answer(const WatchServer::Request& request);
   [[nodiscard]] std::string state() const;
   [[nodiscard]] WatchServer::Answer table(std::string_view path, std::int64_t from) const;
 
@@ -45,10 +49,11 @@ class LiveView {
   std::filesystem::path folder_;
   std::shared_ptr<const std::string> page_;
   std::string status_ = "running";
-  std::vector<Part> frames_, cuts_;
+  Parts frames_, cuts_;
   Clock::time_point asked_{};  ///< time of the latest request
   bool is_end_known_ = false;  ///< a page has asked since the status was set
   std::string address_;
+  std::string id_;      ///< of this view: pages notice that another run answers in its place
   WatchServer server_;  // last: its thread ends before what it reads
 };
 

@@ -79,6 +79,7 @@ struct WatchServer::Impl {
   Handler handler;
   MHD_Daemon* daemon = nullptr;
   bool is_loopback = true;
+  std::string address;
   int port = 0;
 
   [[nodiscard]] bool is_host_ours(MHD_Connection* connection) const;
@@ -90,12 +91,12 @@ struct WatchServer::Impl {
 };
 
 /// Whether the request names this host: another site whose name was redirected here must not read
-/// the run (DNS rebinding).
+/// the run (DNS rebinding). The port may be that of a tunnel that leads here.
 bool WatchServer::Impl::is_host_ours(MHD_Connection* connection) const {
   const char* host = header(connection, "Host");
   if (!is_loopback || host == nullptr) return true;
-  const std::string_view name(host);
-  return name == fmt::format("127.0.0.1:{}", port) || name == fmt::format("localhost:{}", port);
+  const std::string_view name = std::string_view(host).substr(0, std::string_view(host).find(':'));
+  return name == "127.0.0.1" || name == "localhost" || name == address;
 }
 
 WatchServer::Answer WatchServer::Impl::answer(MHD_Connection* connection, const char* url,
@@ -112,7 +113,8 @@ WatchServer::Answer WatchServer::Impl::answer(MHD_Connection* connection, const 
     number = whole_number(text);
     if (!number) return refusal(400, fmt::format("{} is not a whole number from 0", name));
   }
-  return handler(url, number);
+  const char* run = MHD_lookup_connection_value(connection, MHD_GET_ARGUMENT_KIND, "run");
+  return handler({url, number, run == nullptr ? std::string_view() : run});
 }
 
 // NOLINTNEXTLINE(readability-function-size): the library sets the parameters
@@ -138,6 +140,7 @@ WatchServer::WatchServer(const WatchAddress& address, Handler handler)
   if (inet_pton(AF_INET, address.address.c_str(), &where.sin_addr) != 1)
     reject_input("--listen {}: not an IPv4 address such as 127.0.0.1", address.address);
   impl_->handler = std::move(handler);
+  impl_->address = address.address;
   impl_->is_loopback = (ntohl(where.sin_addr.s_addr) >> 24) == 127;
   errno = 0;
   impl_->daemon = MHD_start_daemon(

@@ -26,9 +26,13 @@ class WatchServer {
     std::string text = {};                                ///< the body, unless `shared` is set
     std::shared_ptr<const std::string> shared = nullptr;  ///< a body shared by many answers
   };
-  /// Called on the server's thread with the path of the request, never a file name. `from` or
-  /// `number` is the whole number given, if any.
-  using Handler = std::function<Answer(std::string_view path, std::optional<std::int64_t> number)>;
+  struct Request {
+    std::string_view path;               ///< never a file name
+    std::optional<std::int64_t> number;  ///< the whole number given as `from` or `number`, if any
+    std::string_view run;                ///< what is given as `run`; empty: nothing
+  };
+  /// Called on the server's thread.
+  using Handler = std::function<Answer(const Request&)>;
 
   /// Throws InvalidInput when the address is invalid or cannot be listened at.
   WatchServer(const WatchAddress& address, Handler handler);

@@ -232,8 +232,8 @@ std::string data_elements(const DrawingData& data) {
   return elements;
 }
 
-DrawingData live_drawing_data(const RunData& run) {
-  return {text_of({{"kind", "live"}, {"runs", Json::array({run_json(run, {})})}})};
+DrawingData live_drawing_data(const RunData& run, std::string_view id) {
+  return {text_of({{"kind", "live"}, {"id", id}, {"runs", Json::array({run_json(run, {})})}})};
 }
 
 DrawingData study_drawing_data(std::string_view plots, std::string_view shapes,

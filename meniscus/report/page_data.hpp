@@ -44,8 +44,8 @@ struct DrawingData {
 [[nodiscard]] DrawingData drawing_data(std::string_view kind, std::span<const RunData> runs,
                                        std::span<PageRun> pages, const PageBudget& budget);
 
-/// The data of a run that still computes: the page asks for tables and frames.
-[[nodiscard]] DrawingData live_drawing_data(const RunData& run);
+/// The data of a run that still computes: the page asks for tables and frames of the server `id`.
+[[nodiscard]] DrawingData live_drawing_data(const RunData& run, std::string_view id);
 
 /// The data of a study: `plots` and `shapes` in JSON (web/src/study.js), and the frames of the
 /// shapes.

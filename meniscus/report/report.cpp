@@ -41,7 +41,7 @@ std::string page_html(RunData& run) {
 
 }  // namespace
 
-std::string live_page(const fs::path& run_directory) {
+std::string live_page(const fs::path& run_directory, std::string_view id) {
   if (!has_page_bundle()) {
     reject_input(
         "--watch: this program was built without the page's script; install node and npm and build "
@@ -49,7 +49,7 @@ std::string live_page(const fs::path& run_directory) {
   }
   const RunData run = load_run(run_directory);
   PageParts parts{.title = title_of(run), .content = {}, .data = {}, .is_live = true};
-  parts.data = data_elements(live_drawing_data(run));
+  parts.data = data_elements(live_drawing_data(run, id));
   parts.content = heading_html(run) + "<div id=\"app\"></div>\n<h2>The run</h2>\n" +
                   facts_html(run) + case_html(run);
   return whole_page(parts);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace meniscus {
@@ -15,8 +16,10 @@ namespace meniscus {
 void write_report(const std::filesystem::path& run_directory);
 
 /// The page of a run that still computes, for a server. It asks for tables and frames as they
-/// appear (docs/report.md). Throws InvalidInput in a program built without the page's script.
-[[nodiscard]] std::string live_page(const std::filesystem::path& run_directory);
+/// appear (docs/report.md), and begins anew where the server is of another `id`. Throws
+/// InvalidInput in a program built without the page's script.
+[[nodiscard]] std::string live_page(const std::filesystem::path& run_directory,
+                                    std::string_view id);
 
 /// One file of a run for the live page: the facts needed beforehand (JSON) and the packed bytes.
 struct LivePart {

@@ -18,7 +18,9 @@ if(MENISCUS_HAS_PAGE)
 endif()
 
 if(MENISCUS_HAS_PAGE)
-  add_test(NAME web_drawing COMMAND ${NODE} ${WEB_TESTS}/drawing_test.mjs ${PROJECT_SOURCE_DIR}/web/src)
+  foreach(NAME drawing live_run)
+    add_test(NAME web_${NAME} COMMAND ${NODE} ${WEB_TESTS}/${NAME}_test.mjs ${PROJECT_SOURCE_DIR}/web/src)
+  endforeach()
 endif()
 
 # Pages are the same whatever the program was built with, and a browser is slow enough.

@@ -232,7 +232,10 @@ export class Frames {
     return this.entries.map((entry) => entry.t);
   }
   get(k) {
-    this.promises[k] ??= this.load(k).then((bytes) => (this.ready[k] = this.unpack(bytes)));
+    this.promises[k] ??= this.load(k).then((bytes) => (this.ready[k] = this.unpack(bytes))).catch((error) => {
+      delete this.promises[k]; // it may come when asked for again
+      throw error;
+    });
     return this.promises[k];
   }
   /** The frame if it has been unpacked already. */

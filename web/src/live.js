@@ -3,50 +3,74 @@ import { fetched, Frames, Table, unpackedCuts, unpackedFrame } from "./data.js";
 import { make, readable } from "./text.js";
 
 const INTERVAL = 1000; // ms between two questions
+const MOST_MISSES = 5; // questions in turn that nobody answers
 const TABLES = ["history", "drops", "events", "timing", "reference"];
+const PARTS = ["frames", "cuts"];
+const LINE_END = 10;
 
 export class LiveRun {
-  constructor(run) {
+  /** `id` is that of the run which the page came from: its server refuses parts of another. */
+  constructor(run, id) {
+    this.id = id;
     this.run = {
       ...run,
       tables: Object.fromEntries(TABLES.map((name) => [name, new Table()])),
-      frames: new Frames([], (k) => fetched(`/frame?number=${k}`), unpackedFrame),
-      cuts: new Frames([], (k) => fetched(`/cut?number=${k}`), unpackedCuts),
+      frames: new Frames([], (k) => fetched(this.url("frame", "number", k)), unpackedFrame),
+      cuts: new Frames([], (k) => fetched(this.url("cut", "number", k)), unpackedCuts),
     };
     this.bytes = Object.fromEntries(TABLES.map((name) => [name, 0]));
     this.phases = make("section", { class: "dynamic" });
     this.status = make("p", { class: "dynamic live", role: "status" }, "waiting for the first step …");
   }
 
+  url(path, argument, value) {
+    return `/${path}?${argument}=${value}&run=${this.id}`;
+  }
+
   /** Asks once; returns what has come: {rows, frames, cuts}. */
   async ask() {
-    const response = await fetch("/state", { cache: "no-store" });
-    if (!response.ok) throw new Error(`state: ${response.status}`);
-    const state = await response.json();
-    const news = { rows: false, frames: false, cuts: false };
-    for (const name of TABLES) {
-      if (!(state.tables[name] > this.bytes[name])) continue;
-      const text = await this.tail(name);
-      this.bytes[name] += new TextEncoder().encode(text).length;
-      this.run.tables[name].append(text);
-      news.rows = true;
+    const state = await (await answered("/state")).json();
+    if (!this.isOurs(state)) {
+      this.isAnother = true;
+      location.reload();
+      return {};
     }
-    for (const kind of ["frames", "cuts"]) {
+    const news = { rows: false, frames: false, cuts: false };
+    let isWhole = true;
+    for (const name of TABLES) {
+      if (state.tables[name] === this.bytes[name]) continue;
+      const { hasRows, hasAll } = await this.appendTail(name, state.tables[name]);
+      news.rows ||= hasRows;
+      isWhole &&= hasAll;
+    }
+    for (const kind of PARTS) {
       const known = this.run[kind].entries.length;
-      if (state[kind] <= known) continue;
-      const list = await fetch(`/${kind}?from=${known}`, { cache: "no-store" });
+      if (state[kind] === known) continue;
+      const list = await answered(this.url(kind, "from", known));
       this.run[kind].entries.push(...(await list.json()));
       news[kind] = true;
     }
     this.show(state);
+    this.isWhole = isWhole;
     return news;
   }
 
-  /** New whole lines of a table. */
-  async tail(name) {
-    const response = await fetch(`/${name}.csv?from=${this.bytes[name]}`, { cache: "no-store" });
-    const text = await response.text();
-    return text.slice(0, text.lastIndexOf("\n") + 1);
+  /** Whether a state follows those before: the same run, and nothing has become shorter. */
+  isOurs(state) {
+    return state.run === this.id && TABLES.every((name) => state.tables[name] >= this.bytes[name]) &&
+      PARTS.every((kind) => state[kind] >= this.run[kind].entries.length);
+  }
+
+  /** Adds the new whole lines of a table; `size`: what it has in all. Answers are limited in length. */
+  async appendTail(name, size) {
+    const response = await answered(this.url(`${name}.csv`, "from", this.bytes[name]));
+    const bytes = new Uint8Array(await response.arrayBuffer());
+    const hasAll = this.bytes[name] + bytes.length >= size;
+    // The run's own tables grow by lines; people may leave out the last line break of a reference.
+    const end = name === "reference" && hasAll ? bytes.length : bytes.lastIndexOf(LINE_END) + 1;
+    this.bytes[name] += end;
+    this.run.tables[name].append(new TextDecoder().decode(bytes.subarray(0, end)));
+    return { hasRows: end > 0, hasAll };
   }
 
   show(state) {
@@ -62,6 +86,16 @@ export class LiveRun {
     }
     this.isOver = state.status !== "running";
     this.setStatus(this.isOver ? `The run is ${state.status}` : "Running", parts);
+    if (this.isOver) this.setBadge(state.status);
+  }
+
+  /** The word beside the title, which the server wrote when the run began. */
+  setBadge(status) {
+    const badge = document.querySelector("header .status");
+    if (!badge) return;
+    const [word] = status.split(":");
+    badge.textContent = word;
+    badge.className = `status ${["done", "failed"].includes(word) ? word : "other"}`;
   }
 
   /** Wall time by phase, as the report tells it at the end. */
@@ -88,21 +122,35 @@ export class LiveRun {
     this.status.classList.toggle("over", word !== "Running");
   }
 
-  /** Asks again and again; `onNews` hears of what has come. */
+  /** Asks again and again until the run is over and all of it has come; `onNews` hears of what has come. */
   async follow(onNews) {
     let misses = 0;
-    while (!this.isOver && misses < 5) {
+    let news = {};
+    while (!this.isAnother && misses < MOST_MISSES) {
       try {
-        const news = await this.ask();
+        const more = await this.ask();
         misses = 0;
-        if (news.rows || news.frames || news.cuts) await onNews(news);
+        Object.keys(more).forEach((kind) => (news[kind] ||= more[kind]));
+        if (this.isOver && !this.isWhole && more.rows) continue; // a server whose run is over does not wait for long
+        const told = news;
+        news = {};
+        if (told.rows || told.frames || told.cuts) await onNews(told);
       } catch {
         ++misses;
       }
+      if (this.isOver && this.isWhole) break;
       await new Promise((resume) => setTimeout(resume, INTERVAL));
     }
+    if (this.isAnother) return;
     const where = "its folder holds report.html.";
     if (!this.isOver) this.setStatus(`The run has ended, or its server cannot be reached; ${where}`);
-    else this.status.append(`; ${where}`);
+    else this.status.append(this.isWhole ? `; ${where}` : `; its last rows have not come; ${where}`);
   }
+}
+
+/** What the server answers; throws where it refuses. */
+async function answered(url) {
+  const response = await fetch(url, { cache: "no-store" });
+  if (!response.ok) throw new Error(`${url}: ${response.status}`);
+  return response;
 }

@@ -123,8 +123,8 @@ async function showRuns({ runs: entries }) {
   performance.mark("prepared");
 }
 
-async function showLive({ runs: [entry] }) {
-  const live = new LiveRun(entry);
+async function showLive({ runs: [entry], id }) {
+  const live = new LiveRun(entry, id);
   const { run } = live;
   const page = newPage([run]);
   const viewPlace = make("div");
