@@ -27,7 +27,7 @@ using Names = std::vector<std::string>;
 // Names of the arrays that frames always may hold; scalars and carried fields must differ.
 constexpr std::array kSurfaceArrays{"curvature",    "normal_velocity", "velocity",
                                     "node_density", "pressure_jump",   "drop"};
-constexpr std::array kVolumeArrays{"velocity", "pressure", "region", "min_dihedral_deg"};
+constexpr std::array kVolumeArrays{"velocity", "pressure", "region", "drop", "min_dihedral_deg"};
 
 Names operator+(Names names, std::span<const char* const> more) {
   names.insert(names.end(), more.begin(), more.end());
@@ -226,16 +226,21 @@ std::filesystem::path write_surface_frame(const std::filesystem::path& path,
 VolumeArrays volume_arrays(const Evolution& evolution) {
   MENISCUS_ASSERT(evolution.state().mesh.has_value(), "there is no volume mesh");
   const TetMesh& mesh = evolution.state().mesh->tetrahedra();
-  io::NamedArray velocity{"velocity", 3, {}}, region{"region", 1, {}},
+  io::NamedArray velocity{"velocity", 3, {}}, region{"region", 1, {}}, drop{"drop", 1, {}},
       dihedral{"min_dihedral_deg", 1, {}};
   const BulkFlow flow = evolution.flow().bulk.value_or(BulkFlow());
   velocity.values = flat(flow.v);
   MENISCUS_ASSERT(flow.v.empty() || flow.v.size() == mesh.num_vertices(),
                   "{} velocities of {} vertices", flow.v.size(), mesh.num_vertices());
-  for (const RegionId r : mesh.region) region.values.push_back(r.value);
+  const auto& interfaces = evolution.scene().interfaces;
+  for (const RegionId r : mesh.region) {
+    region.values.push_back(r.value);
+    drop.values.push_back(r.value == 0 ? -1
+                                       : interfaces[static_cast<std::size_t>(r.value) - 1].drop);
+  }
   for (const double angle : min_dihedral_deg(mesh)) dihedral.values.push_back(angle);
   ScalarArrays scalars = scalars_in_volume(evolution.scene(), mesh, evolution.state().scalars);
-  io::MeshData data{{}, {region, dihedral}};
+  io::MeshData data{{}, {region, drop, dihedral}};
   if (!velocity.values.empty()) data.on_vertices.push_back(velocity);
   append_fields(evolution.state().mesh->fields().on_vertices, data.on_vertices);
   append_fields(evolution.state().mesh->fields().on_cells, data.on_cells);

@@ -28,8 +28,8 @@ struct VolumeArrays {
 std::filesystem::path write_surface_frame(const std::filesystem::path& path,
                                           const Evolution& evolution);
 /// Writes the volume mesh with velocity, pressure and concentrations of species (double valued on
-/// interfaces), region, cell quality, carried fields and temperatures. Cells with curved edges,
-/// those of quadratic elements at interfaces and walls, are quadratic.
+/// interfaces), region, drop id, cell quality, carried fields and temperatures. Cells with curved
+/// edges, those of quadratic elements at interfaces and walls, are quadratic.
 void write_volume_frame(const std::filesystem::path& path, const Evolution& evolution);
 
 }  // namespace meniscus

@@ -76,6 +76,22 @@ double mean(const io::VolumeFrame& mesh, std::size_t c, const CellSection& secti
   return sum;
 }
 
+/// The ids of drops by region, of region 1 first.
+std::vector<int> drops_of_regions(const io::VolumeFrame& mesh) {
+  const std::vector<double>* region = cell_values(mesh, "region");
+  const std::vector<double>* drop = cell_values(mesh, "drop");
+  std::vector<int> drops;
+  if (region == nullptr || drop == nullptr) return drops;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const double in = std::round((*region)[c]);
+    if (!(in >= 1.0 && in <= static_cast<double>(mesh.cells.size()))) continue;
+    const auto i = static_cast<std::size_t>(in) - 1;
+    if (i >= drops.size()) drops.resize(i + 1, -1);
+    drops[i] = static_cast<int>(std::lround((*drop)[c]));
+  }
+  return drops;
+}
+
 }  // namespace
 
 void add_polygons(MeshCut& cut, const io::VolumeFrame& mesh) {
@@ -85,6 +101,7 @@ void add_polygons(MeshCut& cut, const io::VolumeFrame& mesh) {
   const auto arrays = one_value_arrays(mesh.data.on_vertices, mesh.points.size());
   MENISCUS_ASSERT(cut.polygons.empty() && cut.fields.empty(), "a cut is filled twice");
   for (const io::NamedArray* array : arrays) cut.fields.push_back({array->name, {}});
+  cut.drops = drops_of_regions(mesh);
   const CutPlane plane{cut.normal, cut.offset};
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const int in = region == nullptr ? 0 : static_cast<int>(std::lround((*region)[c]));

@@ -32,6 +32,7 @@ struct MeshCut {
   std::vector<std::array<double, 2>> points;
   std::vector<CutPolygon> polygons;
   std::vector<CutField> fields;         ///< all arrays of one value per point of the mesh
+  std::vector<int> drops;               ///< ids by region, of region 1 first; −1 where not known
   std::array<double, 2> low{}, high{};  ///< the window of the plane that is shown
 };
 
@@ -40,9 +41,9 @@ struct MeshCut {
 /// left out. A mesh without drops is cut through its middle, as a whole.
 [[nodiscard]] MeshCut cut_through_drops(const io::VolumeFrame& mesh, int normal);
 
-/// Fills an empty cut with the polygons of the tetrahedra that reach into its window, and with
-/// their values. Corners on the plane count as above it, so that no cell is cut twice and none is
-/// missed. A curved tetrahedron may be cut in several polygons.
+/// Fills an empty cut with the polygons of the tetrahedra that reach into its window, with their
+/// values and the ids of all drops of the mesh. Corners on the plane count as above it, so that no
+/// cell is cut twice and none is missed. A curved tetrahedron may be cut in several polygons.
 void add_polygons(MeshCut& cut, const io::VolumeFrame& mesh);
 
 }  // namespace meniscus::report

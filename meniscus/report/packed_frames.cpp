@@ -179,6 +179,7 @@ Json header_of(const MeshCut& cut, const CutGrids& grids) {
           {"points", cut.points.size()},
           {"low", {grids.points[0].low, grids.points[1].low}},
           {"high", {grids.points[0].high, grids.points[1].high}},
+          {"drops", cut.drops},
           {"window", {cut.low[0], cut.low[1], cut.high[0], cut.high[1]}},
           {"quality", best_quality},
           {"fields", fields}};

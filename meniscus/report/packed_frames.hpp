@@ -31,11 +31,11 @@ struct PackedFrame {
 /// are in Morton order, faces sorted by their corners.
 [[nodiscard]] PackedFrame packed_surface(const SurfaceFrame& frame);
 
-/// Packs the cuts of one time. Header: {t, cuts: [{axes, normal, offset, window, polygons, points,
-/// low, high, quality, fields: [{name, low, high}]}]}. Then come, for each cut, the number of
-/// corners of every polygon, the regions and the qualities, each in 8 bits. Qualities are 0 to 255
-/// for 0 to `quality` degrees. The two coordinates of all points and the values of each field on
-/// the polygons follow, both on a `Grid16`, as differences.
+/// Packs the cuts of one time. Header: {t, cuts: [{axes, normal, offset, drops, window, polygons,
+/// points, low, high, quality, fields: [{name, low, high}]}]}. Then come, for each cut, the number
+/// of corners of every polygon, the regions and the qualities, each in 8 bits. Qualities are 0 to
+/// 255 for 0 to `quality` degrees. The two coordinates of all points and the values of each field
+/// on the polygons follow, both on a `Grid16`, as differences.
 [[nodiscard]] PackedFrame packed_cuts(double t, const std::vector<MeshCut>& cuts);
 
 }  // namespace meniscus::report

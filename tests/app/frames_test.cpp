@@ -174,6 +174,17 @@ TEST(VolumeFrame, FieldsOpenInVtksOwnReader) {
     }
 }
 
+TEST(VolumeFrame, CellsKnowTheirDrops) {
+  const VolumeArrays arrays = volume_arrays(at_rest(kTwoDrops + kLinear));
+  const auto values_of = [&](const char* name) {
+    return std::ranges::find(arrays.data.on_cells, name, &io::NamedArray::name)->values;
+  };
+  const std::vector<double> region = values_of("region"), drop = values_of("drop");
+  ASSERT_EQ(drop.size(), region.size());
+  // Before any event ids are those of the case, as the order of interfaces is.
+  for (std::size_t c = 0; c < drop.size(); ++c) EXPECT_EQ(drop[c], region[c] - 1.0) << c;
+}
+
 vtkSmartPointer<vtkUnstructuredGrid> grid_of(const std::filesystem::path& file) {
   const vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName(file.c_str());

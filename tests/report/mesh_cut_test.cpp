@@ -47,6 +47,19 @@ TEST(MeshCut, PolygonsTileTheSection) {
   }
 }
 
+TEST(MeshCut, KnowsTheDropsOfItsRegions) {
+  const test::TemporaryFolder folder;
+  io::VolumeFrame mesh = box_frame(folder);
+  EXPECT_EQ(cut_through_drops(mesh, 2).drops, std::vector<int>{0});
+  const auto drop = std::ranges::find(mesh.data.on_cells, "drop", &io::NamedArray::name);
+  const auto region = std::ranges::find(mesh.data.on_cells, "region", &io::NamedArray::name);
+  region->values[0] = 3.0;  // after events: the third interface is of drop 7
+  drop->values[0] = 7.0;
+  EXPECT_EQ(cut_through_drops(mesh, 2).drops, (std::vector<int>{0, -1, 7}));
+  mesh.data.on_cells.erase(drop);
+  EXPECT_TRUE(cut_through_drops(mesh, 2).drops.empty());
+}
+
 /// Moves the middles of all edges within the box by up to `reach` in each direction.
 void bend_edges(io::VolumeFrame& mesh, double reach) {
   constexpr std::array<std::array<std::size_t, 2>, 6> kEdges = {

@@ -245,6 +245,7 @@ TEST(PackedFrames, CutsAreReadBackWithTheirFields) {
   cut.points = {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
   cut.polygons = {{0, 3, 0, 36.0}, {3, 3, 1, 72.0}};
   cut.fields = {{"dye", {4.0, 2.0}}};
+  cut.drops = {5, 2};
   const PackedFrame packed_frame = packed_cuts(0.5, {cut});
   PackageReader package(packed_frame.bytes);
   const nlohmann::json& header = package.header["cuts"][0];
@@ -252,6 +253,7 @@ TEST(PackedFrames, CutsAreReadBackWithTheirFields) {
   EXPECT_EQ(package.take<std::uint8_t>(2), (std::vector<std::uint8_t>{0, 1}));
   (void)package.take<std::uint8_t>(2);
   for (int k = 0; k < 2; ++k) (void)package.take_sums(6);
+  EXPECT_EQ(header["drops"], nlohmann::json({5, 2}));
   EXPECT_EQ(header["fields"][0]["name"], "dye");
   EXPECT_EQ(header["fields"][0]["low"], 2.0);
   EXPECT_EQ(header["fields"][0]["high"], 4.0);

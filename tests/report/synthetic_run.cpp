@@ -159,15 +159,16 @@ void write_volume_frames(const fs::path& folder, const SyntheticRun& run) {
   for (int i = 0; i < run.num_volume_frames; ++i) {
     const double t = run.num_volume_frames > 1 ? end_time * i / (run.num_volume_frames - 1) : 0.0;
     const TetMesh mesh = box_mesh(12, shape_at(t, 0));
-    io::NamedArray region{"region", 1, {}}, dihedral{"min_dihedral_deg", 1, {}},
-        temperature{"temperature", 1, {}}, dye{"dye", 1, {}};
+    io::NamedArray region{"region", 1, {}}, drop{"drop", 1, {}},
+        dihedral{"min_dihedral_deg", 1, {}}, temperature{"temperature", 1, {}}, dye{"dye", 1, {}};
     for (const CellId c : mesh.cells.ids()) {
       region.values.push_back(mesh.region[c].value);
+      drop.values.push_back(mesh.region[c].value - 1);
       dihedral.values.push_back(30.0 + 25.0 * std::sin(c.value));
       dye.values.insert(dye.values.end(), 4, 1.0 + mesh.region[c].value);
     }
     for (const Vec3& x : mesh.x) temperature.values.push_back(temperature_at(x));
-    io::MeshData data{{}, {region, dihedral}};
+    io::MeshData data{{}, {region, drop, dihedral}};
     if (run.has_scalars) data.on_vertices.push_back(temperature);
     entries.push_back({t, fmt::format("volume/volume-{:04}.vtu", i)});
     io::write_vtu(folder / entries.back().file, mesh, data, t,

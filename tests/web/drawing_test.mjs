@@ -12,6 +12,7 @@ const { sectionThroughCentroids } = await from("section.js");
 const { edgesOfFaces, refined } = await from("surface.js");
 const { PALETTES, viridis } = await from("colors.js");
 const { svgFile } = await from("svg.js");
+const { drawLiquidKey, liquidName } = await from("cut-picture.js");
 
 /** An octahedron's faces in n² pieces each on the unit sphere; curved: with middles of edges on it. */
 function ball(parts, isCurved, axes = [1, 1, 1]) {
@@ -62,6 +63,15 @@ test("plots bear any data", () => {
       assert.doesNotMatch(svg, /NaN|Infinity|undefined|<B>/);
     }
   }
+});
+
+test("the liquids of a cut have the names of their drops", () => {
+  const cut = { region: [0, 2, 1, 3, 4], drops: [7, 2, -1] };
+  assert.deepEqual([0, 1, 2, 3, 4].map((region) => liquidName(cut, region)),
+    ["matrix", "drop 7", "drop 2", "region 3", "region 4"]);
+  const names = (of) => [...drawLiquidKey(of, 0, 0).matchAll(/<text[^>]*>([^<]*)/g)].map(([, name]) => name);
+  assert.deepEqual(names({ region: [0, 2], drops: [7, 2] }), ["matrix", "drop 2"]);
+  assert.deepEqual(names({ region: [0, 1], drops: [7] }), ["matrix", "drop"]);
 });
 
 /** The points of the outlines of a picture, of curved ones with points along each parabola. */

@@ -44,12 +44,18 @@ export function drawCut(cut, coloring, width) {
   return `<svg width="${width}" height="${height}" viewBox="0 0 ${width / SUBPIXEL} ${height / SUBPIXEL}"><g class="cut" stroke-width="5"><g class="${coloring.kind === "liquid" ? "liquid" : "values"}">${paths}</g></g></svg>`;
 }
 
+/** "drop 3", what a region is; ids of drops are never used twice, so that after an event they skip numbers. */
+export function liquidName(cut, region) {
+  if (region === 0) return "matrix";
+  const drop = cut.drops[region - 1] ?? -1;
+  return drop < 0 ? `region ${region}` : `drop ${drop}`;
+}
+
 /** The key to the colours of the liquids of a cut, from (x, y) to the right. */
 export function drawLiquidKey(cut, x, y) {
   const regions = [...new Set(cut.region)].sort((a, b) => a - b).slice(0, 5);
-  const drops = regions.filter((region) => region > 0).length;
   return regions.map((region, k) => {
-    const name = region === 0 ? "matrix" : drops === 1 ? "drop" : `drop ${region - 1}`;
+    const name = region > 0 && cut.drops.length === 1 ? "drop" : liquidName(cut, region);
     return `<rect class="ax" x="${x + 80 * k}" y="${y - 10}" width="12" height="12"/><rect class="q${liquidOf(region)}" x="${x + 80 * k}" y="${y - 10}" width="12" height="12"/><text x="${x + 80 * k + 18}" y="${y}">${name}</text>`;
   }).join("");
 }

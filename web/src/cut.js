@@ -2,7 +2,7 @@
 // stills have, with zoom.
 import { FIELDS } from "./catalogue.js";
 import { liquidOf, VIRIDIS_GRADIENT } from "./colors.js";
-import { BEST_ANGLE, cutHeight, drawCut, planeText } from "./cut-picture.js";
+import { BEST_ANGLE, cutHeight, drawCut, liquidName, planeText } from "./cut-picture.js";
 import { fieldsOf, rangeOf } from "./data.js";
 import { make, readable } from "./text.js";
 
@@ -155,6 +155,6 @@ export class CutView {
     if (field) return scale(readable(field.range[0], 4), readable(field.range[1], 4), field.unit);
     const chip = (color, label) => make("span", { class: "chip" }, make("i", { style: `background:${color}` }), label);
     const regions = [...new Set(this.cut.region)].sort((a, b) => a - b).slice(0, 7);
-    return regions.map((region) => chip(`var(--liquid${liquidOf(region)})`, region === 0 ? "matrix" : `drop ${region - 1}`));
+    return regions.map((region) => chip(`var(--liquid${liquidOf(region)})`, liquidName(this.cut, region)));
   }
 }
