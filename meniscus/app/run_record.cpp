@@ -1,6 +1,7 @@
 #include "meniscus/app/run_record.hpp"
 
 #include <array>
+#include <cmath>
 #include <span>
 
 #include <fmt/chrono.h>
@@ -49,6 +50,13 @@ Json constants() {
   return rooms;
 }
 
+/// Of a case with [scale] the numbers that its keys give in SI units or not at all.
+std::string dimensionless_json(const Case& c) {
+  if (!c.settings.scale()) return {};
+  const Json Ca = std::isfinite(c.Ca) ? Json(c.Ca) : Json("inf");
+  return Json{{"end", c.evolution.end}, {"Ca", Ca}, {"Re", c.reynolds}}.dump();
+}
+
 }  // namespace
 
 RunRecord::RunRecord(const Case& c, std::string case_file, std::string case_text,
@@ -56,6 +64,7 @@ RunRecord::RunRecord(const Case& c, std::string case_file, std::string case_text
     : case_file_(std::move(case_file)),
       case_text_(std::move(case_text)),
       case_json_(case_json(c)),
+      dimensionless_json_(dimensionless_json(c)),
       title_(c.title),
       started_(now_utc()),
       warnings_(std::move(warnings)) {}
@@ -81,6 +90,7 @@ void RunRecord::change_case(const Case& c, std::int64_t step, double t,
   changes.push_back({{"step", step}, {"t", t}, {"set", settings}});
   changes_json_ = changes.dump();
   case_json_ = case_json(c);
+  dimensionless_json_ = dimensionless_json(c);
 }
 
 void RunRecord::write(const Simulation& simulation, const std::string& status) const {
@@ -117,6 +127,7 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
               {"volume_correction_sum", corrections.value_or(0.0)},
               {"warnings", warnings}};
   if (simulation.end()) record["ended"] = word_for(simulation.end()->ending);
+  if (!dimensionless_json_.empty()) record["dimensionless"] = Json::parse(dimensionless_json_);
   if (!changes_json_.empty()) record["changes"] = Json::parse(changes_json_);
   simulation.directory().write_text(io::RunFiles::record, file_text(record));
 }

@@ -26,7 +26,9 @@ class RunRecord {
   void write(const Simulation& simulation, const std::string& status) const;
 
  private:
-  std::string case_file_, case_text_, case_json_, title_;
+  std::string case_file_, case_text_, case_json_;
+  std::string dimensionless_json_;  // empty: the case has no [scale]
+  std::string title_;
   std::string changes_json_;  // an array; empty: the case was never changed
   std::string started_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();

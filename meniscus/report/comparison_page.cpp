@@ -125,6 +125,10 @@ void write_comparison(std::span<const fs::path> run_directories, const fs::path&
   const double end = common_end(runs);
 
   PageParts parts{.title = fmt::format("{}", fmt::join(names, ", ")), .content = {}, .data = {}};
+  const auto num_quiescent =
+      std::ranges::count_if(runs, [](const RunData& run) { return run.facts.is_quiescent(); });
+  if (num_quiescent > 0)
+    parts.units = std::cmp_less(num_quiescent, runs.size()) ? PageUnits::both : PageUnits::at_rest;
   PageBudget budget;
   budget.frames /= runs.size();
   budget.cuts = 0;

@@ -25,6 +25,22 @@ std::string policy(bool is_live) {
                      is_live ? "; connect-src 'self'" : "");
 }
 
+std::string_view units_text(PageUnits units) {
+  switch (units) {
+    case PageUnits::of_rate:
+      return "Lengths in R₀, times in 1/G, stresses in μG; G is the rate of strain or shear, μ the "
+             "outer viscosity.";
+    case PageUnits::at_rest:
+      return "Lengths in R₀, times in μR₀/σ, stresses in σ/R₀; σ is the tension, μ the outer "
+             "viscosity.";
+    case PageUnits::both:
+      return "Lengths in R₀, times in 1/G, stresses in μG; G is the rate of strain or shear, μ the "
+             "outer viscosity. In a quiescent flow times are in μR₀/σ, stresses in σ/R₀; σ is the "
+             "tension.";
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string whole_page(const PageParts& parts) {
@@ -39,12 +55,11 @@ std::string whole_page(const PageParts& parts) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\"/>\n"
       "<title>{}</title>\n<style>{}{}</style>\n</head>\n"
-      "<body>\n<main>\n{}{}<footer>Lengths in R₀, times in 1/G, stresses in μG; G is the rate of "
-      "strain or shear, μ the outer viscosity. The figures behind the plots are in history.csv and "
+      "<body>\n<main>\n{}{}<footer>{} The figures behind the plots are in history.csv and "
       "drops.csv beside this page, the meshes in the .pvd files.</footer>\n</main>\n{}</body>\n"
       "</html>\n",
       policy(parts.is_live), markup_text(parts.title), page_style(), page_sheet(), parts.content,
-      note, script);
+      note, units_text(parts.units), script);
 }
 
 }  // namespace meniscus::report

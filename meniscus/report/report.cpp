@@ -28,6 +28,10 @@ std::string title_of(const RunData& run) {
   return run.facts.title.empty() ? "A run of Meniscus" : run.facts.title;
 }
 
+PageUnits units_of(const RunData& run) {
+  return run.facts.is_quiescent() ? PageUnits::at_rest : PageUnits::of_rate;
+}
+
 std::string page_html(RunData& run) {
   const PageBudget budget;
   PageRun packed = page_run(run, budget);
@@ -36,7 +40,8 @@ std::string page_html(RunData& run) {
   return whole_page(
       {.title = title_of(run),
        .content = heading_html(run) + tiles_html(run) + "<div id=\"app\"></div>\n" + end_html(run),
-       .data = data_elements(data)});
+       .data = data_elements(data),
+       .units = units_of(run)});
 }
 
 }  // namespace
@@ -49,6 +54,7 @@ std::string live_page(const fs::path& run_directory, std::string_view id) {
   }
   const RunData run = load_run(run_directory);
   PageParts parts{.title = title_of(run), .content = {}, .data = {}, .is_live = true};
+  parts.units = units_of(run);
   parts.data = data_elements(live_drawing_data(run, id));
   parts.content = heading_html(run) + "<div id=\"app\"></div>\n<h2>The run</h2>\n" +
                   facts_html(run) + case_html(run);

@@ -1,6 +1,8 @@
 #include "meniscus/report/run_data.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <numeric>
 
 #include <nlohmann/json.hpp>
@@ -62,6 +64,10 @@ RunFacts parse_facts(const Json& json) {
   facts.steps = text_of(json, "steps");
   facts.t = text_of(json, "t");
   const Json none = Json::object();
+  const Json numbers = json.value("dimensionless", none);
+  for (const auto& [name, value] : numbers.items())
+    facts.numbers.emplace_back(  // quotients of the case's numbers, with their roundoff
+        name, value.is_number() ? fmt::format("{:.6g}", value.get<double>()) : value_text(value));
   const Json spent = json.value("seconds", none), warnings = json.value("warnings", Json::array());
   for (const auto& [phase, seconds] : spent.items()) {
     if (seconds.is_number()) facts.seconds.emplace_back(phase, seconds.get<double>());
@@ -114,12 +120,28 @@ std::vector<io::PvdEntry> load_frames(RunData& run, const char* name) {
   return frames;
 }
 
+/// The value of a key in a list; empty if absent.
+std::string value_in(const std::vector<std::pair<std::string, std::string>>& list,
+                     const std::string& key) {
+  const auto found = std::ranges::find(list, key, &std::pair<std::string, std::string>::first);
+  return found == list.end() ? std::string() : found->second;
+}
+
 }  // namespace
 
 std::string RunFacts::case_value(const std::string& key) const {
-  const auto found =
-      std::ranges::find(case_values, key, &std::pair<std::string, std::string>::first);
-  return found == case_values.end() ? std::string() : found->second;
+  return value_in(case_values, key);
+}
+
+std::string RunFacts::dimensionless(const std::string& number, const std::string& key) const {
+  return numbers.empty() ? case_value(key) : value_in(numbers, number);
+}
+
+bool RunFacts::is_quiescent() const {
+  if (case_value("flow.kind") != "quiescent") return false;
+  // Where walls or a schedule have a rate, Ca may be another; [scale] gives it with roundoff.
+  const std::string Ca = dimensionless("Ca", "flow.capillary-number");
+  return Ca.empty() || std::abs(std::strtod(Ca.c_str(), nullptr) - 1.0) < 1e-9;
 }
 
 RunData load_run(const fs::path& folder) {

@@ -22,8 +22,15 @@ struct RunFacts {
       case_values;  ///< such as "flow.kind" and "simple-shear"
   std::vector<std::string> warnings;
 
+  /// Of a case with [scale], whose keys have SI units, numbers in the run's: end, Ca, Re.
+  std::vector<std::pair<std::string, std::string>> numbers;
+
   /// The value of a case key; empty if the case lacks it.
   [[nodiscard]] std::string case_value(const std::string& key) const;
+  /// The entry of `numbers`; of a case without [scale] the value of the key.
+  [[nodiscard]] std::string dimensionless(const std::string& number, const std::string& key) const;
+  /// Whether nothing imposes a rate: times are in μR0/σ and stresses in σ/R0 (docs/notation.md).
+  [[nodiscard]] bool is_quiescent() const;
 };
 
 /// The files of a run's folder, as far as they exist. `faults` names those that cannot be read.

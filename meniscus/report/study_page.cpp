@@ -121,9 +121,10 @@ void write_study_page(const StudyPage& page, const std::filesystem::path& file) 
       fmt::format("<header><h1>{}</h1>\n<p class=\"lead\">{}</p>\n</header>\n",
                   markup_text(page.title), markup_text(page.lead)) +
       "<div id=\"app\"></div>\n" + table_html(page) + runs_html(page.runs);
-  io::write_file(
-      file,
-      whole_page({.title = page.title, .content = content, .data = data_elements(data_of(page))}));
+  io::write_file(file, whole_page({.title = page.title,
+                                   .content = content,
+                                   .data = data_elements(data_of(page)),
+                                   .units = PageUnits::both}));
 }
 
 }  // namespace meniscus::report

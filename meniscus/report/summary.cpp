@@ -42,16 +42,18 @@ std::string in_words(std::string key) {
 /// The flow and the dimensionless numbers that the case gives.
 std::string physics(const RunFacts& facts) {
   std::vector<std::string> parts;
-  const auto add = [&](const std::string& key, const char* symbol) {
-    const std::string value = facts.case_value(key);
+  const auto add_value = [&](const std::string& value, const char* symbol) {
     if (!value.empty()) parts.push_back(fmt::format("<i>{}</i> = {}", symbol, markup_text(value)));
+  };
+  const auto add = [&](const std::string& key, const char* symbol) {
+    add_value(facts.case_value(key), symbol);
   };
   const std::string flow = facts.case_value("flow.kind");
   if (!flow.empty()) parts.push_back(markup_text(in_words(flow)));
-  add("flow.capillary-number", "Ca");
-  if (const std::string Re = facts.case_value("flow.reynolds-number");
+  add_value(facts.dimensionless("Ca", "flow.capillary-number"), "Ca");
+  if (const std::string Re = facts.dimensionless("Re", "flow.reynolds-number");
       !Re.empty() && Re.find_first_not_of("0.") != std::string::npos)
-    add("flow.reynolds-number", "Re");
+    add_value(Re, "Re");
   add("drop[0].viscosity-ratio", "λ");
   add("drop[0].nodes", "N₀");
   const bool has_several = !facts.case_value("drop[1].viscosity-ratio").empty();
@@ -101,7 +103,8 @@ std::string heading_html(const RunData& run) {
 std::string tiles_html(const RunData& run) {
   const double tetrahedra = last(run.history, "tetrahedra"), steps = last(run.history, "step");
   const double drift = largest_magnitude(column(run.drops, "volume_drift"));
-  std::vector<Tile> tiles = {{"Time reached", number_text(last(run.history, "t")), "1/G"},
+  std::vector<Tile> tiles = {{"Time reached", number_text(last(run.history, "t")),
+                              run.facts.is_quiescent() ? "μR₀/σ" : "1/G"},
                              {"Steps", count_text(steps), ""}};
   if (last(run.history, "drops") == 1.0) {
     tiles.push_back({"Deformation D", number_text(last(run.drops, "D")), ""});

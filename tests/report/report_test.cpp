@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/report/page_data.hpp"
@@ -107,6 +108,38 @@ TEST(Report, RunJsonOfUnexpectedTypesIsBorne) {
     put(folder / "run.json", text);
     (void)page_of(folder.path());
   }
+}
+
+TEST(Report, UnitsAreThoseOfTheFlow) {
+  const test::TemporaryFolder folder;
+  put(folder / "history.csv", "step,t\n0,0\n1,0.5\n");
+  const auto page = [&](const std::string& flow, const std::string& more = "") {
+    put(folder / "run.json", R"({"case": {"flow": {)" + flow + "}}" + more + "}");
+    return page_of(folder.path());
+  };
+  const std::string sheared = page(R"("kind": "simple-shear", "capillary-number": 0.3)");
+  EXPECT_TRUE(has(sheared, "<dd>0.5 <small>1/G</small>"));
+  EXPECT_TRUE(has(sheared, "times in 1/G, stresses in μG"));
+  for (const std::string& resting :
+       {page(R"("kind": "quiescent", "capillary-number": 1.0)"),
+        page(R"("kind": "quiescent")", R"(, "dimensionless": {"end": 2.0, "Ca": 1.0, "Re": 0})")}) {
+    EXPECT_TRUE(has(resting, "<dd>0.5 <small>μR₀/σ</small>"));
+    EXPECT_TRUE(has(resting, "times in μR₀/σ, stresses in σ/R₀"));
+  }
+  // Walls that move give a rate to a flow that is quiescent without them.
+  EXPECT_TRUE(has(page(R"("kind": "quiescent", "capillary-number": 0.2)"), "<small>1/G</small>"));
+}
+
+TEST(Report, CasesInSiUnitsShowTheRunsOwnNumbers) {
+  const test::TemporaryFolder folder;
+  put(folder / "run.json",
+      R"({"case": {"flow": {"kind": "simple-shear"}, "time": {"end": 0.08}, "scale": {"length": 1e-3}},
+          "dimensionless": {"end": 7.999999999999999, "Ca": 0.25, "Re": 0.5}})");
+  const std::string page = page_of(folder.path());
+  EXPECT_TRUE(has(page, "<i>Ca</i> = 0.25 · <i>Re</i> = 0.5"));
+  const report::RunData run = report::load_run(folder.path());
+  const nlohmann::json data = nlohmann::json::parse(report::live_drawing_data(run, "1").page);
+  EXPECT_EQ(data["runs"][0]["end"], "8");
 }
 
 TEST(Report, FailedRunsSayWhy) {

@@ -12,6 +12,8 @@ const { sectionThroughCentroids } = await from("section.js");
 const { edgesOfFaces, refined } = await from("surface.js");
 const { PALETTES, viridis } = await from("colors.js");
 const { svgFile } = await from("svg.js");
+const { Table } = await from("data.js");
+const { historyPlot, specsOf } = await from("curves.js");
 const { drawLiquidKey, liquidName } = await from("cut-picture.js");
 
 /** An octahedron's faces in n² pieces each on the unit sphere; curved: with middles of edges on it. */
@@ -63,6 +65,21 @@ test("plots bear any data", () => {
       assert.doesNotMatch(svg, /NaN|Infinity|undefined|<B>/);
     }
   }
+});
+
+const runOf = (name, more) => ({ name, ...more,
+  tables: { drops: new Table().append("step,t,drop,D,velocity_x\n0,0,0,0,1\n1,1,0,0.5,1\n") } });
+const specOf = (title) => specsOf([runOf("")]).find((spec) => spec.title.startsWith(title));
+
+test("units are those of the flow", () => {
+  const units = (runs) => {
+    const { xLabel, unit } = historyPlot(specOf("Velocity"), runs, []);
+    return [xLabel, unit];
+  };
+  const [sheared, resting] = [runOf("a", { isQuiescent: false }), runOf("b", { isQuiescent: true })];
+  assert.deepEqual(units([sheared]), ["time t [1/G]", "GR₀"]);
+  assert.deepEqual(units([resting]), ["time t [μR₀/σ]", "σ/μ"]);
+  assert.deepEqual(units([sheared, resting]), ["time t [1/G or μR₀/σ]", "GR₀ or σ/μ"]);
 });
 
 test("the liquids of a cut have the names of their drops", () => {

@@ -3,6 +3,8 @@
 // A `*` in titles, columns and labels stands for the name of a bulk scalar: each has plots of its own. How
 // columns become curves (`derivation`): "" each as it is; "percent" the first in per cent of the magnitude of the second; "sum"
 // all columns but step and t, added; "gap-at-zeros" a 0 stands for no value. `unit` is that of the values.
+
+// Of flows that impose a rate G; `unitOf` has those of quiescent ones.
 const plot = (table, title, unit, columns, more = {}) => ({
   table, title, unit, derivation: "", isLog: false, includesZero: false, ...more,
   quantities: Object.entries(columns).map(([column, label]) => ({ column, label })),
@@ -57,13 +59,24 @@ const GROUPS = {
   ],
 };
 
+// Units in a quiescent flow, where G stands for σ/(μR₀).
+const UNITS_AT_REST = {
+  "1/G": "μR₀/σ", "GR₀": "σ/μ", "μG": "σ/R₀", "μGR₀³": "σR₀²", "R₀³G": "R₀²σ/μ", "μG²R₀³": "σ²R₀/μ",
+};
+
+/** A unit of the catalogue in the flows of runs; where they differ, both. */
+export function unitOf(unit, runs) {
+  const units = runs.map(({ isQuiescent }) => (isQuiescent ? (UNITS_AT_REST[unit] ?? unit) : unit));
+  return [...new Set(units)].join(" or ");
+}
+
 /** All plots; those of one group follow each other. */
 export const CATALOGUE = Object.entries(GROUPS).flatMap(([group, plots]) => plots.map((entry) => ({ group, ...entry })));
 
 /** Arrays of the frames with their names for readers; the first that frames have is shown at first. */
 export const FIELDS = [
   { name: "curvature", label: "Curvature κ = k₁ + k₂", unit: "1/R₀" },
-  { name: "normal_velocity", label: "Normal velocity v·n", unit: "G R₀" },
+  { name: "normal_velocity", label: "Normal velocity v·n", unit: "GR₀" },
   { name: "pressure_jump", label: "Pressure jump p_out − p_in", unit: "μG" },
   { name: "pressure", label: "Pressure p", unit: "μG" },
   { name: "surfactant", label: "Surfactant concentration Γ", unit: "" },

@@ -1,5 +1,5 @@
 // From the tables of runs to plots of their history.
-import { CATALOGUE } from "./catalogue.js";
+import { CATALOGUE, unitOf } from "./catalogue.js";
 import { hasValues } from "./plot.js";
 import { readable } from "./text.js";
 
@@ -120,11 +120,11 @@ export function historyPlot(spec, runs, events) {
   const curves = runs.length > 1 ? curvesOfRuns(spec, runs) : curvesOfRun(spec, runs[0]);
   const isOfDrops = runs.length === 1 && new Set(curves.map(({ color }) => color)).size > 1 && curves.some(({ dash }) => dash === 1);
   const [first, second, third] = spec.quantities.map(({ label }) => label);
-  const { group, title, unit, isLog, includesZero } = spec;
+  const { group, title, isLog, includesZero } = spec;
   return {
-    group, unit, isLog, includesZero, curves,
+    group, unit: unitOf(spec.unit, runs), isLog, includesZero, curves,
     title: isOfDrops && third ? `${title}: ${first} solid, ${second} dashed, ${third} dotted` : title,
-    xLabel: "time t [1/G]",
+    xLabel: `time t [${unitOf("1/G", runs)}]`,
     marks: events.map(({ t, label }) => ({ x: t, label })),
     width: 560, height: 300,
   };

@@ -1,6 +1,6 @@
 // The cut through the tetrahedral mesh, coloured by liquid, by quality or by a field: the picture that
 // stills have, with zoom.
-import { FIELDS } from "./catalogue.js";
+import { FIELDS, unitOf } from "./catalogue.js";
 import { liquidOf, VIRIDIS_GRADIENT } from "./colors.js";
 import { BEST_ANGLE, cutHeight, drawCut, liquidName, planeText } from "./cut-picture.js";
 import { fieldsOf, rangeOf } from "./data.js";
@@ -11,6 +11,7 @@ const OF_FIELD = "field "; // begins the names of colourings by a field
 
 export class CutView {
   constructor(run) {
+    this.run = run;
     this.cuts = run.cuts;
     this.fields = fieldsOf(this.cuts.entries, FIELDS);
     this.plane = 0;
@@ -152,7 +153,7 @@ export class CutView {
       [low, make("span", { class: "bar", style: `background:${VIRIDIS_GRADIENT}` }), high, make("span", { class: "unit" }, unit)];
     if (this.coloring === "quality") return scale("0°", `${BEST_ANGLE}°`, "smallest dihedral angle");
     const field = this.coloringField();
-    if (field) return scale(readable(field.range[0], 4), readable(field.range[1], 4), field.unit);
+    if (field) return scale(readable(field.range[0], 4), readable(field.range[1], 4), unitOf(field.unit, [this.run]));
     const chip = (color, label) => make("span", { class: "chip" }, make("i", { style: `background:${color}` }), label);
     const regions = [...new Set(this.cut.region)].sort((a, b) => a - b).slice(0, 7);
     return regions.map((region) => chip(`var(--liquid${liquidOf(region)})`, liquidName(this.cut, region)));

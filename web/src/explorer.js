@@ -1,6 +1,6 @@
 // The interface in 3-D with its controls: of one run, or of several side by side at equal times.
 import { Vector3 } from "three";
-import { FIELDS } from "./catalogue.js";
+import { FIELDS, unitOf } from "./catalogue.js";
 import { VIRIDIS_GRADIENT } from "./colors.js";
 import { fieldsOf, rangeOf } from "./data.js";
 import { make, readable } from "./text.js";
@@ -145,7 +145,7 @@ export class Explorer {
     this.low.value = readable(low, 4).replace("−", "-");
     this.high.value = readable(high, 4).replace("−", "-");
     const { unit } = this.fields.find(({ name }) => name === this.field);
-    this.unit.textContent = unit;
+    this.unit.textContent = unitOf(unit, this.runs);
     this.views.forEach((view) => view.setRange(low, high));
   }
 
