@@ -222,10 +222,14 @@ PageRun picture_run(RunData& run, std::span<const io::PvdEntry> frames,
 }
 
 std::string data_elements(const DrawingData& data) {
-  std::string text = data.page;
-  // JSON allows an escaped slash; HTML forbids "</script" inside a script.
-  for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at))
-    text.replace(at, 2, "<\\/");
+  // In a script "</script" and "<!--" mean something to HTML; in JSON only texts have a "<".
+  std::string text;
+  for (const char c : data.page) {
+    if (c == '<')
+      text += "\\u003c";
+    else
+      text += c;
+  }
   std::string elements =
       "<script type=\"application/json\" id=\"page-data\">" + text + "</script>\n";
   for (const auto& [id, bytes] : data.texts)

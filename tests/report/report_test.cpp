@@ -110,6 +110,20 @@ TEST(Report, RunJsonOfUnexpectedTypesIsBorne) {
   }
 }
 
+// HTML reads the end of a script after "<!--" and "<script" differently.
+TEST(Report, NoTextOfTheRunEndsItsScript) {
+  const test::TemporaryFolder folder;
+  put(folder / "run.json", R"({"title": "<!-- <script> </script>", "case_text": "# <!--<script"})");
+  write_report(folder.path());
+  const std::string page = get(folder / "report.html");
+  const std::size_t begin = page.find("id=\"page-data\">") + 15;
+  const std::string data = page.substr(begin, page.find("</script>", begin) - begin);
+  EXPECT_FALSE(has(data, "<"));
+  const nlohmann::json json = nlohmann::json::parse(data);
+  EXPECT_EQ(json["runs"][0]["title"], "<!-- <script> </script>");
+  EXPECT_EQ(json["runs"][0]["case_text"], "# <!--<script");
+}
+
 TEST(Report, UnitsAreThoseOfTheFlow) {
   const test::TemporaryFolder folder;
   put(folder / "history.csv", "step,t\n0,0\n1,0.5\n");
