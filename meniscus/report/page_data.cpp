@@ -110,16 +110,19 @@ void pack_cuts(PageRun& page, RunData& run, const PageBudget& budget) {
   const auto load = [](const fs::path& path, double t) { return packed_cuts(t, load_cuts(path)); };
   const auto entries = evenly_spaced_frames(run.volume_frames, static_cast<int>(budget.most_cuts));
   page.cuts = load_all(run, entries, load);
-  std::size_t kept = page.cuts.size();
-  while (total_size(page.cuts) > budget.cuts && page.cuts.size() > 1) {  // drops every other one
-    for (std::size_t i = 1; i < page.cuts.size(); ++i) {
-      page.cuts.erase(page.cuts.begin() + static_cast<std::ptrdiff_t>(i));
-    }
-    kept = page.cuts.size();
+  while (total_size(page.cuts) > budget.cuts && page.cuts.size() > 1) {
+    const std::size_t half = (page.cuts.size() + 1) / 2;
+    std::vector<PackedFrame> kept;
+    if (half > 1)
+      for (const std::size_t k : evenly_spaced_numbers(page.cuts.size(), half))
+        kept.push_back(std::move(page.cuts[k]));
+    else
+      kept.push_back(std::move(page.cuts.back()));
+    page.cuts = std::move(kept);
   }
-  if (kept < run.volume_frames.size()) {
-    page.notes.push_back(
-        fmt::format("{} of the run’s {} volume meshes are shown.", kept, run.volume_frames.size()));
+  if (page.cuts.size() < run.volume_frames.size()) {
+    page.notes.push_back(fmt::format("{} of the run’s {} volume meshes are shown.",
+                                     page.cuts.size(), run.volume_frames.size()));
   }
 }
 

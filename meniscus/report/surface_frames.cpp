@@ -71,14 +71,21 @@ std::vector<io::PvdEntry> nearest_frames(std::span<const io::PvdEntry> frames,
   return result;
 }
 
+std::vector<std::size_t> evenly_spaced_numbers(std::size_t size, std::size_t count) {
+  MENISCUS_ASSERT(count > 1 && size > count, "{} of {} cannot be spread", count, size);
+  std::vector<std::size_t> numbers;
+  for (std::size_t k = 0; k < count; ++k)  // k (size − 1)/(count − 1), rounded
+    numbers.push_back((2 * k * (size - 1) + count - 1) / (2 * (count - 1)));
+  return numbers;
+}
+
 std::vector<io::PvdEntry> evenly_spaced_frames(std::span<const io::PvdEntry> frames, int count) {
-  if (frames.empty()) return {};
-  MENISCUS_ASSERT(count > 1, "{} frames cannot be spread", count);
-  std::vector<double> times;
-  times.reserve(static_cast<std::size_t>(count));
-  const double first = frames.front().t, last = frames.back().t;
-  for (int k = 0; k < count; ++k) times.push_back(first + (last - first) * k / (count - 1));
-  return nearest_frames(frames, times);
+  const auto most = static_cast<std::size_t>(count);
+  if (frames.size() <= most) return {frames.begin(), frames.end()};
+  std::vector<io::PvdEntry> result;
+  for (const std::size_t k : evenly_spaced_numbers(frames.size(), most))
+    result.push_back(frames[k]);
+  return result;
 }
 
 std::vector<SurfaceFrame> load_surfaces(RunData& run, std::span<const io::PvdEntry> frames) {

@@ -31,9 +31,11 @@ struct SurfaceFrame {
   FaceField<std::array<Vec3, 3>> middles = {};
 };
 
-/// At most `count` frames, about evenly spaced in time, including the first and the last.
+/// All frames, or `count` about evenly spaced in their order, including the first and the last.
 [[nodiscard]] std::vector<io::PvdEntry> evenly_spaced_frames(std::span<const io::PvdEntry> frames,
                                                              int count);
+/// Numbers of `count` > 1 of `size` > `count` things, evenly spaced, the first and the last too.
+[[nodiscard]] std::vector<std::size_t> evenly_spaced_numbers(std::size_t size, std::size_t count);
 /// The frames nearest to the given times, without repetition.
 [[nodiscard]] std::vector<io::PvdEntry> nearest_frames(std::span<const io::PvdEntry> frames,
                                                        std::span<const double> times);

@@ -38,6 +38,12 @@ TEST(SurfaceFrames, ChoosesFramesSpreadInTime) {
   EXPECT_EQ(evenly_spaced_frames(std::span(frames).first(3), 6).size(), 3U);
   EXPECT_EQ(evenly_spaced_frames(std::span(frames).first(1), 6).size(), 1U);
   EXPECT_TRUE(evenly_spaced_frames({}, 6).empty());
+  // Frames crowd where an event is: none is left out where all may be shown.
+  const std::vector<io::PvdEntry> crowded = {{0.0, "0"}, {1.0, "1"}, {1.001, "2"}, {9.0, "3"}};
+  EXPECT_EQ(evenly_spaced_frames(crowded, 4).size(), 4U);
+  const auto three = evenly_spaced_frames(crowded, 3);
+  ASSERT_EQ(three.size(), 3U);
+  EXPECT_EQ(three[0].file + three[2].file, "03");
   const double times[] = {4.96, 0.0, 5.04, 99.0};
   EXPECT_EQ(nearest_frames(frames, times).size(), 3U);
 }
