@@ -126,15 +126,25 @@ void pack_cuts(PageRun& page, RunData& run, const PageBudget& budget) {
   }
 }
 
-/// The header and every n-th step of a table whose first column is the step.
+/// The number that a part of a text begins with; 0 where there is none.
+std::int64_t leading_number(const std::string& text, std::size_t begin, std::size_t end) {
+  std::int64_t number = 0;
+  std::from_chars(text.data() + begin, text.data() + end, number);
+  return number;
+}
+
+/// The header, every n-th step and the last one of a table whose first column is the step.
 std::string rows_at_every(const std::string& text, std::int64_t n) {
   std::string result;
+  // The line break before the last line, which may have one behind it or not.
+  const std::size_t last = text.size() < 2 ? std::string::npos : text.rfind('\n', text.size() - 2);
+  const std::int64_t last_step =
+      last == std::string::npos ? 0 : leading_number(text, last + 1, text.size());
   bool is_header = true;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
-    std::int64_t step = 0;
-    std::from_chars(text.data() + at, text.data() + end, step);
-    if (is_header || step % n == 0) result.append(text, at, end - at);
+    const std::int64_t step = leading_number(text, at, end);
+    if (is_header || step % n == 0 || step == last_step) result.append(text, at, end - at);
     is_header = false;
     at = end;
   }
@@ -148,8 +158,8 @@ std::string table_text(PageRun& page, const io::RunTableFile& table, const fs::p
   std::string result = base64(zlib_bytes(text));
   if (result.size() <= budget || !text.starts_with("step,")) return result;
   const auto n = static_cast<std::int64_t>(result.size() / budget + 1);
-  page.notes.push_back(
-      fmt::format("The plots of {} show every {}th step; the file has them all.", table.file, n));
+  page.notes.push_back(fmt::format(
+      "The plots of {} show every {}th step and the last; the file has them all.", table.file, n));
   return base64(zlib_bytes(rows_at_every(text, n)));
 }
 

@@ -31,6 +31,16 @@ double largest_magnitude(const std::vector<double>& values) {
   return largest;
 }
 
+/// The last step of drops.csv, whose steps are given, that history.csv has as well: its row is
+/// written when those of all drops are. Of a table without such a step the last one.
+double last_whole_step(const RunData& run, const std::vector<double>& steps) {
+  double step = nan;
+  const double end = last(run.history, "step");
+  for (const double s : steps)
+    if (s <= end) step = std::fmax(step, s);
+  return std::isnan(step) ? steps.back() : step;
+}
+
 /// "simple-shear" as "Simple shear".
 std::string in_words(std::string key) {
   std::ranges::replace(key, '-', ' ');
@@ -138,17 +148,19 @@ std::string drops_html(const RunData& run) {
       {"L", "L"},      {"B", "B"},    {"W", "W"}, {"D", "D"}, {"angle_deg", "θ [°]"},
       {"volume", "V"}, {"area", "S"}, {"x", "x"}, {"y", "y"}, {"z", "z"}};
   std::string head, body;
+  std::vector<std::vector<double>> columns;
   for (const auto& [name, symbol] : quantities) {
-    if (!column(run.drops, name).empty()) head += fmt::format("<th class=\"n\">{}</th>", symbol);
+    std::vector<double> values = column(run.drops, name);
+    if (values.empty()) continue;
+    head += fmt::format("<th class=\"n\">{}</th>", symbol);
+    columns.push_back(std::move(values));
   }
+  const double step = last_whole_step(run, steps);
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (steps[i] != steps.back()) continue;
+    if (steps[i] != step) continue;
     std::string cells;
-    for (const auto& [name, symbol] : quantities) {
-      const std::vector<double> values = column(run.drops, name);
-      if (values.empty()) continue;
+    for (const std::vector<double>& values : columns)
       cells += fmt::format("<td class=\"n\">{}</td>", decimal_text(values[i], decimals));
-    }
     body += fmt::format("<tr><th>drop {}</th>{}</tr>\n", count_text(ids[i]), cells);
   }
   return fmt::format(

@@ -1,11 +1,14 @@
 #include "meniscus/report/report.hpp"
 
+#include <cmath>
 #include <cstdlib>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/report/packing.hpp"
 #include "meniscus/report/page_data.hpp"
 #include "meniscus/report/run_data.hpp"
 #include "tests/io/temporary_folder.hpp"
@@ -154,6 +157,38 @@ TEST(Report, CasesInSiUnitsShowTheRunsOwnNumbers) {
   const report::RunData run = report::load_run(folder.path());
   const nlohmann::json data = nlohmann::json::parse(report::live_drawing_data(run, "1").page);
   EXPECT_EQ(data["runs"][0]["end"], "8");
+}
+
+// The program writes the rows of all drops, then that of history.csv.
+TEST(Report, DropsAreThoseOfTheLastWholeStep) {
+  const test::TemporaryFolder folder;
+  put(folder / "history.csv", "step,t,drops\n0,0,2\n1,1,2\n");
+  put(folder / "drops.csv", "step,t,drop,L\n0,0,0,1\n0,0,1,1\n1,1,0,1.25\n1,1,1,1.75\n2,2,0,1.5\n");
+  const std::string page = page_of(folder.path());
+  EXPECT_TRUE(has(page, "1.2500") && has(page, "1.7500"));
+  EXPECT_FALSE(has(page, "1.5000"));
+}
+
+TEST(Report, LongTablesKeepTheirLastStep) {
+  const test::TemporaryFolder folder;
+  constexpr int kLast = 1009;  // a prime
+  const auto rows_at_every = [](int n) {
+    std::string rows = "step,t,value\n";
+    for (int step = 0; step <= kLast; ++step)
+      if (step % n == 0 || step == kLast)
+        rows += fmt::format("{},{},{}\n", step, 0.1 * step, std::sin(step));
+    return rows;
+  };
+  put(folder / "history.csv", rows_at_every(1));
+  report::RunData run = report::load_run(folder.path());
+  report::PageRun page;
+  const report::DrawingData data =
+      report::drawing_data("report", std::span(&run, 1), std::span(&page, 1), {.tables = 6000});
+  ASSERT_EQ(page.notes.size(), 1U);
+  EXPECT_TRUE(has(page.notes[0], "th step and the last")) << page.notes[0];
+  const int n = std::atoi(page.notes[0].c_str() + page.notes[0].find("every ") + 6);
+  EXPECT_GT(n, 1);
+  EXPECT_EQ(data.texts[0].second, report::base64(report::zlib_bytes(rows_at_every(n))));
 }
 
 TEST(Report, FailedRunsSayWhy) {
