@@ -67,6 +67,13 @@ test("plots bear any data", () => {
   }
 });
 
+test("comments and blank lines of a table are no rows, whatever they hold", () => {
+  const table = new Table().append('# By "him.\n\n \t\nt,D\n# 5" pipe\r\n0,0\r\n\r\n1,"0.5"\n');
+  assert.deepEqual([table.names, table.column("t"), table.column("D")], [["t", "D"], [0, 1], [0, 0.5]]);
+  const quoted = new Table().append('t,note\n1,"a\n#b,""c"""\n');
+  assert.deepEqual(quoted.texts("note"), ['a\n#b,"c"']);
+});
+
 const runOf = (name, more) => ({ name, ...more,
   tables: { drops: new Table().append("step,t,drop,D,velocity_x\n0,0,0,0,1\n1,1,0,0.5,1\n") } });
 const specOf = (title) => specsOf([runOf("")]).find((spec) => spec.title.startsWith(title));

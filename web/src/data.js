@@ -76,13 +76,21 @@ export class Table {
   }
 }
 
-/** Rows of a CSV text (RFC 4180); lines that begin with # and empty ones are left out. */
+/** Rows of a CSV text (RFC 4180); lines that begin with # and blank ones are left out. */
 export function* rowsOfCsv(text) {
   let row = [""];
   let isQuoted = false;
-  const isKept = () => !row[0].startsWith("#") && !(row.length === 1 && row[0] === "");
+  let isAtStart = true; // of a row
+  const isKept = () => row.length > 1 || row[0].trim() !== "";
   for (let i = 0; i < text.length; ++i) {
     const c = text[i];
+    if (isAtStart && c === "#") { // a quote within a comment quotes nothing
+      const end = text.indexOf("\n", i);
+      if (end < 0) return;
+      i = end;
+      continue;
+    }
+    isAtStart = false;
     if (c === '"' && isQuoted && text[i + 1] === '"') {
       row[row.length - 1] += '"';
       ++i;
@@ -93,6 +101,7 @@ export function* rowsOfCsv(text) {
     } else if (c === "\n" && !isQuoted) {
       if (isKept()) yield row;
       row = [""];
+      isAtStart = true;
     } else if (c !== "\r") {
       row[row.length - 1] += c;
     }
