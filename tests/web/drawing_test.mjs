@@ -6,13 +6,14 @@ import { join, resolve } from "node:path";
 const sources = resolve(process.argv[2]);
 const from = (file) => import(join(sources, file));
 const { linearTicks, logTicks } = await from("ticks.js");
-const { curvePath, drawPlot } = await from("plot.js");
+const { curvePath, drawPlot, plotArea } = await from("plot.js");
 const { commonView, drawInterface } = await from("interface.js");
 const { sectionThroughCentroids } = await from("section.js");
 const { edgesOfFaces, refined } = await from("surface.js");
 const { PALETTES, viridis } = await from("colors.js");
 const { svgFile } = await from("svg.js");
 const { Table } = await from("data.js");
+const { readoutText, rowAt } = await from("plots.js");
 const { historyPlot, specsOf } = await from("curves.js");
 const { drawLiquidKey, liquidName } = await from("cut-picture.js");
 
@@ -65,6 +66,28 @@ test("plots bear any data", () => {
       assert.doesNotMatch(svg, /NaN|Infinity|undefined|<B>/);
     }
   }
+});
+
+test("a window between two rows has the range of the lines within it", () => {
+  const plot = { title: "", xLabel: "", width: 560, height: 300, window: [0.25, 0.75],
+    curves: [{ x: [0, 1, 2], y: [100, 200, 1e6] }, { x: [2, 1.5, 1], y: [-1e6, -1e6, -1e6] }] };
+  const { y } = plotArea(plot);
+  assert.ok(y.min > 100 && y.min <= 125 && y.max >= 175 && y.max < 200, `${y.min} to ${y.max}`);
+  Object.assign(plot, { isLog: true, curves: [{ x: [0, 1], y: [1, 1e4] }] });
+  const { y: log } = plotArea(plot);
+  assert.ok(Math.abs(Math.log10(log.min) - 1) < 0.01 && Math.abs(Math.log10(log.max) - 3) < 0.01, `${log.min} to ${log.max}`);
+});
+
+test("a value is told of its own time, and none beyond the rows of a curve", () => {
+  const plot = {};
+  const curve = { name: "D", x: [1, 2, 4, 5], y: [0.1, 0.2, 0.4, NaN] };
+  const at = (x) => {
+    const row = rowAt(plot, curve, x);
+    return readoutText("D", "t", [curve.x[row], curve.y[row]], x);
+  };
+  assert.deepEqual([0.9, 4.1, 5].map(at), ["D = –", "D = –", "D = –"]);
+  assert.deepEqual([1, 1 - 1e-12, 4].map(at), ["D = 0.1", "D = 0.1", "D = 0.4"]);
+  assert.deepEqual([1.4, 3.5].map(at), ["D = 0.1 (t = 1)", "D = 0.4 (t = 4)"]);
 });
 
 test("comments and blank lines of a table are no rows, whatever they hold", () => {

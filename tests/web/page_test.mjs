@@ -232,6 +232,25 @@ test("a drag zooms in, a double click shows all, log is logarithmic", async () =
   assert.equal((await scales()).isLog, false);
 });
 
+test("a button pressed elsewhere, or another one, changes no window", async () => {
+  const over = page.locator(".plot .over").first();
+  await over.scrollIntoViewIfNeeded();
+  const state = () => page.evaluate(() => [window.meniscus.history.plots[0].plot.window, window.meniscus.timeline.at]);
+  const before = await state();
+  const box = await over.boundingBox();
+  const [y, from, to] = [box.y + box.height / 2, box.x + 0.3 * box.width, box.x + 0.6 * box.width];
+  await page.mouse.move(from, box.y + box.height + 60);
+  await page.mouse.down();
+  await page.mouse.move(to, y, { steps: 4 });
+  await page.mouse.up();
+  assert.deepEqual(await state(), before);
+  await page.mouse.move(from, y);
+  await page.mouse.down({ button: "middle" });
+  await page.mouse.move(to, y, { steps: 4 });
+  await page.mouse.up({ button: "middle" });
+  assert.deepEqual(await state(), before);
+});
+
 test("a plot can be had as SVG and as CSV", async () => {
   const text = async (name) => {
     const [download] = await Promise.all([

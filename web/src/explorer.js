@@ -142,8 +142,8 @@ export class Explorer {
   }
 
   applyRange(low, high) {
-    this.low.value = readable(low, 4).replace("−", "-");
-    this.high.value = readable(high, 4).replace("−", "-");
+    this.low.value = readable(low, 4).replaceAll("−", "-");
+    this.high.value = readable(high, 4).replaceAll("−", "-");
     const { unit } = this.fields.find(({ name }) => name === this.field);
     this.unit.textContent = unitOf(unit, this.runs);
     this.views.forEach((view) => view.setRange(low, high));

@@ -39,6 +39,21 @@ class Extent {
   }
 }
 
+/** The values that the lines of a curve have at the ends of a window. */
+function valuesAtEnds(plot, { x, y }, ends) {
+  const values = [];
+  for (let i = 1; i < x.length; ++i) {
+    if (!isDrawable(plot, x[i - 1], y[i - 1]) || !isDrawable(plot, x[i], y[i])) continue;
+    for (const end of ends) {
+      if ((x[i - 1] - end) * (x[i] - end) >= 0) continue;
+      const share = (end - x[i - 1]) / (x[i] - x[i - 1]);
+      // Lines are straight on the picture.
+      values.push(plot.isLog ? Math.exp((1 - share) * Math.log(y[i - 1]) + share * Math.log(y[i])) : (1 - share) * y[i - 1] + share * y[i]);
+    }
+  }
+  return values;
+}
+
 /** The smallest and largest values that are shown. */
 function dataExtents(plot) {
   const [x, y] = [new Extent(), new Extent()];
@@ -50,6 +65,7 @@ function dataExtents(plot) {
       if (isWithin(t)) x.add(t);
       if (isDrawable(plot, t, curve.y[i])) y.add(curve.y[i]);
     });
+    if (plot.window) valuesAtEnds(plot, curve, plot.window).forEach((value) => y.add(value));
   }
   const extents = { x: plot.window ? new Extent(...plot.window) : x.orElse(0, 1), y: y.orElse(1, 10) };
   if (plot.includesZero && !plot.isLog) extents.y.add(0);

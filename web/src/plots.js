@@ -13,14 +13,28 @@ const LEAST_DRAG = 6; // px; less is a click
 
 const isDrawable = (plot, i, { y }) => Number.isFinite(y[i]) && (y[i] > 0 || !plot.isLog);
 
-/** The row with a value that can be drawn nearest to x; -1 where a curve has none. */
-function rowAt(plot, curve, x) {
-  let best = -1;
+const ROUNDOFF = 1e-9; // share of x by which times of frames and rows may differ
+
+/**
+ * The row with a value that can be drawn nearest to x; -1 where a curve has none, or x lies before its first
+ * or beyond its last.
+ */
+export function rowAt(plot, curve, x) {
+  let [best, first, last] = [-1, Infinity, -Infinity];
   curve.x.forEach((value, i) => {
-    if (!isDrawable(plot, i, curve)) return;
+    if (!Number.isFinite(value) || !isDrawable(plot, i, curve)) return;
+    first = Math.min(first, value);
+    last = Math.max(last, value);
     if (best < 0 || Math.abs(value - x) < Math.abs(curve.x[best] - x)) best = i;
   });
-  return best;
+  const slack = ROUNDOFF * Math.abs(x);
+  return x >= first - slack && x <= last + slack ? best : -1;
+}
+
+/** "D = 0.25", with the row's own place where that is another than x: "D = 0.25 (t = 1)". */
+export function readoutText(name, xName, [t, value], x) {
+  const isElsewhere = t !== undefined && readable(t, 5) !== readable(x, 5);
+  return `${name || "value"} = ${readable(value, 6)}${isElsewhere ? ` (${xName} = ${readable(t, 5)})` : ""}`;
 }
 
 /** All x of the curves, rising. */
@@ -79,6 +93,7 @@ export class PlotView {
     const { over, body } = this;
     let start; // of a drag
     over.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
       start = event.clientX;
       over.setPointerCapture(event.pointerId);
     });
@@ -91,11 +106,16 @@ export class PlotView {
       Object.assign(this.band.style, { left: `${from - edge}px`, width: `${to - from}px` });
     });
     over.addEventListener("pointerup", (event) => {
+      if (start === undefined || event.button !== 0) return; // pressed elsewhere, or another button
       const [from, to] = [Math.min(start, event.clientX), Math.max(start, event.clientX)];
       start = undefined;
       this.band.hidden = true;
       if (to - from < LEAST_DRAG) this.onChoose(this.nearest(this.xAt(event.clientX)));
       else this.show([this.xAt(from), this.xAt(to)]);
+    });
+    over.addEventListener("pointercancel", () => {
+      start = undefined;
+      this.band.hidden = true;
     });
     over.addEventListener("pointerleave", () => this.cursor.move(undefined));
     over.addEventListener("dblclick", () => this.show(undefined));
@@ -162,16 +182,17 @@ export class PlotView {
     place(this.line, this.cursor.x);
     place(this.now, this.momentOf());
     const x = this.shownX();
+    const xName = this.plot.xName ?? "t";
     const entries = this.plot.curves.slice(0, MOST_VALUES).map((curve) => {
       const row = rowAt(this.plot, curve, x);
       const [t, value] = [curve.x[row], curve.y[row]];
       const color = curve.isReference ? "var(--soft)" : `var(--curve${curve.color % NUM_CURVE_COLORS})`;
       return make("span", { class: "value", "data-curve": curve.name, "data-t": t ?? "", "data-value": value ?? "",
-        title: `${curve.name} = ${value} at ${t}` },
+        title: row < 0 ? `${curve.name} has no value there` : `${curve.name} = ${value} at ${t}` },
         make("i", { style: `border-top:2px ${["solid", "dashed", "dotted", "dashed"][curve.dash % 4]} ${color}` }),
-        `${curve.name || "value"} = ${readable(value, 6)}`);
+        readoutText(curve.name, xName, [t, value], x));
     });
-    this.readout.replaceChildren(make("span", { class: "value-t" }, `${this.plot.xName ?? "t"} = ${readable(x, 5)}`), ...entries);
+    this.readout.replaceChildren(make("span", { class: "value-t" }, `${xName} = ${readable(x, 5)}`), ...entries);
   }
 
   /** New curves, of a run that goes on; zoom and axes stay. */
