@@ -23,6 +23,17 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_runs = 8;  // a browser can hold no more 3-D views
 
+/// The last `count` parts of a path.
+fs::path last_parts(const fs::path& path, std::ptrdiff_t count) {
+  const fs::path parts = path.relative_path();
+  const std::ptrdiff_t all = std::distance(parts.begin(), parts.end());
+  fs::path last;
+  for (auto part = std::next(parts.begin(), std::max<std::ptrdiff_t>(0, all - count));
+       part != parts.end(); ++part)
+    last /= *part;
+  return last;
+}
+
 /// The names of the folders, each with enough of its path to be unique.
 std::vector<std::string> names_of(std::span<const fs::path> folders) {
   std::vector<fs::path> paths;
@@ -30,11 +41,12 @@ std::vector<std::string> names_of(std::span<const fs::path> folders) {
     paths.push_back(fs::absolute(folder / ".").lexically_normal().parent_path());
   std::vector<std::string> names;
   for (const fs::path& path : paths) {
-    std::string name = path.filename().string();
-    const auto is_same = [&](const fs::path& other) { return other.filename() == path.filename(); };
-    if (std::ranges::count_if(paths, is_same) > 1)
-      name = (path.parent_path().filename() / name).string();
-    names.push_back(name);
+    std::ptrdiff_t count = 1;
+    const auto is_alike = [&](const fs::path& other) {
+      return other != path && last_parts(other, count) == last_parts(path, count);
+    };
+    while (std::ranges::any_of(paths, is_alike)) ++count;
+    names.push_back(last_parts(path, count).string());
   }
   return names;
 }

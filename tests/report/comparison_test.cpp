@@ -77,6 +77,18 @@ TEST(Comparison, PageShowsAllRuns) {
   EXPECT_EQ(get(folder / "again.html"), page);
 }
 
+TEST(Comparison, NamesAreAsLongAsTheyMustBe) {
+  const test::TemporaryFolder folder;
+  std::vector<fs::path> folders;
+  for (const char* name : {"a/x/run", "b/x/run", "b/y/run", "other"}) {
+    folders.push_back(folder / name);
+    test::write_synthetic_run(folders.back(), {.num_frames = 1, .num_vertices = 60});
+  }
+  write_comparison(folders, folder / "all.html");
+  EXPECT_NE(get(folder / "all.html").find("<title>a/x/run, b/x/run, y/run, other</title>"),
+            std::string::npos);
+}
+
 TEST(Comparison, RefusesTooFewAndWhatIsNoRun) {
   const test::TemporaryFolder folder;
   test::write_synthetic_run(folder / "run", {.num_frames = 1});

@@ -101,6 +101,16 @@ const runOf = (name, more) => ({ name, ...more,
   tables: { drops: new Table().append("step,t,drop,D,velocity_x\n0,0,0,0,1\n1,1,0,0.5,1\n") } });
 const specOf = (title) => specsOf([runOf("")]).find((spec) => spec.title.startsWith(title));
 
+test("eight runs have eight kinds of line, for every quantity", () => {
+  const runs = Array.from({ length: 8 }, (_, k) => runOf(`run ${k}`));
+  for (const title of ["Deformation", "Velocity"]) {
+    const { curves } = historyPlot(specOf(title), runs, []);
+    assert.equal(new Set(curves.map(({ color, dash }) => `${color % 6} ${dash}`)).size, 8);
+  }
+  const svg = svgFile("", 1, 1);
+  for (let dash = 1; dash < 8; ++dash) assert.ok(svg.includes(`svg .d${dash}{stroke-dasharray:`), `dash ${dash}`);
+});
+
 test("units are those of the flow", () => {
   const units = (runs) => {
     const { xLabel, unit } = historyPlot(specOf("Velocity"), runs, []);

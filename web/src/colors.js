@@ -40,6 +40,7 @@ export const PALETTES = {
   },
 };
 export const NUM_CURVE_COLORS = PALETTES.light.curves.length;
+export const NUM_DASHES = 4; // of one colour; a second round of the colours has as many others
 
 /** Which of the liquids' colours a region has: the matrix the first, drops the others in turn. */
 export function liquidOf(region) {
@@ -71,6 +72,10 @@ svg .mesh{stroke-linejoin:round}
 svg .d1{stroke-dasharray:6 3.5}
 svg .d2{stroke-dasharray:1.5 3.5}
 svg .d3{stroke-dasharray:8 3 2 3}
+svg .d4{stroke-dasharray:14 3}
+svg .d5{stroke-dasharray:10 2 1.5 2 1.5 2}
+svg .d6{stroke-dasharray:1.5 7}
+svg .d7{stroke-dasharray:3 3}
 ${rulesOf(PALETTES.light)}
 @media screen and (prefers-color-scheme:dark){
 ${rulesOf(PALETTES.dark)}

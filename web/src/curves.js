@@ -1,5 +1,6 @@
 // From the tables of runs to plots of their history.
 import { CATALOGUE, unitOf } from "./catalogue.js";
+import { NUM_CURVE_COLORS, NUM_DASHES } from "./colors.js";
 import { hasValues } from "./plot.js";
 import { readable } from "./text.js";
 
@@ -107,11 +108,12 @@ function curvesOfRun(spec, run) {
   return [...styled, ...references];
 }
 
-/** The curves of several runs: colours tell runs apart, dashes quantities. */
+/** The curves of several runs: colours tell runs apart, dashes quantities; a second round of colours has its own. */
 function curvesOfRuns(spec, runs) {
   return runs.flatMap((run, r) => curvesOf(spec, run).map(({ label, drop, quantity, x, y }, i) => ({
     name: spec.quantities.length > 1 || drop > 0 ? `${run.name}: ${label}` : run.name,
-    legend: i === 0 ? run.name : "", x, y, color: r, dash: quantity,
+    legend: i === 0 ? run.name : "", x, y, color: r,
+    dash: (quantity % NUM_DASHES) + NUM_DASHES * (Math.floor(r / NUM_CURVE_COLORS) % 2),
   })));
 }
 

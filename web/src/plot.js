@@ -130,7 +130,8 @@ function drawAxes(plot, { left, right, top, bottom, x, y, toX, toY }) {
   return `<path class="grid" d="${grid}"/><path class="ax" d="M${px(left)} ${px(top)}V${px(bottom)}H${px(right)}"/>${labels}`;
 }
 
-function strokeOf({ color = 0, dash = 0, isReference, stroke }) {
+/** The attributes of a curve's line. */
+export function strokeOf({ color = 0, dash = 0, isReference, stroke }) {
   const classes = ["ln", isReference ? "ref" : stroke ? "" : `s${color % NUM_CURVE_COLORS}`, dash ? `d${dash}` : ""];
   return `class="${classes.filter(Boolean).join(" ")}"${stroke ? ` style="stroke:${stroke}"` : ""}`;
 }

@@ -1,8 +1,7 @@
 // The plots of the page: drawn as in pictures, and with values under the cursor, zoom, logarithmic axes,
 // download. The cursor is one for all plots of the history.
-import { NUM_CURVE_COLORS } from "./colors.js";
 import { historyPlots } from "./curves.js";
-import { drawPlot, plotArea } from "./plot.js";
+import { drawPlot, plotArea, strokeOf } from "./plot.js";
 import { escaped, svgFile } from "./svg.js";
 import { download, fileName, make, readable } from "./text.js";
 
@@ -186,11 +185,11 @@ export class PlotView {
     const entries = this.plot.curves.slice(0, MOST_VALUES).map((curve) => {
       const row = rowAt(this.plot, curve, x);
       const [t, value] = [curve.x[row], curve.y[row]];
-      const color = curve.isReference ? "var(--soft)" : `var(--curve${curve.color % NUM_CURVE_COLORS})`;
+      const sample = make("i", {});
+      sample.innerHTML = `<svg width="16" height="4"><path ${strokeOf(curve)} d="M0 2h16"/></svg>`;
       return make("span", { class: "value", "data-curve": curve.name, "data-t": t ?? "", "data-value": value ?? "",
         title: row < 0 ? `${curve.name} has no value there` : `${curve.name} = ${value} at ${t}` },
-        make("i", { style: `border-top:2px ${["solid", "dashed", "dotted", "dashed"][curve.dash % 4]} ${color}` }),
-        readoutText(curve.name, xName, [t, value], x));
+        sample, readoutText(curve.name, xName, [t, value], x));
     });
     this.readout.replaceChildren(make("span", { class: "value-t" }, `${xName} = ${readable(x, 5)}`), ...entries);
   }
