@@ -16,6 +16,7 @@ const { Table } = await from("data.js");
 const { readoutText, rowAt } = await from("plots.js");
 const { historyPlot, specsOf } = await from("curves.js");
 const { drawLiquidKey, liquidName } = await from("cut-picture.js");
+const { pointsLeftOut, withGaps } = await from("study.js");
 
 /** An octahedron's faces in n² pieces each on the unit sphere; curved: with middles of edges on it. */
 function ball(parts, isCurved, axes = [1, 1, 1]) {
@@ -129,6 +130,13 @@ test("the liquids of a cut have the names of their drops", () => {
   const names = (of) => [...drawLiquidKey(of, 0, 0).matchAll(/<text[^>]*>([^<]*)/g)].map(([, name]) => name);
   assert.deepEqual(names({ region: [0, 2], drops: [7, 2] }), ["matrix", "drop 2"]);
   assert.deepEqual(names({ region: [0, 1], drops: [7] }), ["matrix", "drop"]);
+});
+
+test("points of a study without a finite place are left out, and it is said", () => {
+  const plot = { xLabel: "Ca", curves: [{ x: [0.1, null, 0.3], y: [1, 2, null] }] };
+  assert.deepEqual(withGaps(plot).curves[0], { x: [0.1, 0.3], y: [1, NaN] });
+  assert.match(pointsLeftOut([plot]), /^Not drawn: runs whose Ca is no finite number/);
+  assert.equal(pointsLeftOut([{ xLabel: "Ca", curves: [{ x: [1], y: [null] }] }]), "");
 });
 
 /** The points of the outlines of a picture, of curved ones with points along each parabola. */

@@ -9,17 +9,27 @@ import { make, readable } from "./text.js";
 
 const WIDTH = 220; // px, of a shape
 
-/** A plot of the program's JSON, where null stands for no value. */
-const withGaps = (plot) => ({
+/** A plot of the program's JSON, where null stands for no value; no axis has a place for points without x. */
+export const withGaps = (plot) => ({
   ...plot, xName: plot.xLabel,
-  curves: plot.curves.map((curve) => ({ ...curve, y: curve.y.map((v) => v ?? NaN) })),
+  curves: plot.curves.map((curve) => ({
+    ...curve, x: curve.x.filter((v) => v !== null),
+    y: curve.y.filter((_, i) => curve.x[i] !== null).map((v) => v ?? NaN),
+  })),
 });
+
+/** Which plots lack points, and why; "" where none does. */
+export function pointsLeftOut(plots) {
+  const axes = plots.filter(({ curves }) => curves.some(({ x }) => x.includes(null))).map(({ xLabel }) => xLabel);
+  return axes.length === 0 ? "" : `Not drawn: runs whose ${[...new Set(axes)].join(" or ")} is no finite number; the table has them.`;
+}
 
 function addPlots(app, plots) {
   const cursor = new Cursor();
   const views = plots.map((plot) => new PlotView(withGaps(plot), cursor));
   cursor.addEventListener("change", () => views.forEach((view) => view.showMoment(true)));
-  app.append(make("h2", {}, "Against the axes"), make("div", { class: "plots" }, ...views.map(({ element }) => element)));
+  const note = pointsLeftOut(plots);
+  app.append(make("h2", {}, "Against the axes"), ...(note ? [make("p", { class: "notes" }, note)] : []), make("div", { class: "plots" }, ...views.map(({ element }) => element)));
   const draw = () => views.forEach((view) => view.draw());
   new ResizeObserver(draw).observe(app);
   draw();
