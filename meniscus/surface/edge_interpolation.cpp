@@ -8,8 +8,8 @@
 namespace meniscus {
 namespace {
 
-/// Least relative pivot of a fit. It is larger than elsewhere, so that a second ring takes over
-/// sooner.
+/// Least relative root of a pivot of a fit. It is larger than elsewhere, so that a second ring
+/// takes over sooner.
 constexpr double kLeastStencilPivot = 1e-2;
 constexpr std::size_t kLeastRing = 6;  // five unknowns; a ring of five would leave noise undamped
 

@@ -15,9 +15,9 @@ namespace {
 
 constexpr int kTerms = num_monomials(4);
 
-/// Least relative pivot of a fit. It is smaller than elsewhere: u⁴/24 alone makes pivots twelve
-/// times as small as ½u². Below it the fit amplifies the vertices' noise more than the lower
-/// degree's truncation is worth.
+/// Least relative root of a pivot of a fit. It is smaller than elsewhere: u⁴/24 alone makes these
+/// roots twelve times as small as ½u². Below it the fit amplifies the vertices' noise more than the
+/// lower degree's truncation is worth.
 constexpr double kLeastQuarticPivot = 1.25e-4;
 
 /// Gradient and second derivatives of g at the vertex.

@@ -259,7 +259,7 @@ TEST(SurfaceTransport, BalancesConvectionByDiffusion) {
   EXPECT_GT(order(coarse, fine), 3.0) << coarse << ' ' << fine;
 }
 
-// Γ ∝ R⁻² on a sphere that grows, to round-off: its areas are those of the flat faces.
+// Γ ∝ R⁻² on a sphere that grows, to round-off: its patches scale with it.
 TEST(SurfaceTransport, ThinsOutAsTheSurfaceGrows) {
   Covered carrier{sphere(100), VertexField<double>(100, 1.0)};
   const Velocity out = [](const Vec3& x) { return x; };
