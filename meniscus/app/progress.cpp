@@ -54,7 +54,7 @@ void Progress::show(const HistoryRow& history, const std::vector<DropRow>& drops
   const double elapsed = std::chrono::duration<double>(now - began_).count();
   double D = 0.0, drift = 0.0;
   for (const DropRow& row : drops) {
-    D = std::max(D, row.shape.D);
+    if (std::abs(row.shape.D) > std::abs(D)) D = row.shape.D;
     drift = std::max(drift, std::abs(row.volume_drift));
   }
   const std::string line = fmt::format(

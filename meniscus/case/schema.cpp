@@ -175,6 +175,11 @@ std::string nearest_name(std::string_view path) {
   }
   if (const auto near = nearest_word(leaf(wanted), siblings); !near.empty())
     return parent.empty() ? std::string(near) : fmt::format("{}.{}", parent, near);
+  const auto longer = std::ranges::find_if(siblings, [&](std::string_view sibling) {
+    return sibling.starts_with(leaf(wanted)) && !leaf(wanted).empty();
+  });
+  if (longer != siblings.end())
+    return parent.empty() ? std::string(*longer) : fmt::format("{}.{}", parent, *longer);
   const auto elsewhere = std::ranges::find(all, leaf(wanted), leaf);
   if (elsewhere != all.end()) return std::string(*elsewhere);  // right key, wrong table
   return std::string(nearest_word(wanted, all));

@@ -33,6 +33,8 @@ const std::vector<BadCase> kSyntax{
      "case.toml:6: solvr: unknown key; did you mean \"solver\"?"},
     {"key in the wrong table", shear_with("edge-floor = 0.1\n"),
      "case.toml:6: drop.edge-floor: unknown key; did you mean \"interface.edge-floor\"?"},
+    {"the beginning of a key", shear_with("viscosity = 2.0\n"),
+     "case.toml:6: drop.viscosity: unknown key; did you mean \"viscosity-ratio\"?"},
     {"key like no other", shear_with("[time]\nxyzzy = 1\n"),
      "case.toml:7: time.xyzzy: unknown key"},
     {"underscore for hyphen", shear_with("[time]\nmax_step = 1\n"),
