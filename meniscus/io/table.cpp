@@ -49,12 +49,31 @@ Record parse_record(std::string_view text, std::size_t begin, int line) {
   return record;
 }
 
+/// Whether lines between records may be empty or comments, which begin with `#`.
+enum class Lines { of_records, with_comments };
+
+std::size_t end_of_line(std::string_view text, std::size_t begin) {
+  const std::size_t line_break = text.find('\n', begin);
+  return line_break == std::string_view::npos ? text.size() : line_break + 1;
+}
+
+bool is_comment(std::string_view line) {
+  return line.starts_with('#') || line.find_first_not_of(" \t\r\n") == std::string_view::npos;
+}
+
 /// All records; a last line cut short (no line break, and not as many cells as the first) is left
 /// out. Throws InvalidInput at any other row whose number of cells differs from the first's.
-std::vector<Record> parse_records(const fs::path& path, std::string_view text) {
+std::vector<Record> parse_records(const fs::path& path, std::string_view text,
+                                  Lines lines = Lines::of_records) {
   std::vector<Record> records;
   int line = 1;
   for (std::size_t at = 0; at < text.size();) {
+    if (const std::size_t end = end_of_line(text, at);
+        lines == Lines::with_comments && is_comment(text.substr(at, end - at))) {
+      at = end;
+      ++line;
+      continue;
+    }
     Record record = parse_record(text, at, line);
     const std::string_view raw = text.substr(at, record.end - at);
     line += static_cast<int>(std::ranges::count(raw, '\n'));
@@ -239,15 +258,9 @@ Table read_commented_table(const fs::path& path) {
 }
 
 Table parse_commented_table(const std::string& name, std::string_view text) {
-  std::string rows;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
-    const std::string_view line = text.substr(at, end - at);
-    if (!line.starts_with('#') && line.find_first_not_of(" \t\r\n") != std::string_view::npos)
-      rows += line;
-    at = end;
-  }
-  return table_of(parse_records(name, rows));
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // of spreadsheets
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  return table_of(parse_records(name, text, Lines::with_comments));
 }
 
 }  // namespace meniscus::io

@@ -142,6 +142,23 @@ TEST(Table, SaysWhatIsWrong) {
             path + ": no such file");
 }
 
+TEST(Table, CommentsCountAsLinesAndHoldQuotes) {
+  const test::TemporaryFolder folder;
+  const std::string path = (folder / "a.csv").string();
+  const auto read = [&](const std::string& text) {
+    put(path, text);
+    return read_commented_table(path);
+  };
+  const Table table = read("\xef\xbb\xbf# 1/2\" tube\n\nt,L\n# more\n0,1\n");
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"t", "L"}));
+  EXPECT_EQ(table.rows.size(), 1);
+  const auto refusal = [&](const std::string& text) {
+    return message_of<InvalidInput>([&] { (void)read(text); });
+  };
+  EXPECT_EQ(refusal("# one\n# two\nt,L\n0,1,2\n"), path + ":4: 3 cells where the header has 2");
+  EXPECT_EQ(refusal("t,L\n0,1\n1,\"2\n2,9\n"), path + ":3: a quotation mark is not closed");
+}
+
 TEST(Table, ReadsWhatOthersWrite) {
   const test::TemporaryFolder folder;
   put(folder / "t.csv", "t,D\r\n0,0.5\r\n1,+inf\r\n2,1e-3");  // no line break at the end
