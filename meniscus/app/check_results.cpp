@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "meniscus/app/case_inputs.hpp"
 #include "meniscus/app/run_json.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/version.hpp"
@@ -96,7 +98,8 @@ std::string file_name_of(const std::string& name) {
 RunState state_of_run(const fs::path& folder, const Case& c) {
   const Json run = read_run_json(folder);
   if (member(run, "commit", std::string()) != commit_string || !run.contains("case") ||
-      run["case"] != Json::parse(case_json(c)))
+      run["case"] != Json::parse(case_json(c)) ||
+      member(run, "inputs", std::map<std::string, std::string>()) != case_inputs(c))
     return RunState::absent;
   return member(run, "status", std::string()) == "done" ? RunState::finished : RunState::unfinished;
 }

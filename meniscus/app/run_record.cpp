@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "meniscus/app/case_inputs.hpp"
 #include "meniscus/app/ranks.hpp"
 #include "meniscus/app/run_json.hpp"
 #include "meniscus/app/wording.hpp"
@@ -64,6 +65,7 @@ RunRecord::RunRecord(const Case& c, std::string case_file, std::string case_text
     : case_file_(std::move(case_file)),
       case_text_(std::move(case_text)),
       case_json_(case_json(c)),
+      inputs_(case_inputs(c)),
       dimensionless_json_(dimensionless_json(c)),
       title_(c.title),
       started_(now_utc()),
@@ -76,6 +78,7 @@ void RunRecord::go_on_from(const std::filesystem::path& folder) {
   case_text_ = member(before, "case_text", case_text_);
   wall_before_ = member(before, "wall_seconds", 0.0);
   warnings_ = member(before, "warnings", warnings_);
+  inputs_ = member(before, "inputs", decltype(inputs_)());
   if (const Json changes = member(before, "changes", Json()); changes.is_array())
     changes_json_ = changes.dump();
   const Json seconds = member(before, "seconds", Json::object());
@@ -126,6 +129,7 @@ void RunRecord::write(const Simulation& simulation, const std::string& status) c
               {"field_excess", {{"above", excess.above}, {"below", excess.below}}},
               {"volume_correction_sum", corrections.value_or(0.0)},
               {"warnings", warnings}};
+  if (!inputs_.empty()) record["inputs"] = inputs_;
   if (simulation.end()) record["ended"] = word_for(simulation.end()->ending);
   if (!dimensionless_json_.empty()) record["dimensionless"] = Json::parse(dimensionless_json_);
   if (!changes_json_.empty()) record["changes"] = Json::parse(changes_json_);

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,8 @@ class RunRecord {
 
  private:
   std::string case_file_, case_text_, case_json_;
-  std::string dimensionless_json_;  // empty: the case has no [scale]
+  std::map<std::string, std::string> inputs_;  // `case_inputs` at the start of the run
+  std::string dimensionless_json_;             // empty: the case has no [scale]
   std::string title_;
   std::string changes_json_;  // an array; empty: the case was never changed
   std::string started_;

@@ -137,8 +137,8 @@ std::optional<std::vector<std::string>> StudyFolders::next_command(const StudyRu
   if (state == RunState::absent) {
     if (fs::exists(place / io::RunFiles::record) && !is_overwrite_)
       reject_input(
-          "{}: holds a run of another case or of another version; give --overwrite to "
-          "replace it, or another -o",
+          "{}: holds a run of another case, of another version or of shapes that have changed "
+          "since; give --overwrite to replace it, or another -o",
           place.string());
     return new_run(run);
   }

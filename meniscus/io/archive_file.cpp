@@ -8,6 +8,7 @@
 #include "meniscus/core/child_process.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/atomic_file.hpp"
+#include "meniscus/io/checksum.hpp"
 #include "meniscus/io/hdf5_handle.hpp"
 
 namespace meniscus::io {
@@ -18,13 +19,6 @@ constexpr int format_version = 2;
 // HDF5 looks for its signature at bytes 0, 512, 1024, …, so it opens the file with our text in
 // front.
 constexpr std::size_t prefix_size = 512;
-
-/// FNV-1a over 64 bits: any change of one byte changes it, any other with odds of 2⁻⁶⁴ against.
-std::uint64_t checksum(std::string_view bytes) {
-  std::uint64_t hash = 14695981039346656037ULL;  // offset basis and prime as the hash defines them
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return hash;
-}
 
 std::string prefix(std::string_view image) {
   std::string text = fmt::format("{} {}\nbytes {}\nchecksum {:016x}\n", magic, format_version,

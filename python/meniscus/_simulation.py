@@ -57,7 +57,8 @@ class Simulation:
         ``path`` is the folder of a run, whose newest checkpoint is taken, or a checkpoint file.
         A folder goes on in place; with ``output`` a copy of it goes on there. A file goes on without
         folder, or in a new one. ``until`` is a new end, in the case's unit of time; ``settings``
-        replaces keys of [flow], [interface], [time], [solver], [topology] and [output].
+        replaces flow.kind, flow.gradient, flow.schedule and keys of [interface], [time], [solver],
+        [topology] and [output].
         """
         source, folder = Path(path_of(path, "path")).absolute(), _output_of(output)
         changes = dict(mapping_of(settings, "settings"))

@@ -6,6 +6,7 @@ that fails does not keep the others from theirs; a bisection finds its bracket.
 """
 import csv
 import json
+import math
 import shutil
 import signal
 import subprocess
@@ -60,6 +61,20 @@ to = 0.2
 tolerance = 0.3
 """
 
+
+OF_A_FILE = """
+[flow]
+kind = "quiescent"
+[[drop]]
+surface = "ball.off"
+nodes = 42
+[domain]
+shape = "unbounded"
+[solver]
+method = "boundary-integral"
+[time]
+end = 0.01
+"""
 
 AT_AN_OPEN_PATCH = """
 [flow]
@@ -216,6 +231,35 @@ def check_patch(program, work):
     check(record["ended"] == "patch" and record["status"] == "done", "run.json does not say so")
 
 
+def check_changed_shape(program, work):
+    """A run of a surface file that has changed since is not taken for one of the file as it is."""
+    surface = work / "ball.off"
+
+    def write(stretch):
+        """Rings of twelve points between two poles."""
+        angles = [(math.pi * i / 8, 2.0 * math.pi * j / 12) for i in range(1, 8) for j in range(12)]
+        points = [(math.sin(a) * math.cos(b), math.sin(a) * math.sin(b), math.cos(a)) for a, b in angles]
+        points += [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0)]
+        faces = []
+        for j in range(12):
+            k = (j + 1) % 12
+            faces += [(84, j, k), (85, 72 + k, 72 + j)]
+            for i in range(0, 72, 12):
+                faces += [(i + j, i + 12 + j, i + 12 + k), (i + j, i + 12 + k, i + k)]
+        surface.write_text(f"OFF\n{len(points)} {len(faces)} 0\n" +
+                           "".join(f"{stretch * x} {y} {z}\n" for x, y, z in points) +
+                           "".join(f"3 {a} {b} {c}\n" for a, b, c in faces), encoding="utf-8")
+    (work / "shape.toml").write_text(OF_A_FILE, encoding="utf-8")
+    (work / "shapes.toml").write_text('[study]\ncase = "shape.toml"\n[[axis]]\nkey = "drop.viscosity-ratio"\n'
+                                      "values = [1]\n", encoding="utf-8")
+    write(1.0)
+    finish(study(program, work / "shapes.toml", work / "shapes"), "shape from a file")
+    finish(study(program, work / "shapes.toml", work / "shapes"), "the same again")
+    write(1.5)
+    said = finish(study(program, work / "shapes.toml", work / "shapes"), "another shape", 2)
+    check("shapes that have changed" in said, "a run of another shape is taken for this one")
+
+
 def main():
     program, work = sys.argv[1], Path(sys.argv[2])
     shutil.rmtree(work, ignore_errors=True)
@@ -226,6 +270,7 @@ def main():
     check_interrupt(program, work)
     check_bisection(program, work)
     check_patch(program, work)
+    check_changed_shape(program, work)
 
 
 if __name__ == "__main__":
