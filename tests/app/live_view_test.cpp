@@ -57,6 +57,7 @@ nlohmann::json json_of(const std::string& answer) {
 /// A run of three frames of the surface and no rows.
 void put_run(const fs::path& folder) {
   (void)RunDirectory::create(folder, false);
+  fs::create_directories(folder / "surface");
   test::put(folder / "run.json", "{}");
   const SurfaceMesh ball = sphere(60);
   const std::array surfaces{&ball};
@@ -72,7 +73,6 @@ class Live : public testing::Test {
  protected:
   void SetUp() override {
     if (!report::has_page_bundle()) GTEST_SKIP() << "pages need their script";
-    fs::create_directories(run / "surface");
     put_run(run);
   }
 
