@@ -1,5 +1,4 @@
 #pragma once
-// Private header of this room.
 
 #include <map>
 #include <string>

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "meniscus/app/case_inputs.hpp"
 #include "meniscus/app/commands.hpp"
 #include "meniscus/app/frames.hpp"
 #include "meniscus/app/interrupt.hpp"
@@ -87,6 +88,7 @@ int run(const RunArguments& arguments) {
   const fs::path file(arguments.case_file);
   const Case c = shared_case(read_case(file, arguments.overrides));
   const std::string text = io::read_file(file);
+  const std::map<std::string, std::string> inputs = case_inputs(c);
   std::vector<std::string> warnings;
   Scene scene = build_scene(c, logged_and_kept(warnings));
   const fs::path folder = arguments.output.empty() ? file.stem() : fs::path(arguments.output);
@@ -96,7 +98,7 @@ int run(const RunArguments& arguments) {
   check_field_names(evolution);
   const std::unique_ptr<LiveView> view = make_live_view(arguments.watch);
   // Nothing is written before the run can begin.
-  RunRecord record(c, arguments.case_file, text, warnings);
+  RunRecord record(c, arguments.case_file, text, warnings, inputs);
   std::optional<RunDirectory> directory =
       new_directory(folder, arguments.is_overwrite, evolution, file.parent_path());
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
@@ -135,25 +137,13 @@ int resume(const ResumeArguments& arguments) {
   Evolution evolution = resumed_evolution(c, archive, checkpoint);
   require_end_ahead(c, evolution.t(), overrides, arguments.until ? "--until" : "time.end");
   const fs::path folder = arguments.output.empty() ? source : fs::path(arguments.output);
-  const bool is_copy = !arguments.output.empty();
-  if (is_copy) {
+  if (!arguments.output.empty()) {
     require_usable(folder, false);
     require_same_run(archive, checkpoint, source);
   }
   const std::unique_ptr<LiveView> view = make_live_view(arguments.watch);
   RunRecord record(c, "", "");
-  std::optional<RunDirectory> directory;
-  on_first_rank([&] {
-    if (is_copy) copy_run(source, folder);
-    try {
-      record.go_on_from(folder);
-      directory = RunDirectory::take_up(folder, evolution.step(), evolution.t(),
-                                        physics_of(evolution.scene()));
-    } catch (const std::exception&) {
-      if (is_copy) remove_run(folder);
-      throw;
-    }
-  });
+  std::optional<RunDirectory> directory = taken_up_run(source, folder, evolution, record);
   Progress progress(evolution.t(), c.evolution.end, arguments.is_quiet);
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, archive.texts.at("case/folder")));

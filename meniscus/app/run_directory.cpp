@@ -65,7 +65,7 @@ void remove_frames(const fs::path& folder, const std::string& name) {
   std::vector<fs::path> frames;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string file = entry.path().filename().string();
-    if (file.starts_with(name + "-") && entry.path().extension().string().starts_with(".vt"))
+    if (file.starts_with(name + "-") && file.find(".vt") != std::string::npos)
       frames.push_back(entry.path());
   }
   for (const fs::path& frame : frames) fs::remove(frame);
@@ -108,7 +108,7 @@ RunDirectory RunDirectory::take_up(const fs::path& path, std::int64_t first_step
   std::vector<io::PvdEntry> surfaces = frames_before(path / RunFiles::surface_frames, t),
                             volumes = frames_before(path / RunFiles::volume_frames, t);
   for (const auto& [name, columns] : columns_of(physics))
-    if (fs::exists(path / name)) io::require_rows(path / name, columns);
+    if (fs::exists(path / name)) io::require_rows(path / name, columns, first_step);
   RunDirectory directory(std::move(lock), path, std::move(physics), first_step);
   directory.surface_frames_ = std::move(surfaces);
   directory.volume_frames_ = std::move(volumes);
@@ -170,14 +170,14 @@ void require_usable(const fs::path& path, bool overwrite) {
       reject_input("output folder {}: {} is a file", path.string(), part.string());
     break;
   }
-  if (holds_run(path)) {
-    if (overwrite) return;
+  if (overwrite) return;
+  if (holds_run(path))
     reject_input("output folder {} holds a run already; give --overwrite or another -o",
                  path.string());
-  }
   for (const char* name : RunFiles::written)
-    if (fs::exists(path / name, ignored))
-      reject_input("output folder {} holds {}, and no run; give another -o", path.string(), name);
+    if (fs::exists(path / name, ignored) && !fs::is_directory(path / name, ignored))
+      reject_input("output folder {} holds {}, and no run; give --overwrite or another -o",
+                   path.string(), name);
 }
 
 void remove_run(const fs::path& path) {

@@ -68,6 +68,25 @@ void copy_reference(const fs::path& case_folder, const fs::path& run_folder) {
     fs::remove(target, ignored);
 }
 
+/// Copies rows and frames of a run to another folder.
+void copy_run(const fs::path& from, const fs::path& to) {
+  try {
+    for (const char* name : io::RunFiles::taken_along)
+      if (fs::exists(from / name))
+        fs::copy(from / name, to / name,
+                 fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  } catch (const fs::filesystem_error& error) {
+    throw RunFailure(error.what());
+  }
+}
+
+void remove_copy(const fs::path& copy) {
+  remove_run(copy);
+  std::error_code ignored;
+  fs::remove(copy / io::RunFiles::reference, ignored);
+  fs::remove(copy, ignored);  // if nothing else is there
+}
+
 }  // namespace
 
 Case shared_case(Case c) {
@@ -165,17 +184,23 @@ std::optional<RunDirectory> new_directory(const fs::path& folder, bool is_overwr
   return directory;
 }
 
-void copy_run(const fs::path& from, const fs::path& to) {
-  (void)RunDirectory::create(to, false);
-  try {
-    for (const char* name : io::RunFiles::taken_along)
-      if (fs::exists(from / name))
-        fs::copy(from / name, to / name,
-                 fs::copy_options::recursive | fs::copy_options::overwrite_existing);
-  } catch (const fs::filesystem_error& error) {
-    remove_run(to);
-    throw RunFailure(error.what());
-  }
+std::optional<RunDirectory> taken_up_run(const fs::path& source, const fs::path& folder,
+                                         const Evolution& evolution, RunRecord& record) {
+  std::optional<RunDirectory> directory;
+  on_first_rank([&] {
+    const bool is_copy = folder != source;
+    if (is_copy) (void)RunDirectory::create(folder, false);
+    try {
+      if (is_copy) copy_run(source, folder);
+      record.go_on_from(folder);
+      directory = RunDirectory::take_up(folder, evolution.step(), evolution.t(),
+                                        physics_of(evolution.scene()));
+    } catch (const std::exception&) {
+      if (is_copy) remove_copy(folder);
+      throw;
+    }
+  });
+  return directory;
 }
 
 void require_same_run(const Archive& archive, const fs::path& checkpoint, const fs::path& run) {

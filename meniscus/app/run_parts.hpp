@@ -52,8 +52,12 @@ void require_changeable(std::span<const std::string> overrides);
                                                         bool is_overwrite,
                                                         const Evolution& evolution,
                                                         const std::filesystem::path& case_folder);
-/// Copies rows and frames of a run to another folder, completely or not at all.
-void copy_run(const std::filesystem::path& from, const std::filesystem::path& to);
+/// Takes up a run where an evolution stands: in its folder, or in another one that gets its rows
+/// and frames. Then `record` goes on as well. A copy that cannot be taken up is removed. On rank 0;
+/// the others get none. Collective.
+std::optional<RunDirectory> taken_up_run(const std::filesystem::path& source,
+                                         const std::filesystem::path& folder,
+                                         const Evolution& evolution, RunRecord& record);
 /// Throws InvalidInput unless the checkpoint was taken in the given run.
 void require_same_run(const Archive& archive, const std::filesystem::path& checkpoint,
                       const std::filesystem::path& run);

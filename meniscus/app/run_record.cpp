@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "meniscus/app/case_inputs.hpp"
 #include "meniscus/app/ranks.hpp"
 #include "meniscus/app/run_json.hpp"
 #include "meniscus/app/wording.hpp"
@@ -61,11 +60,11 @@ std::string dimensionless_json(const Case& c) {
 }  // namespace
 
 RunRecord::RunRecord(const Case& c, std::string case_file, std::string case_text,
-                     std::vector<std::string> warnings)
+                     std::vector<std::string> warnings, std::map<std::string, std::string> inputs)
     : case_file_(std::move(case_file)),
       case_text_(std::move(case_text)),
       case_json_(case_json(c)),
-      inputs_(case_inputs(c)),
+      inputs_(std::move(inputs)),
       dimensionless_json_(dimensionless_json(c)),
       title_(c.title),
       started_(now_utc()),

@@ -15,9 +15,9 @@ namespace meniscus {
 /// the clock or the host.
 class RunRecord {
  public:
-  /// `warnings`: of the case's surfaces.
+  /// `warnings`: of the case's surfaces. `inputs`: `case_inputs` before they were read.
   RunRecord(const Case& c, std::string case_file, std::string case_text,
-            std::vector<std::string> warnings = {});
+            std::vector<std::string> warnings = {}, std::map<std::string, std::string> inputs = {});
 
   /// Adds the seconds, steps and warnings of an earlier part of the run, read from its run.json.
   void go_on_from(const std::filesystem::path& folder);
@@ -28,7 +28,7 @@ class RunRecord {
 
  private:
   std::string case_file_, case_text_, case_json_;
-  std::map<std::string, std::string> inputs_;  // `case_inputs` at the start of the run
+  std::map<std::string, std::string> inputs_;  // `case_inputs`
   std::string dimensionless_json_;             // empty: the case has no [scale]
   std::string title_;
   std::string changes_json_;  // an array; empty: the case was never changed

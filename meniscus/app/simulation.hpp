@@ -33,8 +33,8 @@ class Simulation {
   /// Ends the run at the first step that meets a rule. Reads what rules look back to from the rows
   /// that the folder holds. Collective.
   void stop_when(const StopRules& rules);
-  /// Reads the times of the next frames from the checkpoint of the evolution, after `stop_when`
-  /// also what rules look back to where no folder holds it.
+  /// Reads the times of the next frames from the checkpoint of the evolution. After `stop_when` it
+  /// also reads what rules look back to, where no folder holds it.
   void load(const Archive& archive);
   /// Sets a function to call after each row, when its files are complete.
   void set_observer(std::function<void(const RunDirectory&)> observer) {

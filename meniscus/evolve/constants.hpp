@@ -30,9 +30,10 @@ inline constexpr double kUndampedShare = 0.5;
 /// away from its angle. Boundary integrals, Ca = 0.2, 110 vertices: by 1.3° in 21 steps.
 inline constexpr double kSphereStiffness = 6.0;
 /// How much more waves are damped with finite elements. They let the shortest decay up to a quarter
-/// faster than the exact flow does: linear ones where the drop is viscous, quadratic ones where it
-/// is not, around vertices of seven edges. With 1.1 a deformed drop of a hundredfold viscosity
-/// became unstable, with 1 a sheared one of a hundredth (tests/evolve/semi_implicit_long_test.cpp).
+/// faster than the exact flow does. Linear elements do so where the drop is viscous, quadratic ones
+/// where it is not, around vertices of seven edges. With 1.1 a deformed drop of a hundredfold
+/// viscosity became unstable, with 1 a sheared one of a hundredth
+/// (tests/evolve/semi_implicit_long_test.cpp).
 inline constexpr double kElementStiffness = 1.2;
 /// How far a turning moves a shape along its normals, relative to the turning itself, squared.
 /// Below this a shape is too round to have a spin. So are ellipsoids of D below 0.02.

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <charconv>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
@@ -121,27 +122,19 @@ std::size_t step_column(const fs::path& path, const std::vector<std::string>& co
   return static_cast<std::size_t>(found - columns.begin());
 }
 
-std::int64_t parse_step(const fs::path& path, const Record& record, std::size_t column) {
-  const std::string& cell = record.cells[column];
-  std::int64_t step = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), step);
-  if (error != std::errc() || end != cell.data() + cell.size()) {
-    reject_input("{}:{}: step = `{}` is not a whole number", path.string(), record.line, cell);
-  }
-  return step;
+std::optional<std::int64_t> whole_number(const std::string& cell) {
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+  if (error != std::errc() || end != cell.data() + cell.size()) return std::nullopt;
+  return number;
 }
 
-/// Throws InvalidInput where a step lies before the one of the row above.
-void require_rising_steps(const fs::path& path, const std::vector<Record>& records,
-                          std::size_t column) {
-  std::int64_t last = 0;
-  for (std::size_t i = 1; i < records.size() && records[i].is_ended; ++i) {
-    const std::int64_t step = parse_step(path, records[i], column);
-    if (step < last)
-      reject_input("{}:{}: step = {} comes after step {}", path.string(), records[i].line, step,
-                   last);
-    last = step;
-  }
+std::int64_t parse_step(const fs::path& path, const Record& record, std::size_t column) {
+  const auto step = whole_number(record.cells[column]);
+  if (!step)
+    reject_input("{}:{}: step = `{}` is not a whole number", path.string(), record.line,
+                 record.cells[column]);
+  return *step;
 }
 
 /// The text up to the first row with `step` ≥ first_step.
@@ -155,12 +148,15 @@ std::string rows_before(const fs::path& path, const std::vector<std::string>& co
     reject_input("{}:1: the header is not `{}`", path.string(), expected);
   }
   const std::size_t column = step_column(path, columns);
-  std::size_t kept = records[0].end;
-  for (std::size_t i = 1; i < records.size(); ++i) {
+  std::size_t kept = records[0].end, i = 1;
+  for (; i < records.size(); ++i) {
     if (!records[i].is_ended || parse_step(path, records[i], column) >= first_step) break;
     kept = records[i].end;
   }
-  require_rising_steps(path, records, column);
+  for (; i < records.size() && records[i].is_ended; ++i)
+    if (const auto step = whole_number(records[i].cells[column]); step && *step < first_step)
+      reject_input("{}:{}: step = {} comes after step {} or a later one", path.string(),
+                   records[i].line, *step, first_step);
   return text.substr(0, kept);
 }
 
@@ -186,8 +182,9 @@ TableWriter::TableWriter(fs::path path, const std::vector<std::string>& columns,
   file_.open(path_, std::ios::binary | std::ios::app);
 }
 
-void require_rows(const fs::path& path, const std::vector<std::string>& columns) {
-  (void)rows_before(path, columns, 0);
+void require_rows(const fs::path& path, const std::vector<std::string>& columns,
+                  std::int64_t first_step) {
+  (void)rows_before(path, columns, first_step);
 }
 
 void TableWriter::add(const std::vector<Cell>& row) {

@@ -50,14 +50,15 @@ struct Table {
       const std::string& name) const;  ///< Throws InvalidInput if absent.
 };
 /// Throws InvalidInput where a `TableWriter` cannot go on with a file, as its constructor does.
-void require_rows(const std::filesystem::path& path, const std::vector<std::string>& columns);
+void require_rows(const std::filesystem::path& path, const std::vector<std::string>& columns,
+                  std::int64_t first_step);
 
 /// A table that a run writes. A last line without a line break is left out: it may be cut short.
 /// Throws InvalidInput naming the file and the line when it is
 /// missing, empty, or a row has not as many cells as there are columns.
 [[nodiscard]] Table read_table(const std::filesystem::path& path);
-/// As `read_table`, of a table that people write: its last line counts without a line break too,
-/// lines that begin with `#` and empty ones are skipped.
+/// As `read_table`, of a table that people write. Its last line counts without a line break too.
+/// Lines that begin with `#` and empty ones are skipped.
 [[nodiscard]] Table read_commented_table(const std::filesystem::path& path);
 
 }  // namespace meniscus::io

@@ -41,9 +41,10 @@ struct MeshCut {
 /// left out. A mesh without drops is cut through its middle, as a whole.
 [[nodiscard]] MeshCut cut_through_drops(const io::VolumeFrame& mesh, int normal);
 
-/// Fills an empty cut with the polygons of the tetrahedra that reach into its window, with their
-/// values and the ids of all drops of the mesh. Corners on the plane count as above it, so that no
-/// cell is cut twice and none is missed. A curved tetrahedron may be cut in several polygons.
+/// Fills an empty cut with the polygons of the tetrahedra that reach into its window, and their
+/// values. It gets the ids of all drops of the mesh. Corners on the plane count as above it, so
+/// that no cell is cut twice and none is missed. A curved tetrahedron may be cut in several
+/// polygons.
 void add_polygons(MeshCut& cut, const io::VolumeFrame& mesh);
 
 }  // namespace meniscus::report

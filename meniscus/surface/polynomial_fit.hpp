@@ -41,8 +41,8 @@ template <int Degree>
 }
 
 /// Least ratio of the smallest to the largest entry on the diagonal of the Cholesky factor of a
-/// fit's normal equations, lengths in units of the points' distance. These are the roots of its
-/// pivots. Below it the points do not determine the fit. It would amplify the
+/// fit's normal equations. These are the roots of its pivots; lengths are in units of the points'
+/// distance. Below it the points do not determine the fit. It would amplify the
 /// noise of the vertices more than the truncation of a lower degree is worth. What asks for another
 /// value says why (docs/surfaces-and-curvature.md).
 inline constexpr double kLeastPivot = 1e-3;

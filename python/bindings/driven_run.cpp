@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "meniscus/app/case_inputs.hpp"
 #include "meniscus/app/ranks.hpp"
 #include "meniscus/app/run_parts.hpp"
 #include "meniscus/app/run_tables.hpp"
@@ -40,12 +41,13 @@ std::unique_ptr<DrivenRun> DrivenRun::begin(PythonCase given, const std::optiona
                                             bool is_overwrite) {
   if (!is_first_rank()) log::set_level(log::Level::error);
   const Case c = shared_case(given.parsed());
+  std::map<std::string, std::string> inputs = case_inputs(c);
   std::vector<std::string> warnings;
   Scene scene = build_scene(c, logged_and_kept(warnings));
   if (folder) require_usable(*folder, is_overwrite);
   Evolution evolution = begun_evolution(c, std::move(scene));
   check_field_names(evolution);
-  RunRecord record(c, given.file(), given.text(), warnings);
+  RunRecord record(c, given.file(), given.text(), warnings, std::move(inputs));
   std::optional<RunDirectory> directory;
   if (folder) directory = new_directory(*folder, is_overwrite, evolution, given.folder());
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
@@ -76,14 +78,8 @@ std::unique_ptr<DrivenRun> DrivenRun::resume(const fs::path& source,
   RunRecord record(c, given.file(), given.text());
   std::optional<RunDirectory> directory;
   if (output) require_usable(*output, false);
-  if (output && is_run) on_first_rank([&] { copy_run(source, *output); });
   if (output && !is_run) directory = new_directory(*output, false, evolution, given.folder());
-  if (is_run)
-    on_first_rank([&] {
-      record.go_on_from(*folder);
-      directory = RunDirectory::take_up(*folder, evolution.step(), evolution.t(),
-                                        physics_of(evolution.scene()));
-    });
+  if (is_run) directory = taken_up_run(source, *folder, evolution, record);
   Simulation simulation(std::move(evolution), std::move(directory), c.output,
                         case_description(c, given.folder()));
   simulation.stop_when(c.stop);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+#include <unistd.h>
 
 #include "meniscus/app/ranks.hpp"
 #include "meniscus/core/error.hpp"
@@ -31,6 +32,8 @@ void raise_signals() {
 class Computing {
  public:
   Computing() {
+    if (getpid() != owner_)
+      reject_input("simulations compute in the process that imported meniscus");
     if (is_ending_ && std::this_thread::get_id() != ending_thread_)
       reject_input("Python is ending");
     ++num_threads_;
@@ -55,6 +58,8 @@ class Computing {
   }
 
  private:
+  // A process that is forked off has no thread that would ever unlock it.
+  static inline const pid_t owner_ = getpid();
   // Read and written under Python's lock.
   static inline int num_threads_ = 0;
   static inline bool is_ending_ = false;
@@ -93,6 +98,8 @@ class Handle {
   void abandon() {
     if (!is_closed() && !is_busy_) let_go();
   }
+  /// Leaves all to the process from which this one was forked off.
+  void forget() { static_cast<void>(run_.release()); }
 
  private:
   /// Its matrices and files are freed in turn as well.
@@ -343,6 +350,7 @@ void bind_simulation(py::module_& m) {
       .def("stop", [](Handle& self) { self.compute([](DrivenRun& run) { run.stop(); }); })
       .def("close", &Handle::close)
       .def("abandon", &Handle::abandon)
+      .def("forget", &Handle::forget)
       .def(
           "write_checkpoint",
           [](Handle& self, const fs::path& file) {

@@ -261,7 +261,9 @@ class Simulation:
 
 def _close_alone(simulation: Simulation) -> None:
     """Closes, unless other ranks would have to do so at the same moment, or it is another process's."""
-    if _core.num_ranks() == 1 and os.getpid() == _owner:
+    if os.getpid() != _owner:
+        simulation._core.forget()
+    elif _core.num_ranks() == 1:
         simulation.close()
     else:
         simulation._core.abandon()

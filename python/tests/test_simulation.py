@@ -218,6 +218,20 @@ class RunTest(FolderCase):
             self.assertEqual(self.status(self.folder / name), "stopped")
             Simulation.resume(self.folder / name).step()
 
+    def test_a_process_that_is_forked_off_ends_without_closing(self):
+        code = ("import os, threading, time\nfrom meniscus import Simulation\n"
+                f"case = {SHEAR | {'time': {'end': 50.0, 'max-step': 0.02}}!r}\n"
+                "idle = Simulation(case, 'idle')\nbusy = Simulation(case)\n"
+                "threading.Thread(target=busy.run, daemon=True).start()\ntime.sleep(0.1)\n"
+                "child = os.fork()\n"
+                "if child == 0:\n    raise SystemExit\n"
+                "assert os.waitpid(child, 0)[1] == 0\n"
+                "assert 'running' in open('idle/run.json').read()\n")
+        done = subprocess.run([sys.executable, "-c", code], cwd=self.folder, capture_output=True, text=True,
+                              check=False, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.status(self.folder / "idle"), "stopped")
+
     def test_relative_names_stay_where_they_were_given(self):
         here = os.getcwd()
         self.addCleanup(os.chdir, here)

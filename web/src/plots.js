@@ -15,8 +15,8 @@ const isDrawable = (plot, i, { y }) => Number.isFinite(y[i]) && (y[i] > 0 || !pl
 const ROUNDOFF = 1e-9; // share of x by which times of frames and rows may differ
 
 /**
- * The row with a value that can be drawn nearest to x; -1 where a curve has none, or x lies before its first
- * or beyond its last.
+ * The row nearest to x that has a value which can be drawn. It is -1 where a curve has none, or where x lies
+ * before its first or beyond its last.
  */
 export function rowAt(plot, curve, x) {
   let [best, first, last] = [-1, Infinity, -Infinity];

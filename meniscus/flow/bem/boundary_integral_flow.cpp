@@ -48,8 +48,8 @@ std::optional<Fault> find_misfit(const Scene& scene) {
 }
 
 /// Solves the double layer's equation from the unknowns of the last velocity. After a jump of the
-/// flow, or where the double layer makes much of small changes, these may be so far off that PETSc
-/// gives up at once; then from the right-hand side.
+/// flow these may be so far off that PETSc gives up at once. So they may where the double layer
+/// makes much of small changes. Then the right-hand side is the first guess.
 linear::LinearReport solve_equation(const IntegralEquation& equation,
                                     std::span<const VertexField<Vec3>> last_velocity,
                                     const Options& options, std::vector<double>& w) {
