@@ -157,9 +157,9 @@ StageFlow Evolution::time_scheme_step(const Scene& start, double dt) {
   const StageSolver solve = [&](const StageFlow& stage, double duration, const Instant& instant) {
     return solve_stage(start, stage, duration, instant);
   };
-  // Boundary integrals, on patches, let the shortest waves decay more slowly than the exact flow.
-  const double stiffness = options_.surface == SurfaceShape::patched ? 1.0 : kElementStiffness;
-  const Damping damping{kDampedShare * stiffness * dt, options_.processes};
+  Damping damping{.duration = kDampedShare * dt, .processes = options_.processes};
+  if (options_.surface == SurfaceShape::faceted) damping.duration *= kElementStiffness;
+  if (options_.surface == SurfaceShape::splined) damping.stiffness_around_thin = kElementStiffness;
   const StageDampers damp{[&](StageFlow& stage, const NormalSpeeds& about) {
                             const PhaseTimer timer(times_, "move interfaces");
                             meniscus::damp(stage, state_.scene, about, damping);

@@ -235,7 +235,7 @@ void damp(StageFlow& stage, const Scene& scene, const NormalSpeeds& about, const
   const std::vector<double> viscosities = least_viscosities(stage.flow, scene);
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
     keep_spin(stage.shape, i, scene.interfaces[i].mesh, stage.normals[i],
-              share_of_spin(scene.interfaces[i], viscosities, damping.duration));
+              share_of_spin(scene.interfaces[i], viscosities, damping));
   const NormalSpeeds rest = normal_speeds(stage.normals, stage.shape.rest);
   set_rest(stage, scene, rest, damped_speeds(scene, viscosities, rest, about, damping));
 }

@@ -72,10 +72,12 @@ InverseSum inverse_sum(double alpha, double least, double most) {
 
 /// α of `damped`: the duration times A per wave number.
 double rate_factor(const Interface& interface, std::span<const double> viscosity, double modulus,
-                   double duration) {
-  const double viscosities = viscosity[static_cast<std::size_t>(interface.inside.value)] +
-                             viscosity[static_cast<std::size_t>(interface.outside.value)];
-  return duration * modulus / (2.0 * viscosities);
+                   const Damping& damping) {
+  const double inside = viscosity[static_cast<std::size_t>(interface.inside.value)],
+               outside = viscosity[static_cast<std::size_t>(interface.outside.value)],
+               thinness = std::max(0.0, (outside - inside) / (outside + inside)),
+               stiffness = 1.0 + thinness * (damping.stiffness_around_thin - 1.0);
+  return stiffness * damping.duration * modulus / (2.0 * (inside + outside));
 }
 
 /// What 1/(1 + b(α(M⁻¹K + k)^½)) makes of s.
@@ -162,15 +164,15 @@ Eigen::VectorXd damped_on(const Scene& scene, std::size_t i, const SurfaceMesh& 
   const Interface& interface = scene.interfaces[i];
   const double radius = sphere_radius(interface.volume);
   return damped(stiffness(mesh), mass, kSphereStiffness / (radius * radius),
-                rate_factor(interface, viscosity, modulus, damping.duration), s, damping.processes);
+                rate_factor(interface, viscosity, modulus, damping), s, damping.processes);
 }
 
 }  // namespace
 
 double share_of_spin(const Interface& interface, std::span<const double> viscosity,
-                     double duration) {
+                     const Damping& damping) {
   constexpr double kEllipsoidMode = 6.0;  // l(l + 1) of the waves of degree l = 2
-  const double q = rate_factor(interface, viscosity, largest_tension(interface), duration) *
+  const double q = rate_factor(interface, viscosity, largest_tension(interface), damping) *
                    std::sqrt(kEllipsoidMode + kSphereStiffness) / sphere_radius(interface.volume),
                damped = 1.0 / (1.0 + q * q / (q + kUndampedShare));
   return damped * damped;

@@ -11,6 +11,9 @@ namespace meniscus {
 struct Damping {
   double duration = 0.0;  ///< [1/G]
   linear::Processes processes = linear::Processes::alone;
+  /// How many times as stiff A is around drops without viscosity; straight in
+  /// (μ_out − μ_in)/(μ_out + μ_in) to 1 where both liquids are as viscous.
+  double stiffness_around_thin = 1.0;
 };
 
 /// What the semi-implicit scheme makes of normal speeds s: s* with
@@ -32,7 +35,7 @@ struct Damping {
 /// part an undamped step would be no longer stable than an explicit one. Where tension is fast, a
 /// shape does not turn by itself.
 [[nodiscard]] double share_of_spin(const Interface& interface, std::span<const double> viscosity,
-                                   double duration);
+                                   const Damping& damping);
 
 /// What is expected of normal speeds s in an implicit stage of liquids with inertia, s* with
 ///   s* − s0 = (s − s0)/(1 + q²),   q = στ²κ³/(ρ_in + ρ_out + 2(μ_in + μ_out)τκ²),
