@@ -29,12 +29,15 @@ inline constexpr double kUndampedShare = 0.5;
 /// slow motions would be less late. But then a sheared drop in steps as long as slip allows turns
 /// away from its angle. Boundary integrals, Ca = 0.2, 110 vertices: by 1.3° in 21 steps.
 inline constexpr double kSphereStiffness = 6.0;
-/// How much more waves are damped with finite elements. They let the shortest decay up to a quarter
-/// faster than the exact flow does. Linear elements do so where the drop is viscous, quadratic ones
-/// where it is not, around vertices of seven edges. With 1.1 a deformed drop of a hundredfold
-/// viscosity became unstable, with 1 a sheared one of a hundredth
-/// (tests/evolve/semi_implicit_long_test.cpp).
-inline constexpr double kElementStiffness = 1.2;
+/// How much more waves on flat faces are damped. Where the drop is viscous, linear elements let the
+/// shortest decay up to a fifth faster than the exact flow does. With 1.1 a deformed drop of a
+/// hundredfold viscosity became unstable (tests/evolve/semi_implicit_long_test.cpp).
+inline constexpr double kFacetedStiffness = 1.2;
+/// How much more waves are damped with quadratic elements around drops without viscosity. There
+/// these let the shortest decay 1.26 times as fast as the exact flow does, around vertices of seven
+/// edges. With 1 a sheared drop of a hundredth became unstable. With 1.2 one with noise on its
+/// vertices gains energy in ten times the explicit step (tests/evolve/semi_implicit_long_test.cpp).
+inline constexpr double kThinDropStiffness = 1.1;
 /// How far a turning moves a shape along its normals, relative to the turning itself, squared.
 /// Below this a shape is too round to have a spin. So are ellipsoids of D below 0.02.
 inline constexpr double kRoundness = 1e-3;
@@ -103,7 +106,8 @@ inline constexpr std::array kEvolveConstants{
     NamedConstant{"damped-share", kDampedShare},
     NamedConstant{"undamped-share", kUndampedShare},
     NamedConstant{"sphere-stiffness", kSphereStiffness},
-    NamedConstant{"element-stiffness", kElementStiffness},
+    NamedConstant{"faceted-stiffness", kFacetedStiffness},
+    NamedConstant{"thin-drop-stiffness", kThinDropStiffness},
     NamedConstant{"roundness", kRoundness},
     NamedConstant{"aimed-share", kAimedShare},
     NamedConstant{"most-growth", kMostGrowth},

@@ -158,8 +158,8 @@ StageFlow Evolution::time_scheme_step(const Scene& start, double dt) {
     return solve_stage(start, stage, duration, instant);
   };
   Damping damping{.duration = kDampedShare * dt, .processes = options_.processes};
-  if (options_.surface == SurfaceShape::faceted) damping.duration *= kElementStiffness;
-  if (options_.surface == SurfaceShape::splined) damping.stiffness_around_thin = kElementStiffness;
+  if (options_.surface == SurfaceShape::faceted) damping.duration *= kFacetedStiffness;
+  if (options_.surface == SurfaceShape::splined) damping.stiffness_around_thin = kThinDropStiffness;
   const StageDampers damp{[&](StageFlow& stage, const NormalSpeeds& about) {
                             const PhaseTimer timer(times_, "move interfaces");
                             meniscus::damp(stage, state_.scene, about, damping);
