@@ -303,7 +303,10 @@ void save(const State& state, Archive& archive) {
   const Vec3& start = state.start_centroid;
   archive.reals["evolution/field-excess"] = {state.field_excess.above, state.field_excess.below};
   archive.reals["evolution/centroid"] = {start.x(), start.y(), start.z()};
-  for (std::size_t i = 0; i < interfaces.size(); ++i) save_interface(interfaces[i], i, archive);
+  for (std::size_t i = 0; i < interfaces.size(); ++i) {
+    save_interface(interfaces[i], i, archive);
+    state.surfaces->save(interfaces[i].mesh, archive, interface_path(i, "unscaled"));
+  }
   save_liquids(state.scene, archive);
   save_laws(state.scene, archive);
   save_scalars(state, archive);
@@ -337,6 +340,8 @@ void load(State& state, const Archive& archive) {
   const auto& excess = entry_of_size(archive.reals, "evolution/field-excess", 2);
   state.field_excess = {excess[0], excess[1]};
   state.start_centroid = Vec3(entry_of_size(archive.reals, "evolution/centroid", 3).data());
+  for (std::size_t i = 0; i < count; ++i)
+    state.surfaces->load(state.scene.interfaces[i].mesh, archive, interface_path(i, "unscaled"));
   if (state.mesh) state.mesh->load(archive, state.scene);
 }
 

@@ -37,7 +37,8 @@ struct State {
   double momentum_lost = 0.0, energy_lost = 0.0;
   int iterations = 0;  ///< linear iterations since the last solve at the start of a step
 
-  /// Of the interfaces. They follow from these, so that they are not saved.
+  /// Of the interfaces. They follow from these but for round-off, by which surfaces that were
+  /// scaled differ.
   std::shared_ptr<KnownSurfaces> surfaces = std::make_shared<KnownSurfaces>();
 
   [[nodiscard]] FlowDomain domain() const {

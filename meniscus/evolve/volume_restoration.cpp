@@ -38,9 +38,7 @@ void carry_fields(State& state, std::size_t i, const SurfaceMesh& before) {
 VolumeShift restore_volume(Interface& interface, SurfaceShape surface, KnownSurfaces& surfaces) {
   if (surface == SurfaceShape::faceted) return restore_flat_volume(interface);
   return restored(interface, [&] {
-    return restore_volume(interface.mesh, interface.volume, [&](const SurfaceMesh& mesh) {
-      return surfaces.of(mesh, surface)->volume();
-    });
+    return restore_volume(interface.mesh, interface.volume, surface, surfaces);
   });
 }
 

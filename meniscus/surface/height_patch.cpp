@@ -108,6 +108,14 @@ VertexCurvature HeightPatch::curvature() const {
   return result;
 }
 
+HeightPatch scaled(const HeightPatch& patch, const Dilation& dilation) {
+  HeightPatch result = patch;
+  result.x = dilation(patch.x);
+  for (std::size_t k = 2; k < 5; ++k) result.c[k] /= dilation.factor;
+  for (std::size_t k = 5; k < 9; ++k) result.c[k] /= dilation.factor * dilation.factor;
+  return result;
+}
+
 HeightPatch flat_patch(const Vec3& x, const Vec3& n) {
   HeightPatch patch;
   patch.x = x;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "meniscus/surface/curvature.hpp"
+#include "meniscus/surface/dilation.hpp"
 
 namespace meniscus {
 
@@ -33,6 +34,10 @@ struct HeightPatch {
 
 /// Which terms of a patch are fitted; the others are zero. Umbilic: c2 = c4, a sphere.
 enum class PatchDegree { umbilic, quadratic, cubic };
+
+/// The patch of a surface after a change of scale: terms of degree d are divided by the factor d −
+/// 1 times.
+[[nodiscard]] HeightPatch scaled(const HeightPatch& patch, const Dilation& dilation);
 
 /// Orthonormal frame with third axis n; continuous but for a half-line of n.
 [[nodiscard]] HeightPatch flat_patch(const Vec3& x, const Vec3& n);

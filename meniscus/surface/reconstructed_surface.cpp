@@ -131,6 +131,15 @@ ReconstructedSurface::ReconstructedSurface(const SurfaceMesh& mesh, SurfaceTopol
   make_faces();
 }
 
+ReconstructedSurface ReconstructedSurface::scaled(const Dilation& dilation) const {
+  SurfaceMesh mesh = mesh_;
+  for (Vec3& x : mesh.x) x = dilation(x);
+  if (is_flat()) return {mesh, shape_};
+  std::vector<Vec3> middles = middles_;
+  for (Vec3& x : middles) x = dilation(x);
+  return {mesh, *topology_, smooth_->scaled(dilation), std::move(middles), shape_};
+}
+
 void ReconstructedSurface::make_faces() {
   faces_ = faces_with_values(mesh_, *topology_, mesh_.x, middles_);
   const Vec3 origin = mean_vertex(mesh_);

@@ -59,6 +59,9 @@ class ReconstructedSurface {
   [[nodiscard]] std::span<const Vec3> middles() const { return middles_; }
 
   [[nodiscard]] const SurfaceMesh& mesh() const { return mesh_; }
+
+  /// The surface of the scaled vertices, the same to round-off as one made for them.
+  [[nodiscard]] ReconstructedSurface scaled(const Dilation& dilation) const;
   [[nodiscard]] SurfaceShape shape() const { return shape_; }
 
  private:

@@ -4,7 +4,6 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/mesh/surface_measures.hpp"
-#include "meniscus/surface/reconstructed_surface.hpp"
 
 namespace meniscus {
 namespace {
@@ -27,19 +26,22 @@ double restore_flat_volume(SurfaceMesh& mesh, double volume) {
 /// Changes the scale about the centroid until the curved surface has its volume. The middles move
 /// as the vertices do, so that V ∝ scale³ exactly. Returns how far the surface moves on average,
 /// (scale − 1) 3V/A.
-double scale_to_volume(SurfaceMesh& mesh, double from, double to) {
+double scale_to_volume(SurfaceMesh& mesh, double from, double to, SurfaceShape shape,
+                       KnownSurfaces& surfaces) {
   // A surface far off is crumpled; its curved volume says nothing.
   if (!(from > 0.5 * to && from < 2.0 * to)) return 0.0;
-  const Vec3 center = enclosed_centroid(mesh);
-  const double scale = std::cbrt(to / from);
-  for (Vec3& x : mesh.x) x = center + scale * (x - center);
-  return (scale - 1.0) * 3.0 * from / surface_area(mesh);
+  const double scale = std::cbrt(to / from), area = surface_area(mesh);
+  surfaces.scale(mesh, shape, {enclosed_centroid(mesh), scale});
+  return (scale - 1.0) * 3.0 * from / area;
 }
 
 }  // namespace
 
-double restore_volume(SurfaceMesh& mesh, double volume, const MeshVolume& volume_of) {
+double restore_volume(SurfaceMesh& mesh, double volume, SurfaceShape shape,
+                      KnownSurfaces& surfaces) {
   MENISCUS_ASSERT(volume > 0.0, "volume = {}", volume);
+  if (shape == SurfaceShape::faceted) return restore_flat_volume(mesh, volume);
+  const auto volume_of = [&](const SurfaceMesh& at) { return surfaces.of(at, shape)->volume(); };
   double enclosed = volume_of(mesh);
   const double first = std::abs(volume - enclosed);
   double shift = 0.0;
@@ -61,15 +63,12 @@ double restore_volume(SurfaceMesh& mesh, double volume, const MeshVolume& volume
     shift += moved;
     enclosed = shifted;
   }
-  return shift + scale_to_volume(mesh, enclosed, volume);
+  return shift + scale_to_volume(mesh, enclosed, volume, shape, surfaces);
 }
 
 double restore_volume(SurfaceMesh& mesh, double volume, SurfaceShape shape) {
-  MENISCUS_ASSERT(volume > 0.0, "volume = {}", volume);
-  if (shape == SurfaceShape::faceted) return restore_flat_volume(mesh, volume);
-  return restore_volume(mesh, volume, [shape](const SurfaceMesh& at) {
-    return ReconstructedSurface(at, shape).volume();
-  });
+  KnownSurfaces surfaces;
+  return restore_volume(mesh, volume, shape, surfaces);
 }
 
 double restore_volume(SurfaceMesh& mesh, double volume, const VertexField<double>& weights) {

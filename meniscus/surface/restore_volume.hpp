@@ -1,8 +1,6 @@
 #pragma once
 
-#include <functional>
-
-#include "meniscus/surface/edge_middles.hpp"
+#include "meniscus/surface/known_surfaces.hpp"
 
 namespace meniscus {
 
@@ -15,11 +13,9 @@ namespace meniscus {
 /// nearer, as coarse surfaces' volumes jump while vertices shift. Where the quadratic faces' volume
 /// is off by more than a factor of two, as on crumpled surfaces, it stays off.
 double restore_volume(SurfaceMesh& mesh, double volume, SurfaceShape shape = SurfaceShape::faceted);
-
-/// The volume of the surface that a mesh's vertices stand for [R0³].
-using MeshVolume = std::function<double(const SurfaceMesh&)>;
-/// Quadratic faces, whose volume is found by `volume_of`.
-double restore_volume(SurfaceMesh& mesh, double volume, const MeshVolume& volume_of);
+/// The same with surfaces that are known, and that will know the mesh's in the end.
+double restore_volume(SurfaceMesh& mesh, double volume, SurfaceShape shape,
+                      KnownSurfaces& surfaces);
 
 /// Restores the flat faces' volume: vertices move by a length times their weights. Returns the
 /// length.

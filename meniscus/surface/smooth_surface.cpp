@@ -125,6 +125,16 @@ SmoothSurface::SmoothSurface(const SurfaceMesh& mesh, const SurfaceTopology& top
   }
 }
 
+SmoothSurface SmoothSurface::scaled(const Dilation& dilation) const {
+  SmoothSurface result = *this;
+  for (VertexCurvature& each : result.curvature_) {
+    each.k1 /= dilation.factor;
+    each.k2 /= dilation.factor;
+  }
+  for (HeightPatch& patch : result.patches_) patch = meniscus::scaled(patch, dilation);
+  return result;
+}
+
 Vec3 SmoothSurface::flat_point(const SurfacePoint& location) const {
   const FaceVertices& v = faces_[location.face];
   return location.weights[0] * patches_[v[0]].x + location.weights[1] * patches_[v[1]].x +

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meniscus/core/share_numbers.hpp"
+#include "meniscus/surface/dilation.hpp"
 #include "meniscus/surface/height_patch.hpp"
 
 namespace meniscus {
@@ -51,6 +52,9 @@ class SmoothSurface {
   [[nodiscard]] const HeightPatch& patch(VertexId v) const { return patches_[v]; }
   [[nodiscard]] const FaceVertices& corners(FaceId f) const { return faces_[f]; }
   [[nodiscard]] std::int32_t num_vertices() const { return patches_.size(); }
+
+  /// The surface of the scaled vertices, the same to round-off as one fitted to them.
+  [[nodiscard]] SmoothSurface scaled(const Dilation& dilation) const;
 
  private:
   /// The point y = Σ b_k x_k of the flat face.
