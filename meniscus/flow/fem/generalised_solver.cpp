@@ -177,7 +177,7 @@ StokesReport StokesSolver::solve_generalised_with_inertia(const StokesProblem& p
     {
       const PhaseTimer timer(times, "assemble");
       held.viscosity = mean_viscosities(problem, state);
-      use_product(held);
+      use_product(held, linear::Preconditioner::fresh);
       if (report.picard_steps == 0) report.reference = reference_residual(problem, product(), {});
       if (!std::isfinite(report.reference))
         return fail("the data of the flow problem are not finite");

@@ -57,17 +57,21 @@ void ProductJacobian::assemble(const StokesProblem& problem, const StokesProduct
                                linear::Preconditioner preconditioner) {
   product_.emplace(problem, product);
   constant_pressure_is_null_ = !problem.has_open_boundary;
+  if (preconditioner == linear::Preconditioner::fresh || diagonals_.empty())
+    assemble_preconditioner(problem, product);
+  region_weights_.update(std::span(pressure_mass_).first(at(owned_.num_pressures)));
+}
+
+void ProductJacobian::assemble_preconditioner(const StokesProblem& problem,
+                                              const StokesProduct& product) {
   pressure_mass_.assign(at(pressure_graph_.num_rows()), 0.0);
   consistent_mass_.assign(pressure_graph_.num_entries(), 0.0);
-  const bool is_fresh = preconditioner == linear::Preconditioner::fresh || diagonals_.empty();
-  if (is_fresh) laplacians_.choose(problem.constraints, vertex_graph_.num_entries());
+  laplacians_.choose(problem.constraints, vertex_graph_.num_entries());
   with_linear_integrals(product.cells(),
                         [&](CellId c, const LinearIntegrals& integrals, std::size_t lane) {
                           add_pressure_mass(problem, c, integrals, lane);
-                          if (is_fresh) add_laplacians(problem, c, integrals, lane);
+                          add_laplacians(problem, c, integrals, lane);
                         });
-  region_weights_.update(std::span(pressure_mass_).first(at(owned_.num_pressures)));
-  if (!is_fresh) return;
   laplacian_.assemble(problem, product);
   diagonals_ = product_->diagonals_of(laplacian_);
   divergence_ = {};

@@ -32,6 +32,7 @@ class ProductJacobian {
   [[nodiscard]] linear::SaddleSystem system() const;
 
  private:
+  void assemble_preconditioner(const StokesProblem& problem, const StokesProduct& product);
   /// Of a cell, whose integrals are those of a lane.
   void add_pressure_mass(const StokesProblem& problem, CellId c, const LinearIntegrals& integrals,
                          std::size_t lane);

@@ -99,7 +99,7 @@ void StokesSolver::prepare(const StokesProblem& problem, const Field<NodeId, Vec
   StokesState state = state_at_rest();
   if (!convecting.empty()) state.v = convecting;
   const auto prepare_local = [&](const StokesProblem& local, const StokesState& begin) {
-    use_product(local);
+    use_product(local, linear::Preconditioner::fresh);
     if (product_ && !convecting.empty()) product_->convect(numbers(begin.v));
     const Linearization about{begin, Linearization::Kind::picard};
     linear_solver(options_.linear)
@@ -119,10 +119,13 @@ void StokesSolver::examine(const StokesProblem& global, linear::Preconditioner p
   if (partition_) slow_modes_ = local_part(*slow_modes_, *partition_);
 }
 
-void StokesSolver::use_product(const StokesProblem& problem) {
+/// The weights of residuals are kept with the preconditioner.
+void StokesSolver::use_product(const StokesProblem& problem,
+                               linear::Preconditioner preconditioner) {
   product_.reset();
   if (has_product(problem)) product_.emplace(problem);
-  weights_ = residual_weights(problem);
+  if (preconditioner == linear::Preconditioner::fresh || weights_.empty())
+    weights_ = residual_weights(problem);
 }
 
 /// The system that a linear solver takes: its products where it can do with them, else matrices.
@@ -168,7 +171,7 @@ StokesReport StokesSolver::solve_local(const StokesProblem& problem, StokesState
   double reference = 0.0;
   {
     const PhaseTimer timer(times, "assemble");
-    use_product(problem);
+    use_product(problem, preconditioner);
     reference = reference_residual(problem, product(), weights_);
   }
   StokesReport report;
@@ -234,7 +237,7 @@ StokesReport StokesSolver::project_local(const StokesProblem& problem, StokesSta
   StokesResidual now;
   {
     const PhaseTimer timer(times, "assemble");
-    use_product(problem);
+    use_product(problem, preconditioner);
     report.reference = reference_residual(problem, product(), weights_);
     now = divergence(problem, state, product());
     report.residual = free_norm(now, problem, weights_);

@@ -81,7 +81,7 @@ class StokesSolver {
   [[nodiscard]] StokesPower power(const StokesProblem& problem, const StokesState& state) const;
 
  private:
-  void use_product(const StokesProblem& problem);
+  void use_product(const StokesProblem& problem, linear::Preconditioner preconditioner);
   /// Null where there is none.
   [[nodiscard]] const StokesProduct* product() const { return product_ ? &*product_ : nullptr; }
   /// Finds what preconditioners get from the global problem.
