@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meniscus/core/vec.hpp"
+#include "meniscus/mesh/surface_mesh.hpp"
 
 namespace meniscus {
 
@@ -11,5 +11,10 @@ struct Dilation {
 
   [[nodiscard]] Vec3 operator()(const Vec3& x) const { return center + factor * (x - center); }
 };
+
+[[nodiscard]] inline SurfaceMesh scaled(SurfaceMesh mesh, const Dilation& dilation) {
+  for (Vec3& x : mesh.x) x = dilation(x);
+  return mesh;
+}
 
 }  // namespace meniscus

@@ -35,8 +35,7 @@ struct HeightPatch {
 /// Which terms of a patch are fitted; the others are zero. Umbilic: c2 = c4, a sphere.
 enum class PatchDegree { umbilic, quadratic, cubic };
 
-/// The patch of a surface after a change of scale: terms of degree d are divided by the factor d −
-/// 1 times.
+/// The patch of the scaled surface: its terms of degree d are divided by s^(d − 1), s the factor.
 [[nodiscard]] HeightPatch scaled(const HeightPatch& patch, const Dilation& dilation);
 
 /// Orthonormal frame with third axis n; continuous but for a half-line of n.

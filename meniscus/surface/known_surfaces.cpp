@@ -89,12 +89,7 @@ void KnownSurfaces::load(const SurfaceMesh& mesh, const Archive& archive, const 
       shape != static_cast<std::int64_t>(SurfaceShape::splined))
     reject_input("checkpoint: {}/shape = {} is no curved one", path, shape);
   const Dilation to{Vec3(dilation.data()), dilation[3]};
-  const SurfaceMesh scaled = [&] {
-    SurfaceMesh result = unscaled;
-    for (Vec3& x : result.x) x = to(x);
-    return result;
-  }();
-  if (scaled != mesh) reject_input("checkpoint: {} does not fit the interface", path);
+  if (scaled(unscaled, to) != mesh) reject_input("checkpoint: {} does not fit the interface", path);
   add_scaled(made(unscaled, static_cast<SurfaceShape>(shape)), to);
 }
 

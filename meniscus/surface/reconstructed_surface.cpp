@@ -132,8 +132,7 @@ ReconstructedSurface::ReconstructedSurface(const SurfaceMesh& mesh, SurfaceTopol
 }
 
 ReconstructedSurface ReconstructedSurface::scaled(const Dilation& dilation) const {
-  SurfaceMesh mesh = mesh_;
-  for (Vec3& x : mesh.x) x = dilation(x);
+  const SurfaceMesh mesh = meniscus::scaled(mesh_, dilation);
   if (is_flat()) return {mesh, shape_};
   std::vector<Vec3> middles = middles_;
   for (Vec3& x : middles) x = dilation(x);
